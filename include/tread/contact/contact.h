@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_contact_contact_h
+#define tread_contact_contact_h
+
+#include <tread/contact/contact_surfaces.h>
+#include <tread/contact/coulomb_solver.h>
+#include <tread/contact/mortar.h>
+
+#include <memory>
+
+namespace tread
+{
+  struct ContactParameters
+  {
+    unsigned int            slave_body = 0, master_body = 1;
+    CoulombSolverParameters solver;
+    /// The coupling is integrated anew when surfaces have slid over each other by this share of a face.
+    double sliding_share = 0.02;
+  };
+
+  /// What the last step did at one slave node.
+  struct ContactNodeState
+  {
+    unsigned int node; ///< surface node
+    Row          position, normal, impulse, slip; ///< m, -, N s (on the master surface), m/s (master over slave)
+    double       area, gap;                       ///< m^2, m
+    bool         adhesion;
+  };
+
+  /// Work of one step's impulses, J: lost by friction, and by normal impulses (touching down, or
+  /// gained when they act on opening surfaces).
+  struct ContactWork
+  {
+    double friction = 0., normal = 0.;
+  };
+
+  /// Contact between two surfaces: search, mortar coupling and impulses of each step.
+  ///
+  /// All ranks solve the same small problem: predicted velocities of the nodes that may touch are
+  /// gathered, the impulses are found, and each rank applies those on its own nodes.
+  class Contact
+  {
+  public:
+    Contact(const Mesh &mesh, const ContactParameters &parameters, std::shared_ptr<const FrictionLaw> friction);
+
+    /// Nodal inverse masses (1/kg; 0 where motion is prescribed), by node of this rank. Collective.
+    void set_inverse_masses(const std::vector<double> &inverse_masses);
+
+    void set_friction(std::shared_ptr<const FrictionLaw> law)
+    {
+      friction = std::move(law);
+    }
+
+    /// Multiply the impulses that start the next step, e.g. with the ratio of two time steps.
+    void scale_impulses(const double factor);
+
+    /// Find the pairs that may touch and integrate their coupling. Collective. To be called when
+    /// refresh_due() says so and whenever positions were set from outside.
+    /// @param x, v positions and velocities of this rank's nodes; @param time_step s.
+    void refresh(const Row *x, const Row *v, const double time_step);
+
+    bool refresh_due() const
+    {
+      return time_since_refresh >= time_to_refresh;
+    }
+
+    /// Sum extra (n numbers) over the ranks in their order, and gather the predicted velocities of the nodes that
+    /// may touch: v + time_step * force / m. Collective; the only one of a step.
+    void predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra);
+
+    /// Solve for the impulses and add them, divided by time_step, to the forces on this rank's nodes.
+    /// Nodes with inverse mass 0 keep their velocity.
+    CoulombSolverResult solve(const double time_step, Row *force);
+
+    /// Total impulse on the master surface in the last step, N s.
+    Row total_impulse() const;
+
+    /// Its moment about a point, N m s.
+    Row total_moment(const Row about) const;
+
+    ContactWork last_work() const
+    {
+      return work;
+    }
+
+    /// Creepage omega R / V - 1 at which the loaded surfaces roll without mean slip: the difference of
+    /// their stretch along x, weighted with the load. Half-space theory has none for like bodies; wheels
+    /// and rails of finite size have some 1e-5. Collective; x: nodal positions of this rank.
+    double free_rolling_creepage(const Row *x) const;
+
+    /// Slave nodes that carry an impulse after the last step, ordered by number.
+    std::vector<ContactNodeState> active_nodes() const;
+
+    /// All slave nodes that are watched at present.
+    std::size_t n_candidates() const
+    {
+      return problem.constraints.size();
+    }
+
+    /// Whether contact has reached the rim of the finely meshed surface.
+    bool touches_rim() const;
+
+    const ContactSurfaces surfaces;
+
+    /// Impulses by surface node (warm start); public for checkpoints.
+    std::vector<Row> impulse_of_node;
+
+  private:
+    void compact(const MortarCoupling &coupling, const std::vector<unsigned int> &chosen, const std::vector<Row> &x);
+
+    MPI_Comm                           comm;
+    ContactParameters                  parameters;
+    std::shared_ptr<const FrictionLaw> friction;
+    std::vector<double>                inverse_mass; ///< by surface node
+    double                             face_size;
+
+    ContactProblem            problem;
+    std::vector<unsigned int> involved;               ///< surface nodes, by compact number
+    std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
+    std::vector<Row>          position, velocity, velocity_before; ///< by compact number
+    std::vector<Row>          impulse;                ///< by constraint
+    std::vector<double>       gap_rate;
+    std::vector<double>       send_buffer, receive_buffer;
+    double                    time_since_refresh = 0., time_to_refresh = 0.;
+    ContactWork               work;
+  };
+} // namespace tread
+
+#endif

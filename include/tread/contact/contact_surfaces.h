@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_contact_contact_surfaces_h
+#define tread_contact_contact_surfaces_h
+
+#include <tread/mesh/mesh.h>
+
+#include <array>
+#include <vector>
+
+namespace tread
+{
+  /// The contact faces of all bodies, the same on every rank and numbered by position, so that
+  /// what is computed from them does not depend on how the cells are distributed.
+  ///
+  /// Faces with a hanging node are left out: they rim the fine zone, and contact that reaches
+  /// them is an error of the scene.
+  class ContactSurfaces
+  {
+  public:
+    struct Node
+    {
+      unsigned int body;
+      bool         at_rim; ///< belongs to a face that was left out
+      int          owner;  ///< rank
+      int          local;  ///< node number on this rank, -1 if it has no copy
+      Row          reference; ///< position, m
+    };
+
+    struct Face
+    {
+      std::array<unsigned int, 4> nodes; ///< counter-clockwise seen from outside
+      unsigned int                body;
+    };
+
+    explicit ContactSurfaces(const Mesh &mesh);
+
+    std::vector<Node> nodes;
+    std::vector<Face> faces;
+
+    /// Copy the rows of the surface nodes from their owners to every rank. Collective.
+    /// @param field nodal field of this rank; @param rows one a surface node.
+    void replicate(const Row *field, std::vector<Row> &rows) const;
+
+  private:
+    MPI_Comm                               comm;
+    std::vector<std::vector<unsigned int>> nodes_of_rank;
+  };
+} // namespace tread
+
+#endif

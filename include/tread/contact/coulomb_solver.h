@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_contact_coulomb_solver_h
+#define tread_contact_coulomb_solver_h
+
+#include <tread/base/simd.h>
+#include <tread/contact/friction_law.h>
+
+#include <vector>
+
+namespace tread
+{
+  /// The contact problem of one time step: rows of weighted constraints between nodes that are
+  /// numbered compactly.
+  struct ContactProblem
+  {
+    struct Constraint
+    {
+      Row          normal;
+      double       area;         ///< m^2
+      double       compliance;   ///< sum c^2 / m, 1/kg
+      unsigned int begin, end;   ///< range of entries
+      unsigned int slave;        ///< surface node
+    };
+    struct Entry
+    {
+      unsigned int node; ///< compact number
+      double       coefficient, over_mass; ///< c and c / m
+    };
+
+    std::vector<Constraint> constraints;
+    std::vector<Entry>      entries;
+
+    Row combine(const Constraint &constraint, const std::vector<Row> &field) const
+    {
+      Row sum{};
+      for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+        sum += entries[i].coefficient * field[entries[i].node];
+      return sum;
+    }
+
+    void apply(const Constraint &constraint, const Row impulse, std::vector<Row> &velocity) const
+    {
+      for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+        velocity[entries[i].node] += entries[i].over_mass * impulse;
+    }
+  };
+
+  struct CoulombSolverParameters
+  {
+    /// Sweeps end when no impulse changes by more than this share of the largest one.
+    double       tolerance = 1e-5;
+    unsigned int max_sweeps = 200;
+  };
+
+  struct CoulombSolverResult
+  {
+    unsigned int sweeps;
+    double       change; ///< of the last sweep, share of the largest impulse
+  };
+
+  /// Block Gauss-Seidel on the impulses (Moreau 1988; Jean 1999): each block is solved exactly,
+  /// as the compliance of one constraint is the same in all directions:
+  /// P_n >= 0, gap >= 0 at the step's end, P_n gap = 0; |P_t| <= f P_n, P_t = -f P_n u_t/|u_t| in slip.
+  ///
+  /// @param gap_rate gap now over the time step, m/s, one a constraint.
+  /// @param velocity compact nodes; holds the predictions with the impulses' effect on return.
+  /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity.
+  CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
+                                    const FrictionLaw             &friction,
+                                    const CoulombSolverParameters &parameters,
+                                    const std::vector<double>     &gap_rate,
+                                    std::vector<Row>              &velocity,
+                                    std::vector<Row>              &impulse);
+} // namespace tread
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_contact_mortar_h
+#define tread_contact_mortar_h
+
+#include <tread/contact/contact_surfaces.h>
+
+#include <vector>
+
+namespace tread
+{
+  /// One weighted constraint: the multiplier of one slave node with all nodes that it joins.
+  struct MortarRow
+  {
+    unsigned int slave;      ///< surface node that carries the multiplier
+    Row          normal;     ///< outward from the slave surface, unit length
+    double       area;       ///< integral of the dual function, m^2
+    std::size_t  begin, end; ///< its range of MortarCoupling::entries
+  };
+
+  struct MortarEntry
+  {
+    unsigned int node; ///< surface node
+    double       coefficient;
+  };
+
+  /// Weighted gaps and relative velocities between two surfaces:
+  /// gap_j = normal_j . sum_i c_ji x_i, positive when open, u_j = sum_i c_ji v_i, sum_i c_ji = 0.
+  ///
+  /// c = (M - D) / area with D_jk = int psi_j N_k^slave, M_jl = int psi_j N_l^master and dual
+  /// functions psi_j = sum_k A_jk N_k, int psi_j N_k = delta_jk int N_k over a whole slave face
+  /// (Wohlmuth 2000; Popp, Gitterle, Gee & Wall 2010). Faces are cut against each other in the
+  /// plane of the slave face (Puso & Laursen 2004) and integrated exactly to degree 4.
+  struct MortarCoupling
+  {
+    std::vector<MortarRow>   rows;
+    std::vector<MortarEntry> entries;
+  };
+
+  /// Couple slave_body's surface to master_body's.
+  /// @param x positions of all surface nodes; @param reach faces further apart than this (m) are skipped.
+  /// Slave nodes less than half covered by the master surface get no row.
+  MortarCoupling
+  couple(const ContactSurfaces  &surfaces,
+         const std::vector<Row> &x,
+         const unsigned int      slave_body,
+         const unsigned int      master_body,
+         const double            reach);
+} // namespace tread
+
+#endif

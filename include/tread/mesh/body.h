@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_mesh_body_h
+#define tread_mesh_body_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/grid/tria_description.h>
+#include <deal.II/grid/manifold.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// What the boundary of a body is used for; the numbers are deal.II boundary ids.
+  enum class Boundary : dealii::types::boundary_id
+  {
+    free    = 0, ///< no traction
+    contact = 1, ///< may touch another body
+    support = 2, ///< held: by the foundation (rail) or by the rigid hub (wheel)
+    end     = 3  ///< cut faces at both ends of a rail or of a wheel sector
+  };
+
+  /// A body before refinement: coarse hexahedra, and the rules by which the octree
+  /// refines them and puts the nodes onto the true surfaces. Lengths in m.
+  struct Body
+  {
+    std::string                           name;
+    std::vector<dealii::Point<3>>         vertices; ///< of the coarse cells, in chart coordinates
+    std::vector<dealii::CellData<3>>      cells;    ///< vertex numbers from 0, deal.II's (lexicographic) order
+
+    /// How new vertices are placed while refining; null: straight in chart coordinates.
+    std::shared_ptr<const dealii::Manifold<3>> manifold;
+
+    /// From chart coordinates to the reference position, applied to every vertex after
+    /// the last refinement; null: the chart is the space itself.
+    std::function<dealii::Point<3>(const dealii::Point<3> &)> to_space;
+
+    /// Largest edge length allowed at a point (chart coordinates).
+    std::function<double(const dealii::Point<3> &)> wanted_cell_size;
+
+    /// What the boundary is used for at the centre of a coarse boundary face (chart coordinates).
+    std::function<Boundary(const dealii::Point<3> &)> boundary_at;
+  };
+} // namespace tread
+
+#endif

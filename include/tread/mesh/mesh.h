@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_mesh_mesh_h
+#define tread_mesh_mesh_h
+
+#include <tread/base/shared_nodes.h>
+#include <tread/mesh/body.h>
+
+#include <mpi.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tread
+{
+  /// The hexahedra of all bodies on this rank, and what holds them together: plain arrays for
+  /// the explicit kernels, made from deal.II's distributed octree.
+  ///
+  /// Nodes are numbered in the order in which the cells meet them, cells along the octree's
+  /// space-filling curve, so that neighbours are near in memory.
+  struct Mesh
+  {
+    static constexpr unsigned int nodes_per_cell = 8;
+
+    struct Cell
+    {
+      std::array<unsigned int, 8> nodes; ///< deal.II's (lexicographic) order
+      unsigned int                body;
+    };
+
+    /// A quadrilateral of the boundary, nodes around it counter-clockwise seen from outside.
+    struct Face
+    {
+      std::array<unsigned int, 4> nodes;
+      unsigned int                cell, body;
+      Boundary                    boundary;
+    };
+
+    /// A node whose position follows from others: x = sum weight_i x_i.
+    struct HangingNode
+    {
+      unsigned int              node;
+      std::vector<unsigned int> parents;
+      std::vector<double>       weights;
+    };
+
+    MPI_Comm                      comm;
+    std::vector<std::string>      body_names;
+    std::vector<dealii::Point<3>> nodes; ///< reference positions, m
+    std::vector<std::uint64_t>    global_ids;
+    std::vector<Cell>             cells;
+    std::vector<Face>             faces;
+    std::vector<HangingNode>      hanging_nodes;
+    SharedNodes                   shared_nodes;
+    std::uint64_t                 n_global_cells, n_global_nodes, n_global_hanging_nodes;
+
+    /// Refine each body by its own rule and distribute the cells over the ranks of comm.
+    /// @throws std::runtime_error when a body has a cell that is turned inside out.
+    Mesh(const MPI_Comm comm, const std::vector<Body> &bodies);
+
+    /// Parents receive the forces (or masses) of their hanging nodes.
+    void condense_hanging_nodes(Row *field) const
+    {
+      for (const HangingNode &h : hanging_nodes)
+        {
+          for (unsigned int i = 0; i < h.parents.size(); ++i)
+            field[h.parents[i]] += h.weights[i] * field[h.node];
+          field[h.node] = Row{};
+        }
+    }
+
+    /// Hanging nodes follow their parents.
+    void distribute_hanging_nodes(Row *field) const
+    {
+      for (const HangingNode &h : hanging_nodes)
+        {
+          Row value{};
+          for (unsigned int i = 0; i < h.parents.size(); ++i)
+            value += h.weights[i] * field[h.parents[i]];
+          field[h.node] = value;
+        }
+    }
+  };
+} // namespace tread
+
+#endif

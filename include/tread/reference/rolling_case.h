@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_reference_rolling_case_h
+#define tread_reference_rolling_case_h
+
+#include <tread/reference/elastic.h>
+
+#include <string>
+#include <vector>
+
+namespace tread::reference
+{
+  /// A wheel that rolls steadily over a rail, as the half-space solver sees it.
+  ///
+  /// Axes: origin at the centre of contact, x in rolling direction (leading edge at +x), y lateral, z up into
+  /// the wheel. All forces and tractions are those ON THE WHEEL, exerted by the rail: Fx > 0 is a driving wheel.
+  /// Creepages have the signs of Kalker's CONTACT: rigid slip of the wheel relative to the rail over the speed,
+  ///   w_x = creepage - spin y,   w_y = lateral_creepage + spin x,
+  /// so that `creepage` is NEGATIVE for a driving wheel.
+  struct RollingCase
+  {
+    double curvature_x = 0.; ///< A of the undeformed gap A x^2 + B y^2 [1/m], > 0 (A = 1/(2 R) for a wheel of radius R)
+    double curvature_y = 0.; ///< B of the undeformed gap A x^2 + B y^2 [1/m], > 0
+
+    double normal_force = 0.; ///< Fn [N], > 0
+    double friction     = 0.; ///< Coulomb's friction coefficient f [-], > 0
+    double speed        = 1.; ///< rolling speed v [m/s], > 0; scales slip and frictional power only
+
+    Elastic wheel; ///< upper body
+    Elastic rail;  ///< lower body
+
+    bool   prescribe_force      = true; ///< true: Fx is given; false: the creepage is given
+    double traction_coefficient = 0.;   ///< Fx/Fn [-], |Fx/Fn| < f; used if prescribe_force
+    double creepage             = 0.;   ///< longitudinal creepage [-]; used if not prescribe_force
+    double lateral_creepage     = 0.;   ///< [-], always prescribed
+    double spin                 = 0.;   ///< [rad/m], always prescribed
+
+    double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
+  };
+
+  /// Where an element of the grid is.
+  enum class ElementState : unsigned char
+  {
+    exterior = 0, ///< no contact
+    adhesion = 1, ///< in contact, no slip
+    slip     = 2  ///< in contact, traction at the friction bound
+  };
+
+  /// The answer to a RollingCase. Vectors have one entry per grid element, x fastest.
+  struct RollingResult
+  {
+    unsigned int n_x          = 0;  ///< elements in x
+    unsigned int n_y          = 0;  ///< elements in y
+    double       element_size = 0.; ///< [m]
+
+    std::vector<double>       x, y;             ///< element centres [m]; one lies at (0, 0)
+    std::vector<double>       pressure;         ///< [Pa], >= 0
+    std::vector<double>       shear_x, shear_y; ///< traction on the wheel [Pa]
+    std::vector<double>       slip_x, slip_y;   ///< velocity of the wheel's surface relative to the rail's [m/s]; opposite to the shear
+    std::vector<ElementState> state;
+
+    double normal_force         = 0.; ///< Fn [N]
+    double longitudinal_force   = 0.; ///< Fx on the wheel [N]
+    double lateral_force        = 0.; ///< Fy on the wheel [N]
+    double spin_moment          = 0.; ///< moment of the shear about z, on the wheel [N m]
+    double traction_coefficient = 0.; ///< Fx/Fn [-]
+    double creepage             = 0.; ///< longitudinal, negative for a driving wheel [-]
+    double lateral_creepage     = 0.; ///< [-]
+    double spin                 = 0.; ///< [rad/m]
+    double approach             = 0.; ///< of distant points of the two bodies [m]
+
+    double max_pressure     = 0.; ///< largest element value [Pa]
+    double hertz_pressure   = 0.; ///< Hertz's exact maximum for the same case [Pa]
+    double area             = 0.; ///< number of elements in contact times their area [m^2]
+    double semi_axis_x      = 0.; ///< half the longest row of elements in contact [m]
+    double semi_axis_y      = 0.; ///< half the longest column [m]
+    double hertz_semi_x     = 0.; ///< Hertz's exact a [m]
+    double hertz_semi_y     = 0.; ///< Hertz's exact b [m]
+    double adhesion_share   = 0.; ///< elements in adhesion over elements in contact [-]
+    double max_shear        = 0.; ///< [Pa]
+    double max_slip         = 0.; ///< [m/s]
+    double frictional_power = 0.; ///< sum of |shear| |slip| over the patch [W], >= 0; first order in the element size
+    double power_balance    = 0.; ///< -(Fx xi + Fy eta + Mz phi) v [W]; converges faster, the better reference
+
+    unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
+    unsigned int tangential_iterations = 0;  ///< Newton steps
+    unsigned int linear_iterations     = 0;  ///< Krylov steps of all Newton steps
+    double       normal_residual       = 0.; ///< largest error of the gap in contact over the approach [-]
+    double       tangential_residual   = 0.; ///< largest violation of Coulomb's law over f p_max [-]
+    double       solve_seconds         = 0.; ///< wall time [s]
+    std::string  note;                       ///< not empty if the grid had to grow
+  };
+
+  /// Solve a case with the half-space solver. Chooses the grid itself: Hertz's patch with a margin, the centre element at
+  /// (0, 0); if the patch reaches the border the grid grows and `note` says so.
+  ///
+  /// Errors: std::invalid_argument for non-positive curvatures, force, friction, speed or element size,
+  /// |Fx| >= f Fn, or an element size that gives fewer than 3 elements along a semi-axis
+  /// or more than two million elements; std::runtime_error if the solver does not converge.
+  RollingResult solve_rolling(const RollingCase &rolling_case);
+
+  /// The creepage at which a wheel transmits Fx = traction_coefficient Fn: magnitude with the sign of the force, POSITIVE FOR A
+  /// DRIVING WHEEL (circumferential speed over rolling speed, minus one), i.e. minus RollingResult::creepage.
+  double creepage_for_traction(const RollingCase &rolling_case);
+} // namespace tread::reference
+
+#endif

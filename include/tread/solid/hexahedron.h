@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_solid_hexahedron_h
+#define tread_solid_hexahedron_h
+
+#include <deal.II/base/point.h>
+
+#include <tread/material/elastic.h>
+
+#include <array>
+
+namespace tread
+{
+  /// Integrals over one trilinear hexahedron in its reference position.
+  struct HexahedronIntegrals
+  {
+    double                                volume;    ///< m^3
+    std::array<std::array<double, 3>, 8>  gradient;  ///< mean of dN_a/dX, 1/m (Flanagan & Belytschko 1981, eq. 15)
+    std::array<std::array<double, 8>, 4>  hourglass; ///< gamma: orthogonal to every linear field (same, eq. 35)
+    std::array<double, 8>                 node_volume; ///< integral of N_a, m^3
+    std::array<std::array<std::array<double, 3>, 8>, 8> point_gradient; ///< dN_a/dX at the Gauss points
+    std::array<double, 8>                 point_volume;
+
+    /// @throws std::runtime_error if the Jacobian is not positive at a Gauss point.
+    explicit HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes);
+  };
+
+  /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a cube the
+  /// stiffness of pure bending.
+  double hourglass_stiffness(const HexahedronIntegrals &cell, const ElasticMaterial &material, const double coefficient);
+
+  /// Upper bound of the highest angular frequency of one free cell, rad/s, with the nodal masses
+  /// density_scale * density * node_volume.
+  double highest_frequency_bound(const HexahedronIntegrals &cell,
+                                 const ElasticMaterial     &material,
+                                 const double               hourglass_stiffness,
+                                 const bool                 fully_integrated,
+                                 const double               density_scale);
+} // namespace tread
+
+#endif

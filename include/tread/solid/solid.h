@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_solid_solid_h
+#define tread_solid_solid_h
+
+#include <tread/base/simd.h>
+#include <tread/material/elastic.h>
+#include <tread/mesh/mesh.h>
+
+#include <cstdint>
+
+namespace tread
+{
+  enum class ElementType
+  {
+    one_point,       ///< uniform strain with hourglass stiffness (Flanagan & Belytschko 1981)
+    fully_integrated ///< 2 x 2 x 2 Gauss points, without hourglass control: the cross-check
+  };
+
+  struct SolidParameters
+  {
+    ElementType element_type = ElementType::one_point;
+    /// Stiffness of the hourglass modes over that of pure bending of a box cell.
+    double hourglass_coefficient = 1.;
+    /// Artificial bulk viscosity: linear (times c h rho) and quadratic (times rho h^2 in compression).
+    double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
+    /// Factor on the inertia of the cells (quasi-static scenes).
+    double density_scale = 1.;
+  };
+
+  /// Elastic energies, J.
+  struct StrainEnergy
+  {
+    double strain = 0., hourglass = 0.;
+  };
+
+  /// The deformable cells of this rank: internal forces, lumped mass, frequencies.
+  ///
+  /// Total Lagrangian: gradients refer to the reference positions and are computed once;
+  /// F = sum x_a (x) B_a is exact for any rotation.
+  class Solid
+  {
+  public:
+    /// @param materials one a body.
+    Solid(const Mesh &mesh, const std::vector<ElasticMaterial> &materials, const SolidParameters &parameters);
+
+    /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and,
+    /// for bulk viscosity, move at v (m/s). Hanging nodes are the caller's affair.
+    void add_internal_forces(const Row *x, const Row *v, Row *force) const;
+
+    /// Energies stored in the cells of this rank at x.
+    StrainEnergy strain_energy(const Row *x) const;
+
+    /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x.
+    std::vector<std::array<double, 6>> cauchy_stress(const Row *x) const;
+
+    /// Upper bound of each cell's highest angular frequency, rad/s, with its own share of the
+    /// (scaled) mass. The bound of the whole mesh is the maximum (Rayleigh quotient; Belytschko 1983).
+    const std::vector<double> &cell_frequencies() const
+    {
+      return frequencies;
+    }
+
+    /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
+    const std::vector<std::array<double, 8>> &cell_masses() const
+    {
+      return masses;
+    }
+
+    /// Reference volume of each cell, m^3.
+    const std::vector<double> &cell_volumes() const
+    {
+      return volumes;
+    }
+
+    bool needs_velocity() const
+    {
+      return parameters.linear_bulk_viscosity > 0. || parameters.quadratic_bulk_viscosity > 0.;
+    }
+
+    /// Bytes that the cells of this rank hold for the internal forces.
+    std::size_t memory_consumption() const;
+
+  private:
+    /// n_lanes cells of one material with what their internal forces need.
+    struct Batch
+    {
+      unsigned int node[8][n_lanes];
+      Lanes        gradient[8][3];  ///< mean of dN_a/dX over the cell, 1/m
+      Lanes        hourglass[4][8]; ///< gamma times the square root of its stiffness
+      Lanes        volume;
+    };
+    struct BatchOfPoints
+    {
+      unsigned int node[8][n_lanes];
+      Lanes        gradient[8][8][3]; ///< at each Gauss point
+      Lanes        weight[8];         ///< volume of each Gauss point
+    };
+    struct BodyRange
+    {
+      std::size_t begin, end;
+      double      lambda, mu, density, wave_speed;
+    };
+
+    template <bool viscous>
+    void add_one_point_forces(const BodyRange &range, const Row *x, const Row *v, Row *force) const;
+    void add_fully_integrated_forces(const BodyRange &range, const Row *x, Row *force) const;
+
+    SolidParameters                      parameters;
+    std::vector<ElasticMaterial>         materials;
+    AlignedVector<Batch>                 batches;
+    AlignedVector<BatchOfPoints>         point_batches;
+    std::vector<std::array<unsigned int, n_lanes>> cell_of_lane; ///< invalid where padded
+    std::vector<BodyRange>               ranges;
+    std::vector<double>                  frequencies, volumes;
+    std::vector<std::array<double, 8>>   masses;
+    std::size_t                          n_cells;
+  };
+} // namespace tread
+
+#endif

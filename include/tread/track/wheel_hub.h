@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_track_wheel_hub_h
+#define tread_track_wheel_hub_h
+
+#include <tread/base/simd.h>
+
+#include <vector>
+
+namespace tread
+{
+  /// How the axle is driven.
+  enum class Drive
+  {
+    creepage, ///< the angular velocity is kept
+    torque    ///< a torque acts on the axle
+  };
+
+  struct WheelHubParameters
+  {
+    double mass                 = 0.;  ///< of the wheel, kg; what deforms is taken out when it is attached
+    double moment_of_inertia    = 0.;  ///< of the same about the axle, kg m^2
+    double sprung_mass          = 0.;  ///< kg
+    double suspension_stiffness = 0.;  ///< N/m
+    double suspension_damping   = 0.;  ///< N s/m
+    double gravity              = 9.81; ///< m/s^2
+  };
+
+  /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
+  /// primary suspension with the sprung mass, runs along x at constant speed, moves in z and
+  /// turns about y. Positive angular velocity rolls towards +x.
+  class WheelHub
+  {
+  public:
+    struct Motion
+    {
+      double x = 0., z = 0., angle = 0.;
+      double velocity_x = 0., velocity_z = 0., angular_velocity = 0.;
+      double sprung_z = 0., sprung_velocity = 0.; ///< sprung mass from its equilibrium
+    };
+
+    explicit WheelHub(const WheelHubParameters &parameters)
+      : parameters(parameters)
+    {}
+
+    /// Put the axle at (x, z); z is also where the suspension is in equilibrium.
+    void place(const double x, const double z);
+
+    /// Take the cells' share out of mass and inertia: m (kg), their moment of inertia about the axle (kg m^2) and first
+    /// moment in the reference position (x and z, kg m). The whole wheel is balanced, so the rigid rest has the
+    /// opposite first moment: with a flexible sector it is the rest that balances the centrifugal force.
+    void take_out(const double mass, const double moment_of_inertia, const double first_moment_x, const double first_moment_z);
+
+    /// One central-difference step under the force (N) and the moment about the axle (N m) that
+    /// the flexible cells exert.
+    void advance(const Row force, const double moment, const double time_step);
+
+    /// Vertical force of everything but the cells when at rest and turning steadily, N (negative: down).
+    double static_force() const;
+
+    /// Position of a point that is fixed to the hub, from its reference position relative to the axle.
+    Row position_of(const Row reference) const;
+
+    /// Velocity of a point of the hub now at x.
+    Row velocity_at(const Row x) const;
+
+    double kinetic_energy() const;
+
+    /// Work done so far on hub and cells by drive, guidance, suspension and weight, J.
+    double external_work() const
+    {
+      return work;
+    }
+
+    /// Sum of the absolute amounts of that work, J: the scale for energy residuals.
+    double gross_work() const
+    {
+      return gross;
+    }
+
+    Drive  drive        = Drive::creepage;
+    double drive_torque = 0.; ///< N m, used when drive == torque
+    Motion motion;
+    WheelHubParameters parameters;
+
+  private:
+    /// First moment now, by turning the reference one about +y.
+    void first_moment(double &x, double &z) const;
+
+    double equilibrium_z = 0., work = 0., gross = 0.;
+    double reference_first_moment[2] = {0., 0.};
+
+    friend class Checkpoint;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tread
+{
+  namespace
+  {
+    double norm(const Row a)
+    {
+      return std::sqrt(dot(a, a));
+    }
+  } // namespace
+
+
+  Contact::Contact(const Mesh &mesh, const ContactParameters &parameters, std::shared_ptr<const FrictionLaw> friction)
+    : surfaces(mesh)
+    , impulse_of_node(surfaces.nodes.size(), Row{})
+    , comm(mesh.comm)
+    , parameters(parameters)
+    , friction(std::move(friction))
+    , inverse_mass(surfaces.nodes.size(), 0.)
+    , face_size(0.)
+  {
+    // The smallest slave face sets the scale of search distances.
+    face_size = std::numeric_limits<double>::max();
+    for (const ContactSurfaces::Face &face : surfaces.faces)
+      if (face.body == parameters.slave_body)
+        face_size = std::min(face_size, norm(surfaces.nodes[face.nodes[1]].reference - surfaces.nodes[face.nodes[0]].reference));
+  }
+
+
+  void Contact::set_inverse_masses(const std::vector<double> &inverse_masses)
+  {
+    NodalField rows(inverse_masses.size());
+    for (unsigned int i = 0; i < inverse_masses.size(); ++i)
+      rows[i] = Row{inverse_masses[i], 0., 0., 0.};
+    std::vector<Row> replicated;
+    surfaces.replicate(rows.data(), replicated);
+    for (unsigned int i = 0; i < replicated.size(); ++i)
+      inverse_mass[i] = replicated[i][0];
+    time_to_refresh = 0.;
+  }
+
+
+  void Contact::scale_impulses(const double factor)
+  {
+    for (Row &p : impulse_of_node)
+      p *= factor;
+    for (Row &p : impulse)
+      p *= factor;
+  }
+
+
+  void Contact::refresh(const Row *x, const Row *v, const double time_step)
+  {
+    std::vector<Row> all_x, all_v;
+    surfaces.replicate(x, all_x);
+    surfaces.replicate(v, all_v);
+
+    const double         reach    = 0.7 * face_size;
+    const MortarCoupling coupling = couple(surfaces, all_x, parameters.slave_body, parameters.master_body, reach);
+
+    // Until the next refresh no node may come to touch that is not a candidate now: neither one
+    // beyond reach (bounded by the largest speeds) nor one within reach (bounded by its own
+    // closing speed); and no pair may slide by more than the given share of a face.
+    double largest_speed[2] = {0., 0.};
+    for (unsigned int i = 0; i < all_v.size(); ++i)
+      {
+        double &largest = largest_speed[surfaces.nodes[i].body == parameters.master_body];
+        if (surfaces.nodes[i].body == parameters.master_body || surfaces.nodes[i].body == parameters.slave_body)
+          largest = std::max(largest, norm(all_v[i]));
+      }
+    time_to_refresh =
+      0.5 * reach / std::max(largest_speed[0] + largest_speed[1], std::numeric_limits<double>::min());
+    std::vector<double> gap(coupling.rows.size()), closing(coupling.rows.size());
+    for (unsigned int j = 0; j < coupling.rows.size(); ++j)
+      {
+        const MortarRow &row = coupling.rows[j];
+        Row              distance{}, u{};
+        for (std::size_t i = row.begin; i < row.end; ++i)
+          {
+            distance += coupling.entries[i].coefficient * all_x[coupling.entries[i].node];
+            u += coupling.entries[i].coefficient * all_v[coupling.entries[i].node];
+          }
+        gap[j]     = dot(distance, row.normal);
+        closing[j] = std::max(0., -dot(u, row.normal));
+        if (norm(impulse_of_node[row.slave]) > 0.)
+          {
+            const double sliding = norm(u - dot(u, row.normal) * row.normal);
+            if (sliding * time_to_refresh > parameters.sliding_share * face_size)
+              time_to_refresh = parameters.sliding_share * face_size / sliding;
+          }
+      }
+    time_to_refresh    = std::clamp(time_to_refresh, time_step, 1000. * time_step);
+    time_since_refresh = 0.;
+
+    std::vector<unsigned int> chosen;
+    std::vector<Row>          kept(impulse_of_node.size(), Row{});
+    for (unsigned int j = 0; j < coupling.rows.size(); ++j)
+      if (gap[j] <= 2. * closing[j] * time_to_refresh + 0.01 * face_size || norm(impulse_of_node[coupling.rows[j].slave]) > 0.)
+        {
+          chosen.push_back(j);
+          kept[coupling.rows[j].slave] = impulse_of_node[coupling.rows[j].slave];
+        }
+    impulse_of_node.swap(kept);
+    compact(coupling, chosen, all_x);
+  }
+
+
+  void Contact::compact(const MortarCoupling            &coupling,
+                        const std::vector<unsigned int> &chosen,
+                        const std::vector<Row>          &x)
+  {
+    std::vector<int> number(surfaces.nodes.size(), -1);
+    involved.clear();
+    problem.constraints.clear();
+    problem.entries.clear();
+    impulse.clear();
+    for (const unsigned int j : chosen)
+      {
+        const MortarRow           &row = coupling.rows[j];
+        ContactProblem::Constraint constraint{row.normal, row.area, 0., (unsigned int)problem.entries.size(), 0, row.slave};
+        for (std::size_t i = row.begin; i < row.end; ++i)
+          {
+            const MortarEntry &entry = coupling.entries[i];
+            if (number[entry.node] < 0)
+              {
+                number[entry.node] = involved.size();
+                involved.push_back(entry.node);
+              }
+            problem.entries.push_back({(unsigned int)number[entry.node],
+                                       entry.coefficient,
+                                       entry.coefficient * inverse_mass[entry.node]});
+            constraint.compliance += entry.coefficient * entry.coefficient * inverse_mass[entry.node];
+          }
+        constraint.end = problem.entries.size();
+        problem.constraints.push_back(constraint);
+        impulse.push_back(impulse_of_node[row.slave]);
+      }
+
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    involved_of_rank.assign(n_ranks, {});
+    position.resize(involved.size());
+    velocity.assign(involved.size(), Row{});
+    velocity_before.assign(involved.size(), Row{});
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      {
+        involved_of_rank[surfaces.nodes[involved[i]].owner].push_back(i);
+        position[i] = x[involved[i]];
+      }
+    gap_rate.resize(problem.constraints.size());
+  }
+
+
+  void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
+  {
+    const unsigned int n_ranks = involved_of_rank.size(), this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    const unsigned int n_extra = extra.size();
+    send_buffer.assign(extra.begin(), extra.end());
+    for (const unsigned int i : involved_of_rank[this_rank])
+      {
+        const unsigned int node     = surfaces.nodes[involved[i]].local;
+        const Row before    = v[node];
+        const Row predicted = before + time_step * inverse_mass[involved[i]] * force[node];
+        for (unsigned int d = 0; d < 3; ++d)
+          send_buffer.push_back(before[d]);
+        for (unsigned int d = 0; d < 3; ++d)
+          send_buffer.push_back(predicted[d]);
+      }
+    std::vector<int> counts(n_ranks), offsets(n_ranks);
+    unsigned int     total = 0;
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      {
+        counts[rank]  = n_extra + 6 * involved_of_rank[rank].size();
+        offsets[rank] = total;
+        total += counts[rank];
+      }
+    const double *received = send_buffer.data();
+    if (n_ranks > 1)
+      {
+        receive_buffer.resize(total);
+        MPI_Allgatherv(send_buffer.data(), send_buffer.size(), MPI_DOUBLE, receive_buffer.data(), counts.data(),
+                       offsets.data(), MPI_DOUBLE, comm);
+        received = receive_buffer.data();
+      }
+    std::fill(extra.begin(), extra.end(), 0.);
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      {
+        for (unsigned int i = 0; i < n_extra; ++i)
+          extra[i] += *received++;
+        for (const unsigned int i : involved_of_rank[rank])
+          {
+            velocity_before[i] = Row{received[0], received[1], received[2], 0.};
+            velocity[i]        = Row{received[3], received[4], received[5], 0.};
+            received += 6;
+          }
+      }
+  }
+
+
+  CoulombSolverResult Contact::solve(const double time_step, Row *force)
+  {
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      gap_rate[j] = dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
+    const CoulombSolverResult result =
+      solve_coulomb(problem, *friction, parameters.solver, gap_rate, velocity, impulse);
+
+    work = ContactWork();
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        const Row                         p          = impulse[j];
+        impulse_of_node[constraint.slave]            = p;
+        if (p[0] == 0. && p[1] == 0. && p[2] == 0.)
+          continue;
+        const Row u =
+          0.5 * (problem.combine(constraint, velocity) + problem.combine(constraint, velocity_before));
+        const double normal_work = dot(p, constraint.normal) * dot(u, constraint.normal);
+        work.normal -= normal_work;
+        work.friction -= dot(p, u) - normal_work;
+        for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+          if (const int node = surfaces.nodes[involved[problem.entries[i].node]].local; node >= 0)
+            force[node] += (problem.entries[i].coefficient / time_step) * p;
+      }
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      position[i] += time_step * velocity[i];
+    time_since_refresh += time_step;
+    return result;
+  }
+
+
+  Row Contact::total_impulse() const
+  {
+    Row sum{};
+    for (const Row &p : impulse)
+      sum += p;
+    return sum;
+  }
+
+
+  Row Contact::total_moment(const Row about) const
+  {
+    Row sum{};
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        if (surfaces.nodes[involved[problem.entries[i].node]].body == parameters.master_body)
+          {
+            const Row r = position[problem.entries[i].node] - about;
+            const Row p = problem.entries[i].coefficient * impulse[j];
+            sum += Row{r[1] * p[2] - r[2] * p[1], r[2] * p[0] - r[0] * p[2], r[0] * p[1] - r[1] * p[0], 0.};
+          }
+    return sum;
+  }
+
+
+  double Contact::free_rolling_creepage(const Row *x) const
+  {
+    std::vector<Row> now;
+    surfaces.replicate(x, now);
+    std::vector<double> load(surfaces.nodes.size(), 0.);
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        load[involved[problem.entries[i].node]] += std::abs(problem.entries[i].coefficient) * norm(impulse[j]);
+
+    double stretch[2] = {0., 0.}, weight[2] = {0., 0.};
+    for (const ContactSurfaces::Face &face : surfaces.faces)
+      {
+        double w = 0.;
+        for (const unsigned int i : face.nodes)
+          w += load[i];
+        if (w == 0.)
+          continue;
+        const auto edge = [&](const unsigned int a, const unsigned int b, const bool reference) {
+          const unsigned int i = face.nodes[a], j = face.nodes[b];
+          return reference ? surfaces.nodes[j].reference - surfaces.nodes[i].reference : now[j] - now[i];
+        };
+        const bool         along = std::abs(edge(0, 1, true)[1]) < std::abs(edge(1, 2, true)[1]);
+        const unsigned int a     = along ? 0 : 1;
+        const double       before = norm(edge(a, a + 1, true)) + norm(edge((a + 3) % 4, a + 2, true));
+        const double       after  = norm(edge(a, a + 1, false)) + norm(edge((a + 3) % 4, a + 2, false));
+        const bool         master = face.body == parameters.master_body;
+        stretch[master] += w * (after / before - 1.);
+        weight[master] += w;
+      }
+    return weight[0] > 0. && weight[1] > 0. ? stretch[0] / weight[0] - stretch[1] / weight[1] : 0.;
+  }
+
+
+  std::vector<ContactNodeState> Contact::active_nodes() const
+  {
+    std::vector<int> number(surfaces.nodes.size(), -1);
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      number[involved[i]] = i;
+    std::vector<ContactNodeState> states;
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        const double                      normal     = dot(impulse[j], constraint.normal);
+        if (normal <= 0.)
+          continue;
+        ContactNodeState state;
+        state.node     = constraint.slave;
+        state.position = position[number[constraint.slave]];
+        state.normal   = constraint.normal;
+        state.impulse  = impulse[j];
+        const Row u    = problem.combine(constraint, velocity);
+        state.slip     = u - dot(u, constraint.normal) * constraint.normal;
+        state.area     = constraint.area;
+        state.gap      = dot(problem.combine(constraint, position), constraint.normal);
+        const Row tangential = impulse[j] - normal * constraint.normal;
+        const double limit   = friction->coefficient(norm(state.slip)) * normal;
+        state.adhesion       = norm(tangential) < limit * (1. - 1e-9);
+        states.push_back(state);
+      }
+    return states;
+  }
+
+
+  bool Contact::touches_rim() const
+  {
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      if (surfaces.nodes[problem.constraints[j].slave].at_rim && norm(impulse[j]) > 0.)
+        return true;
+    return false;
+  }
+} // namespace tread

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/contact/contact_surfaces.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace tread
+{
+  namespace
+  {
+    /// Position in nm: a name for a node that does not depend on the number of ranks.
+    using Key = std::tuple<unsigned int, long long, long long, long long>;
+
+    Key key_of(const unsigned int body, const dealii::Point<3> &x)
+    {
+      return {body, std::llround(x[0] * 1e9), std::llround(x[1] * 1e9), std::llround(x[2] * 1e9)};
+    }
+  } // namespace
+
+
+  ContactSurfaces::ContactSurfaces(const Mesh &mesh)
+    : comm(mesh.comm)
+  {
+    std::vector<char>  hanging(mesh.nodes.size(), false);
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      hanging[h.node] = true;
+
+    // Flat lists that deal.II can send: body, left out or not, and the four positions in nm.
+    std::vector<std::array<long long, 14>> own_faces;
+    std::map<Key, unsigned int>            own_nodes;
+    for (const Mesh::Face &face : mesh.faces)
+      if (face.boundary == Boundary::contact)
+        {
+          std::array<long long, 14> entry{};
+          entry[0] = face.body;
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              const auto [body, x, y, z] = key_of(face.body, mesh.nodes[face.nodes[v]]);
+              entry[1] |= hanging[face.nodes[v]];
+              entry[2 + 3 * v]     = x;
+              entry[2 + 3 * v + 1] = y;
+              entry[2 + 3 * v + 2] = z;
+              own_nodes[{body, x, y, z}] = face.nodes[v];
+            }
+          own_faces.push_back(entry);
+        }
+
+    // Copies of contact nodes whose faces belong to other ranks are found by position, too.
+    std::vector<std::vector<std::array<long long, 14>>> all_faces =
+      dealii::Utilities::MPI::all_gather(comm, own_faces);
+    std::vector<std::array<long long, 14>> sorted;
+    for (const auto &list : all_faces)
+      sorted.insert(sorted.end(), list.begin(), list.end());
+    std::sort(sorted.begin(), sorted.end());
+
+    std::map<Key, unsigned int> number;
+    for (const auto &entry : sorted)
+      for (unsigned int v = 0; v < 4; ++v)
+        number[{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}] = 0;
+    unsigned int n = 0;
+    for (auto &[key, i] : number)
+      i = n++;
+
+    nodes.resize(n);
+    for (const auto &[key, i] : number)
+      nodes[i] = {std::get<0>(key), false, -1, -1, Row{}};
+    for (const auto &entry : sorted)
+      {
+        Face face;
+        face.body = entry[0];
+        for (unsigned int v = 0; v < 4; ++v)
+          face.nodes[v] = number.at({entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]});
+        if (entry[1] == 0)
+          faces.push_back(face);
+        else
+          for (const unsigned int i : face.nodes)
+            nodes[i].at_rim = true;
+      }
+
+    std::map<Key, unsigned int> held;
+    std::vector<unsigned int>   body_of(mesh.nodes.size(), 0);
+    for (const Mesh::Cell &cell : mesh.cells)
+      for (const unsigned int i : cell.nodes)
+        body_of[i] = cell.body;
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      for (const unsigned int p : h.parents)
+        body_of[p] = body_of[h.node];
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (const auto entry = number.find(key_of(body_of[i], mesh.nodes[i])); entry != number.end())
+        nodes[entry->second].local = i;
+
+    std::vector<unsigned int> own;
+    for (unsigned int i = 0; i < n; ++i)
+      if (nodes[i].local >= 0 && mesh.shared_nodes.is_owned(nodes[i].local))
+        own.push_back(i);
+    nodes_of_rank = dealii::Utilities::MPI::all_gather(comm, own);
+    for (unsigned int rank = 0; rank < nodes_of_rank.size(); ++rank)
+      for (const unsigned int i : nodes_of_rank[rank])
+        nodes[i].owner = rank;
+    NodalField       reference(mesh.nodes.size());
+    std::vector<Row> rows;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    replicate(reference.data(), rows);
+    for (unsigned int i = 0; i < n; ++i)
+      nodes[i].reference = rows[i];
+  }
+
+
+  void ContactSurfaces::replicate(const Row *field, std::vector<Row> &rows) const
+  {
+    rows.resize(nodes.size());
+    const unsigned int n_ranks = nodes_of_rank.size(), this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    std::vector<double> send, receive(3 * nodes.size());
+    std::vector<int>    counts(n_ranks), offsets(n_ranks);
+    for (unsigned int rank = 0, offset = 0; rank < n_ranks; ++rank)
+      {
+        counts[rank]  = 3 * nodes_of_rank[rank].size();
+        offsets[rank] = offset;
+        offset += counts[rank];
+      }
+    for (const unsigned int i : nodes_of_rank[this_rank])
+      for (unsigned int d = 0; d < 3; ++d)
+        send.push_back(field[nodes[i].local][d]);
+    MPI_Allgatherv(send.data(), send.size(), MPI_DOUBLE, receive.data(), counts.data(), offsets.data(), MPI_DOUBLE, comm);
+    const double *value = receive.data();
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      for (const unsigned int i : nodes_of_rank[rank])
+        {
+          rows[i] = Row{value[0], value[1], value[2], 0.};
+          value += 3;
+        }
+  }
+} // namespace tread

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+namespace tread
+{
+  unsigned int ExplicitDynamics::relax(const double                                      tolerance,
+                                       const unsigned int                                max_iterations,
+                                       const std::function<void(unsigned int, double)> &progress)
+  {
+    using dealii::Utilities::MPI::sum;
+
+    // Masses with which a unit "time" step is stable, and equally so, for every cell.
+    constexpr double highest_frequency = 1.8;
+    NodalField       mass(x.size(), Row{});
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const double ratio = solid.cell_frequencies()[c] / highest_frequency;
+        for (unsigned int a = 0; a < 8; ++a)
+          mass[mesh.cells[c].nodes[a]][0] += ratio * ratio * parameters.density_scale * solid.cell_masses()[c][a];
+      }
+    mesh.condense_hanging_nodes(mass.data());
+    mesh.shared_nodes.sum(mass.data());
+    std::vector<double> inverse(x.size(), 0.);
+    double              hub_mass = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (carried[i])
+        hub_mass += mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
+      else if (!fixed[i] && mass[i][0] > 0.)
+        inverse[i] = 1. / mass[i][0];
+    hub_mass = sum(hub_mass, mesh.comm);
+
+    // Weight and true centrifugal force act on the true masses.
+    const double omega2 = nominal_angular_velocity * nominal_angular_velocity;
+    const Row    axle   = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
+    NodalField   body_force(x.size(), Row{});
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (inverse[i] > 0.)
+        {
+          body_force[i] = Row{0., 0., -parameters.gravity * true_mass[i], 0.};
+          if (on_wheel[i])
+            body_force[i] += omega2 * true_mass[i] * Row{1., 0., 1., 0.} * (x[i] - axle);
+          if (!external_force.empty())
+            body_force[i] += external_force[i];
+        }
+    const double hub_load = hub ? hub->static_force() : 0.;
+
+    std::fill(v.begin(), v.end(), Row{});
+    if (contact)
+      {
+        contact->set_inverse_masses(inverse);
+        contact->set_friction(std::make_shared<CoulombFriction>(0.));
+        contact->refresh(x.data(), v.data(), 1.);
+      }
+    const NodalField     at_rest(x.size(), Row{});
+    NodalField           previous(x.size(), Row{});
+    double               keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
+    constexpr unsigned int interval = 20;
+    unsigned int         iteration = 1;
+    for (; iteration <= max_iterations; ++iteration)
+      {
+        std::fill(force.begin(), force.end(), Row{});
+        solid.add_internal_forces(x.data(), at_rest.data(), force.data());
+        mesh.condense_hanging_nodes(force.data());
+        mesh.shared_nodes.sum(force.data());
+
+        const bool measure = iteration % interval == 0, remember = iteration % interval == interval - 1;
+        if (measure)
+          {
+            // Rayleigh quotient of the last displacement: the frequency that still moves.
+            double change = 0., inertia = 0.;
+            for (unsigned int i = 0; i < x.size(); ++i)
+              if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+                {
+                  change -= dot(v[i], force[i] - previous[i]);
+                  inertia += dot(v[i], v[i]) / inverse[i];
+                }
+            change  = sum(change, mesh.comm);
+            inertia = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
+            const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
+            keep               = std::clamp(1. - 2. * omega, 0.5, 0.999);
+          }
+        if (remember)
+          previous = force;
+
+        for (unsigned int i = 0; i < x.size(); ++i)
+          {
+            v[i] *= keep;
+            force[i] += body_force[i];
+          }
+        if (hub)
+          add_hub_sums(hub_sums);
+        if (contact)
+          {
+            if (contact->refresh_due())
+              contact->refresh(x.data(), v.data(), 1.);
+            contact->predict(v.data(), force.data(), 1., hub_sums);
+            contact->solve(1., force.data());
+          }
+        else if (hub)
+          sum(hub_sums, mesh.comm, hub_sums);
+
+        double residual = 0., scale = 0.;
+        if (hub)
+          {
+            const double imbalance = hub_sums[2] + hub_load;
+            hub_velocity           = keep * hub_velocity + imbalance / hub_mass;
+            hub->motion.z += hub_velocity;
+            residual = std::abs(imbalance);
+            scale    = std::abs(hub_load);
+          }
+        double squares = 0., load_squares = 0.;
+        for (unsigned int i = 0; i < x.size(); ++i)
+          {
+            if (measure && inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+              {
+                squares += dot(force[i], force[i]);
+                load_squares += dot(body_force[i], body_force[i]);
+              }
+            v[i] += inverse[i] * force[i];
+            x[i] += v[i];
+          }
+        if (hub)
+          for (unsigned int k = 0; k < hub_nodes.size(); ++k)
+            {
+              x[hub_nodes[k]] = hub->position_of(hub_reference[k]);
+              v[hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
+            }
+        mesh.distribute_hanging_nodes(x.data());
+        mesh.distribute_hanging_nodes(v.data());
+
+        if (measure)
+          {
+            residual = std::max(residual, std::sqrt(sum(squares, mesh.comm)));
+            scale    = std::max(scale, std::sqrt(sum(load_squares, mesh.comm)));
+            const double share = scale > 0. ? residual / scale : residual;
+            if (progress)
+              progress(iteration, share);
+            if (share <= tolerance)
+              break;
+          }
+      }
+    if (iteration > max_iterations)
+      throw std::runtime_error("no equilibrium at the start within " + std::to_string(max_iterations) +
+                               " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
+    std::fill(force.begin(), force.end(), Row{});
+    std::fill(v.begin(), v.end(), Row{});
+    if (hub)
+      hub->place(hub->motion.x, hub->motion.z);
+    return iteration;
+  }
+} // namespace tread

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/mesh/fine_zone.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    /// Rows from the anchor outwards on a side of the given length: how many have the regular size, and
+    /// how many of which size follow.
+    struct Rows
+    {
+      unsigned int n_regular;
+      unsigned int n_stretched;
+      double       stretched_size;
+    };
+
+    Rows divide(const double length, const double size)
+    {
+      // a remainder or a shortfall of a millionth of a cell is round-off
+      const double       tolerance = 1e-6;
+      const unsigned int n         = static_cast<unsigned int>(std::floor(length / size + tolerance));
+      const double       rest      = length / size - n;
+      if (rest <= tolerance)
+        return {n, 0, 0.};
+      if (rest >= 0.7 || n == 0 || (n == 1 && rest > 0.5))
+        return {n, 1, rest * size};
+      if (rest <= 0.5)
+        return {n - 1, 1, (1. + rest) * size};
+      return {n - 1, 2, 0.5 * (1. + rest) * size};
+    }
+  } // namespace
+
+  double FineZone::distance(const double x, const double y, const double depth_of_point) const
+  {
+    const double margin = 0.01 * finest_cell_size;
+    const double a      = std::max({x_begin + margin - x, x - (x_end - margin), 0.});
+    const double b      = std::max(std::abs(y) - (half_width - margin), 0.);
+    const double c      = std::max(depth_of_point - (depth - margin), 0.);
+    return std::sqrt(a * a + b * b + c * c);
+  }
+
+  double FineZone::wanted_size(const double distance) const
+  {
+    if (distance <= 0.)
+      return finest_cell_size;
+    const double level = std::floor(std::log2(2. + distance / (cells_per_level * finest_cell_size)));
+    return finest_cell_size * std::exp2(level);
+  }
+
+  double FineZone::wanted_size(const double x, const double y, const double depth_of_point) const
+  {
+    return wanted_size(distance(x, y, depth_of_point));
+  }
+
+  double regular_length(const double length, const double size)
+  {
+    return divide(length, size).n_regular * size;
+  }
+
+  std::vector<double> coarse_lines(const double begin, const double end, const double anchor, const double size)
+  {
+    if (!(begin <= anchor && anchor <= end && begin < end && size > 0.))
+      throw std::invalid_argument("coarse_lines: needs begin <= anchor <= end and a positive size");
+
+    // distances from the anchor, without the anchor itself
+    const auto side = [size](const double length) {
+      std::vector<double> lines;
+      const Rows          rows = divide(length, size);
+      for (unsigned int i = 1; i <= rows.n_regular; ++i)
+        lines.push_back(i * size);
+      for (unsigned int i = 1; i <= rows.n_stretched; ++i)
+        lines.push_back(rows.n_regular * size + i * rows.stretched_size);
+      if (!lines.empty())
+        lines.back() = length;
+      return lines;
+    };
+
+    std::vector<double> lines = side(anchor - begin);
+    std::reverse(lines.begin(), lines.end());
+    for (double &line : lines)
+      line = anchor - line;
+    lines.push_back(anchor);
+    for (const double line : side(end - anchor))
+      lines.push_back(anchor + line);
+    return lines;
+  }
+
+  double coarse_cell_size(const double finest, const double coarsest, const std::vector<CoarseSide> &sides)
+  {
+    if (!(finest > 0. && coarsest >= finest))
+      throw std::invalid_argument("the coarsest cell size must not be below the finest, and both must be positive");
+
+    const double tolerance = 1e-6 * finest;
+    for (int k = static_cast<int>(std::floor(std::log2(coarsest / finest) + 1e-9)); k >= 0; --k)
+      {
+        const double size    = finest * std::exp2(k);
+        bool         regular = true;
+        for (const CoarseSide &side : sides)
+          regular = regular && side.regular <= regular_length(side.length, size) + tolerance &&
+                    (side.length <= tolerance || side.length >= 0.7 * size);
+        if (regular)
+          return size;
+      }
+
+    std::ostringstream message;
+    message << "the body is too small for its fine zone with cells of " << 1e3 * finest << " mm";
+    throw std::invalid_argument(message.str());
+  }
+} // namespace tread

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/mesh/mesh.h>
+
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <map>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    using Triangulation = dealii::parallel::distributed::Triangulation<3>;
+
+    void make_coarse_mesh(Triangulation &triangulation, const std::vector<Body> &bodies)
+    {
+      std::vector<dealii::Point<3>>    vertices;
+      std::vector<dealii::CellData<3>> cells;
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          const unsigned int offset = vertices.size();
+          vertices.insert(vertices.end(), bodies[b].vertices.begin(), bodies[b].vertices.end());
+          for (dealii::CellData<3> cell : bodies[b].cells)
+            {
+              for (unsigned int &v : cell.vertices)
+                v += offset;
+              cell.material_id = b;
+              cell.manifold_id = b;
+              cells.push_back(cell);
+            }
+        }
+      dealii::GridTools::invert_all_negative_measure_cells(vertices, cells);
+      triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+
+      for (const auto &cell : triangulation.cell_iterators_on_level(0))
+        {
+          const Body &body = bodies[cell->material_id()];
+          if (body.manifold)
+            cell->set_all_manifold_ids(cell->material_id());
+          for (const unsigned int f : cell->face_indices())
+            if (cell->at_boundary(f))
+              cell->face(f)->set_boundary_id(
+                static_cast<dealii::types::boundary_id>(body.boundary_at(cell->face(f)->center())));
+        }
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (bodies[b].manifold)
+          triangulation.set_manifold(b, *bodies[b].manifold);
+    }
+
+
+    /// The octree halves a cell until its longest edge is near what its corners and centre ask for.
+    void refine(Triangulation &triangulation, const std::vector<Body> &bodies)
+    {
+      constexpr double     tolerance  = 1.2;
+      constexpr unsigned int max_levels = 12;
+      for (unsigned int level = 0; level < max_levels; ++level)
+        {
+          bool any = false;
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (cell->is_locally_owned())
+              {
+                const Body &body   = bodies[cell->material_id()];
+                double      wanted = body.wanted_cell_size(cell->center());
+                for (const unsigned int v : cell->vertex_indices())
+                  wanted = std::min(wanted, body.wanted_cell_size(cell->vertex(v)));
+                double longest = 0.;
+                for (const unsigned int l : cell->line_indices())
+                  longest = std::max(longest, cell->line(l)->diameter());
+                if (longest > tolerance * wanted)
+                  {
+                    cell->set_refine_flag();
+                    any = true;
+                  }
+              }
+          if (!dealii::Utilities::MPI::logical_or(any, triangulation.get_communicator()))
+            return;
+          triangulation.execute_coarsening_and_refinement();
+        }
+      throw std::runtime_error("mesh: a body asks for cells more than 2^12 times finer than its coarse blocks");
+    }
+  } // namespace
+
+
+  Mesh::Mesh(const MPI_Comm comm, const std::vector<Body> &bodies)
+    : comm(comm)
+  {
+    Triangulation triangulation(comm);
+    make_coarse_mesh(triangulation, bodies);
+    refine(triangulation, bodies);
+
+    const dealii::FE_Q<3>   fe(1);
+    dealii::DoFHandler<3>   dof_handler(triangulation);
+    dof_handler.distribute_dofs(fe);
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    dealii::AffineConstraints<double> constraints(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+    constraints.close();
+
+    for (const Body &body : bodies)
+      body_names.push_back(body.name);
+
+    // Positions of all nodes that this rank can see, ghost cells included: parents of
+    // hanging nodes may belong to those only.
+    std::map<std::uint64_t, dealii::Point<3>>            position;
+    std::vector<dealii::types::global_dof_index>         dofs(nodes_per_cell);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          const Body &body = bodies[cell->material_id()];
+          cell->get_dof_indices(dofs);
+          for (const unsigned int v : cell->vertex_indices())
+            if (position.find(dofs[v]) == position.end())
+              position[dofs[v]] = body.to_space ? body.to_space(cell->vertex(v)) : cell->vertex(v);
+        }
+
+    std::map<std::uint64_t, unsigned int> local;
+    const auto                            local_number = [&](const std::uint64_t id) {
+      const auto [entry, is_new] = local.emplace(id, nodes.size());
+      if (is_new)
+        {
+          nodes.push_back(position.at(id));
+          global_ids.push_back(id);
+        }
+      return entry->second;
+    };
+
+    // Counter-clockwise from outside, for deal.II's faces 0 to 5.
+    static constexpr unsigned int face_nodes[6][4] = {
+      {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(dofs);
+          Cell c;
+          c.body = cell->material_id();
+          for (unsigned int v = 0; v < nodes_per_cell; ++v)
+            c.nodes[v] = local_number(dofs[v]);
+          for (const unsigned int f : cell->face_indices())
+            if (cell->at_boundary(f))
+              {
+                Face face;
+                for (unsigned int v = 0; v < 4; ++v)
+                  face.nodes[v] = c.nodes[face_nodes[f][v]];
+                face.cell     = cells.size();
+                face.body     = c.body;
+                face.boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
+                faces.push_back(face);
+              }
+          cells.push_back(c);
+        }
+
+    const std::size_t n_cell_nodes = nodes.size();
+    for (unsigned int i = 0; i < n_cell_nodes; ++i)
+      if (constraints.is_constrained(global_ids[i]))
+        {
+          HangingNode h;
+          h.node = i;
+          for (const auto &[parent, weight] : *constraints.get_constraint_entries(global_ids[i]))
+            {
+              if (constraints.is_constrained(parent))
+                throw std::runtime_error("mesh: a hanging node hangs on another hanging node");
+              h.parents.push_back(local_number(parent));
+              h.weights.push_back(weight);
+            }
+          hanging_nodes.push_back(std::move(h));
+        }
+    // Parents follow from the constraint itself, so every rank places a hanging node alike:
+    // on the chord, where every linear displacement field leaves it.
+    for (const HangingNode &h : hanging_nodes)
+      {
+        dealii::Point<3> x;
+        for (unsigned int i = 0; i < h.parents.size(); ++i)
+          x += h.weights[i] * nodes[h.parents[i]];
+        nodes[h.node] = x;
+      }
+
+    shared_nodes           = SharedNodes(comm, global_ids);
+    n_global_cells         = triangulation.n_global_active_cells();
+    n_global_nodes         = dof_handler.n_dofs();
+    std::uint64_t n_hanging = 0;
+    for (const HangingNode &h : hanging_nodes)
+      n_hanging += shared_nodes.is_owned(h.node);
+    n_global_hanging_nodes = dealii::Utilities::MPI::sum(n_hanging, comm);
+  }
+} // namespace tread

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/mesh/rail_body.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    /// Coarse lines of a flat box about the fine zone, and what lies on its boundary.
+    struct FlatBox
+    {
+      double x_begin, x_end, half_width, depth;
+    };
+
+    /// Fills everything of the body but to_space: a box with the chart (x, y, -depth), symmetric to y = 0.
+    Body make_flat_box(const FlatBox &box, const double coarsest, const double contact_half_width, const FineZone &zone)
+    {
+      if (!(box.x_begin < box.x_end && box.half_width > 0. && box.depth > 0.))
+        throw std::invalid_argument("a rail needs a positive length, width and height");
+
+      // The coarse grid starts at x = 0 where it can, so that a symmetric zone gets a symmetric mesh.
+      const double anchor = (box.x_begin <= 0. && 0. <= box.x_end) ? 0. : 0.5 * (box.x_begin + box.x_end);
+      const double size   = coarse_cell_size(zone.finest_cell_size,
+                                           coarsest,
+                                           {{anchor - box.x_begin, anchor - zone.x_begin},
+                                              {box.x_end - anchor, zone.x_end - anchor},
+                                              {box.half_width, zone.half_width},
+                                              {box.depth, zone.depth}});
+
+      const std::vector<double> x     = coarse_lines(box.x_begin, box.x_end, anchor, size);
+      const std::vector<double> y     = coarse_lines(-box.half_width, box.half_width, 0., size);
+      const std::vector<double> z     = coarse_lines(-box.depth, 0., 0., size);
+      const unsigned int        n_x   = x.size(), n_y = y.size(), n_z = z.size();
+      const auto                index = [n_x, n_y](unsigned int i, unsigned int j, unsigned int k) {
+        return i + n_x * (j + n_y * k);
+      };
+
+      Body body;
+      for (unsigned int k = 0; k < n_z; ++k)
+        for (unsigned int j = 0; j < n_y; ++j)
+          for (unsigned int i = 0; i < n_x; ++i)
+            body.vertices.emplace_back(x[i], y[j], z[k]);
+      for (unsigned int k = 0; k + 1 < n_z; ++k)
+        for (unsigned int j = 0; j + 1 < n_y; ++j)
+          for (unsigned int i = 0; i + 1 < n_x; ++i)
+            {
+              dealii::CellData<3> cell;
+              for (unsigned int v = 0; v < 8; ++v)
+                cell.vertices[v] = index(i + v % 2, j + v / 2 % 2, k + v / 4);
+              body.cells.push_back(cell);
+            }
+
+      body.wanted_cell_size = [zone](const dealii::Point<3> &p) { return zone.wanted_size(p[0], p[1], -p[2]); };
+
+      const double tolerance = 1e-3 * size;
+      body.boundary_at       = [box, contact_half_width, tolerance](const dealii::Point<3> &p) {
+        if (std::abs(p[2]) < tolerance)
+          return std::abs(p[1]) <= contact_half_width ? Boundary::contact : Boundary::free;
+        if (std::abs(p[2] + box.depth) < tolerance)
+          return Boundary::support;
+        if (std::min(std::abs(p[0] - box.x_begin), std::abs(p[0] - box.x_end)) < tolerance)
+          return Boundary::end;
+        return Boundary::free;
+      };
+      return body;
+    }
+  } // namespace
+
+  Body make_rail_block(const RailBlock &block, const FineZone &zone)
+  {
+    if (!(block.crown_radius > 0.5 * block.width))
+      throw std::invalid_argument("the block's crown radius must exceed half its width");
+    if (!(block.height > -crown_height(0.5 * block.width, block.crown_radius)))
+      throw std::invalid_argument("the block is lower than its crown's rise");
+
+    Body body = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
+                              block.coarsest_cell_size,
+                              block.contact_half_width,
+                              zone);
+    body.name     = "rail block";
+    body.to_space = [radius = block.crown_radius, height = block.height](const dealii::Point<3> &p) {
+      return dealii::Point<3>(p[0], p[1], p[2] + crown_height(p[1], radius) * (1. + p[2] / height));
+    };
+    return body;
+  }
+
+  Body make_rail_head(const RailProfile &profile, const RailHead &head, const FineZone &zone)
+  {
+    const double width  = profile.shoulder_length(); // half the width of the chart
+    const double depth  = profile.head_depth();
+    const double length = profile.head_length() - width; // of the chart's vertical sides
+
+    Body body = make_flat_box(
+      {head.x_begin, head.x_end, width, depth}, head.coarsest_cell_size, head.contact_half_width, zone);
+    body.name = "rail head " + profile.name();
+
+    // Straight lines from the top outline to points evenly spaced on the flat bottom, which at s = 0 is the vertical
+    // itself; near the sides the curved side's deviation from the straight line is added. The weight is zero with its
+    // slope up to the beginning of the ramp, beside the crown.
+    const double ramp_begin = 0.3 * width;
+    body.to_space = [profile, width, depth, length, ramp_begin](const dealii::Point<3> &p) {
+      const double s = std::abs(p[1]);
+      const double v = std::clamp(-p[2] / depth, 0., 1.);
+
+      const auto straight = [&](const double t) {
+        const dealii::Point<2> top = profile.head_point(t);
+        return dealii::Point<2>((1. - v) * top[0] + v * profile.head_half_width() * t / width,
+                                (1. - v) * top[1] - v * depth);
+      };
+
+      dealii::Point<2> q = straight(s);
+      if (s > ramp_begin)
+        {
+          const double ramp   = (s - ramp_begin) / (width - ramp_begin);
+          const double weight = ramp * ramp;
+          q += weight * (profile.head_point(width + v * length) - straight(width));
+        }
+      return dealii::Point<3>(p[0], std::copysign(q[0], p[1]), q[1]);
+    };
+    return body;
+  }
+} // namespace tread

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/reference/influence.h>
+
+#include "require.h"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace tread::reference
+{
+  namespace
+  {
+    // Y ln(X + R) up to terms that drop out of the corner sum: Y asinh(X/|Y|).
+    double y_log(const double x, const double y)
+    {
+      return y == 0. ? 0. : y * std::asinh(x / std::abs(y));
+    }
+
+    // Primitive F with d^2F/dxdy = kernel, to be summed over the corners with alternating signs.
+    double primitive(const Influence kind, const ElasticPair &pair, const double x, const double y)
+    {
+      const double nu = pair.poisson;
+      switch (kind)
+        {
+          case Influence::zz:
+            return (1. - nu) * (y_log(x, y) + y_log(y, x));
+          case Influence::xx: // 1/r = x^2/r^3 + y^2/r^3, primitives y ln(x + r) and x ln(y + r)
+            return y_log(x, y) + (1. - nu) * y_log(y, x);
+          case Influence::yy:
+            return (1. - nu) * y_log(x, y) + y_log(y, x);
+          case Influence::xy:
+            return -nu * std::hypot(x, y);
+          case Influence::zx:
+            {
+              const double r2 = x * x + y * y;
+              return r2 == 0. ? 0. : pair.coupling * ((x == 0. ? 0. : x * std::atan(y / x)) + 0.5 * y * std::log(r2));
+            }
+          default:
+            {
+              const double r2 = x * x + y * y;
+              return r2 == 0. ? 0. : pair.coupling * ((y == 0. ? 0. : y * std::atan(x / y)) + 0.5 * x * std::log(r2));
+            }
+        }
+    }
+
+    // The product without the checks for infinities that std::complex makes.
+    std::complex<double> times(const std::complex<double> &a, const std::complex<double> &b)
+    {
+      return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+    }
+
+    unsigned int good_size(const unsigned int at_least)
+    {
+      for (unsigned int n = at_least;; ++n)
+        {
+          if (n % 2 != 0)
+            continue;
+          unsigned int rest = n;
+          for (const unsigned int factor : {2u, 3u, 5u, 7u})
+            while (rest % factor == 0)
+              rest /= factor;
+          if (rest == 1)
+            return n;
+        }
+    }
+  } // namespace
+
+  void check_grid(const Grid &grid)
+  {
+    require(grid.n_x > 0, "n_x", grid.n_x, "at least 1");
+    require(grid.n_y > 0, "n_y", grid.n_y, "at least 1");
+    require_positive("dx", grid.dx, "m");
+    require_positive("dy", grid.dy, "m");
+    require_finite("x_first", grid.x_first);
+    require_finite("y_first", grid.y_first);
+  }
+
+  Grid centred_grid(const double half_x, const double half_y, const double element_size)
+  {
+    require_positive("half_x", half_x, "m");
+    require_positive("half_y", half_y, "m");
+    require_positive("element_size", element_size, "m");
+    const double m_x = std::ceil(half_x / element_size - 0.5), m_y = std::ceil(half_y / element_size - 0.5);
+    require((2. * m_x + 1.) * (2. * m_y + 1.) <= 2e6, "element_size", element_size,
+            "a size that gives at most two million elements on the grid");
+    Grid grid;
+    grid.n_x     = 2 * static_cast<unsigned int>(std::max(m_x, 0.)) + 1;
+    grid.n_y     = 2 * static_cast<unsigned int>(std::max(m_y, 0.)) + 1;
+    grid.dx      = element_size;
+    grid.dy      = element_size;
+    grid.x_first = -0.5 * (grid.n_x - 1) * element_size;
+    grid.y_first = -0.5 * (grid.n_y - 1) * element_size;
+    return grid;
+  }
+
+  double influence_coefficient(const Influence    kind,
+                               const ElasticPair &pair,
+                               const double       dx,
+                               const double       dy,
+                               const double       x,
+                               const double       y)
+  {
+    const double x0 = x - 0.5 * dx, x1 = x + 0.5 * dx, y0 = y - 0.5 * dy, y1 = y + 0.5 * dy;
+    return (primitive(kind, pair, x1, y1) - primitive(kind, pair, x0, y1) - primitive(kind, pair, x1, y0) +
+            primitive(kind, pair, x0, y0)) /
+           (std::numbers::pi * pair.shear);
+  }
+
+  struct FourierGrid::Plans
+  {
+    double       *real    = nullptr;
+    fftw_complex *complex = nullptr;
+    fftw_plan     forward = nullptr;
+    fftw_plan     inverse = nullptr;
+    // Buffers: input stays zero outside the selected elements, so the inverse needs its own.
+    double *output = nullptr;
+
+    ~Plans()
+    {
+      fftw_destroy_plan(forward);
+      fftw_destroy_plan(inverse);
+      fftw_free(real);
+      fftw_free(output);
+      fftw_free(complex);
+    }
+  };
+
+  FourierGrid::FourierGrid(const Grid &grid)
+    : grid(grid)
+  {
+    check_grid(grid);
+    padded = {good_size(2 * grid.n_x), good_size(2 * grid.n_y)};
+    plans                = std::make_unique<Plans>();
+    const std::size_t n  = static_cast<std::size_t>(padded[0]) * padded[1];
+    plans->real          = fftw_alloc_real(n);
+    plans->output        = fftw_alloc_real(n);
+    plans->complex       = fftw_alloc_complex(spectrum_size());
+    const int rows = static_cast<int>(padded[1]), columns = static_cast<int>(padded[0]);
+    plans->forward = fftw_plan_dft_r2c_2d(rows, columns, plans->real, plans->complex, FFTW_ESTIMATE);
+    plans->inverse = fftw_plan_dft_c2r_2d(rows, columns, plans->complex, plans->output, FFTW_ESTIMATE);
+    std::fill_n(plans->real, n, 0.);
+    std::vector<unsigned int> all(grid.size());
+    std::iota(all.begin(), all.end(), 0u);
+    select(all);
+  }
+
+  FourierGrid::~FourierGrid() = default;
+
+  void FourierGrid::select(const std::vector<unsigned int> &elements)
+  {
+    for (const unsigned int p : positions)
+      plans->real[p] = 0.;
+    positions.resize(elements.size());
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      positions[k] = elements[k] / grid.n_x * padded[0] + elements[k] % grid.n_x;
+  }
+
+  void FourierGrid::transform(const double *values, Spectrum &spectrum) const
+  {
+    spectrum.resize(spectrum_size());
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      plans->real[positions[k]] = values[k];
+    fftw_execute_dft_r2c(plans->forward, plans->real, reinterpret_cast<fftw_complex *>(spectrum.data()));
+  }
+
+  void FourierGrid::back(Spectrum &spectrum, double *values) const
+  {
+    fftw_execute_dft_c2r(plans->inverse, reinterpret_cast<fftw_complex *>(spectrum.data()), plans->output);
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      values[k] = plans->output[positions[k]];
+  }
+
+  FourierGrid::Spectrum FourierGrid::kernel(const Influence                           kind,
+                                            const ElasticPair                        &pair,
+                                            const std::vector<std::array<double, 2>> &weights_and_offsets) const
+  {
+    const int         columns = static_cast<int>(padded[0]), rows = static_cast<int>(padded[1]);
+    const std::size_t n       = static_cast<std::size_t>(columns) * rows;
+    double           *values  = fftw_alloc_real(n);
+    std::fill_n(values, n, 0.);
+    const int n_x = static_cast<int>(grid.n_x), n_y = static_cast<int>(grid.n_y);
+
+    for (const auto &[weight, offset] : weights_and_offsets)
+      {
+        // the primitive at the corners of all element offsets -(n-1) .. n-1
+        const int           corners_x = 2 * n_x, corners_y = 2 * n_y;
+        std::vector<double> corner(static_cast<std::size_t>(corners_x) * corners_y);
+        for (int j = 0; j < corners_y; ++j)
+          for (int i = 0; i < corners_x; ++i)
+            corner[static_cast<std::size_t>(j) * corners_x + i] =
+              primitive(kind, pair, (i - n_x + 0.5) * grid.dx + offset, (j - n_y + 0.5) * grid.dy);
+        const double scale = weight / (std::numbers::pi * pair.shear * static_cast<double>(n));
+        for (int j = -n_y + 1; j < n_y; ++j)
+          for (int i = -n_x + 1; i < n_x; ++i)
+            {
+              const double *c = &corner[static_cast<std::size_t>(j + n_y - 1) * corners_x + (i + n_x - 1)];
+              values[static_cast<std::size_t>((j + rows) % rows) * columns + (i + columns) % columns] +=
+                scale * (c[corners_x + 1] - c[corners_x] - c[1] + c[0]);
+            }
+      }
+    Spectrum spectrum(spectrum_size());
+    fftw_execute_dft_r2c(plans->forward, values, reinterpret_cast<fftw_complex *>(spectrum.data()));
+    fftw_free(values);
+    return spectrum;
+  }
+
+  NormalOperator::NormalOperator(const FourierGrid &fourier, const ElasticPair &pair)
+    : fourier(fourier)
+    , kernel(fourier.kernel(Influence::zz, pair, {{1., 0.}}))
+  {}
+
+  void NormalOperator::apply(const double *pressure, double *displacement) const
+  {
+    fourier.transform(pressure, work);
+    for (std::size_t k = 0; k < work.size(); ++k)
+      work[k] = times(work[k], kernel[k]);
+    fourier.back(work, displacement);
+  }
+
+  TangentialOperator::TangentialOperator(const FourierGrid                        &fourier,
+                                         const ElasticPair                        &pair,
+                                         const std::vector<std::array<double, 2>> &weights_and_offsets)
+    : fourier(fourier)
+    , xx(fourier.kernel(Influence::xx, pair, weights_and_offsets))
+    , xy(fourier.kernel(Influence::xy, pair, weights_and_offsets))
+    , yy(fourier.kernel(Influence::yy, pair, weights_and_offsets))
+  {}
+
+  void TangentialOperator::apply(const double *traction, double *displacement) const
+  {
+    const std::size_t n = fourier.n_selected();
+    fourier.transform(traction, work_x);
+    fourier.transform(traction + n, work_y);
+    for (std::size_t k = 0; k < work_x.size(); ++k)
+      {
+        const std::complex<double> px = work_x[k], py = work_y[k];
+        work_x[k]                     = times(xx[k], px) + times(xy[k], py);
+        work_y[k]                     = times(xy[k], px) + times(yy[k], py);
+      }
+    fourier.back(work_x, displacement);
+    fourier.back(work_y, displacement + n);
+  }
+
+  void TangentialOperator::invert()
+  {
+    const double n = static_cast<double>(fourier.padded_x()) * fourier.padded_y(); // kernels carry a factor 1/n
+    for (std::size_t k = 0; k < xx.size(); ++k)
+      {
+        const std::complex<double> determinant = (times(xx[k], yy[k]) - times(xy[k], xy[k])) * (n * n);
+        const std::complex<double> a = xx[k], b = xy[k], d = yy[k];
+        xx[k]                                   = d / determinant;
+        yy[k]                                   = a / determinant;
+        xy[k]                                   = -b / determinant;
+      }
+  }
+
+  CouplingOperator::CouplingOperator(const FourierGrid                        &fourier,
+                                     const ElasticPair                        &pair,
+                                     const std::vector<std::array<double, 2>> &weights_and_offsets)
+    : fourier(fourier)
+    , zx(fourier.kernel(Influence::zx, pair, weights_and_offsets))
+    , zy(fourier.kernel(Influence::zy, pair, weights_and_offsets))
+  {}
+
+  void CouplingOperator::tangential_by_pressure(const double *pressure, double *displacement) const
+  {
+    fourier.transform(pressure, work_x);
+    work_y = work_x;
+    for (std::size_t k = 0; k < work_x.size(); ++k)
+      {
+        work_x[k] = -times(work_x[k], zx[k]);
+        work_y[k] = -times(work_y[k], zy[k]);
+      }
+    fourier.back(work_x, displacement);
+    fourier.back(work_y, displacement + fourier.n_selected());
+  }
+
+  void CouplingOperator::normal_by_traction(const double *traction, double *displacement) const
+  {
+    fourier.transform(traction, work_x);
+    fourier.transform(traction + fourier.n_selected(), work_y);
+    for (std::size_t k = 0; k < work_x.size(); ++k)
+      work_x[k] = times(zx[k], work_x[k]) + times(zy[k], work_y[k]);
+    fourier.back(work_x, displacement);
+  }
+} // namespace tread::reference

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace tread::reference
+{
+  Patch::Patch(const Grid &outer_grid, const std::vector<unsigned int> &elements)
+    : outer(elements)
+  {
+    unsigned int i0 = outer_grid.n_x, i1 = 0, j0 = outer_grid.n_y, j1 = 0;
+    for (const unsigned int e : elements)
+      {
+        const unsigned int i = e % outer_grid.n_x, j = e / outer_grid.n_x;
+        i0 = std::min(i0, i), i1 = std::max(i1, i);
+        j0 = std::min(j0, j), j1 = std::max(j1, j);
+      }
+    grid = Grid{i1 - i0 + 1, j1 - j0 + 1, outer_grid.dx, outer_grid.dy, outer_grid.x(i0), outer_grid.y(j0)};
+    inner.reserve(elements.size());
+    for (const unsigned int e : elements)
+      inner.push_back((e / outer_grid.n_x - j0) * grid.n_x + e % outer_grid.n_x - i0);
+  }
+
+  FrictionNewton::FrictionNewton(const FrictionEquations &equations)
+    : equations(equations)
+    , n(equations.patch->size())
+    , fourier(equations.patch->grid)
+    , op(fourier, equations.pair, equations.stencil)
+  {
+    fourier.select(equations.patch->inner);
+    p_ref                 = *std::max_element(equations.bound.begin(), equations.bound.end());
+    const Grid &grid      = equations.patch->grid;
+    double      diagonal  = 0.;
+    for (const auto &[w, offset] : equations.stencil)
+      diagonal += w * influence_coefficient(Influence::xx, equations.pair, grid.dx, grid.dy, offset, 0.);
+    r          = 1. / diagonal;
+    n_unknowns = 2 * n;
+    for (unsigned int d = 0; d < 2; ++d)
+      row[d] = equations.prescribed[d] ? static_cast<int>(n_unknowns++) : -1;
+    border = 1. / std::sqrt(static_cast<double>(n));
+    bound.resize(n);
+    for (std::size_t k = 0; k < n; ++k)
+      bound[k] = equations.bound[k] / p_ref;
+    fixed.resize(2 * n);
+    for (std::size_t k = 0; k < 2 * n; ++k)
+      fixed[k] = equations.fixed[k] * r / p_ref;
+    sigma.resize(2 * n), weight.resize(n), e_x.resize(n), e_y.resize(n), work.resize(2 * n);
+  }
+
+  // weight < 0 marks adhesion; else weight and (e_x, e_y) make the derivative of the projection.
+  double FrictionNewton::residual(const std::vector<double> &v, std::vector<double> &out)
+  {
+    op.apply(v.data(), sigma.data());
+    const double c_x = row[0] < 0 ? 0. : v[row[0]] * border, c_y = row[1] < 0 ? 0. : v[row[1]] * border;
+    double       worst = 0., sum[2] = {0., 0.};
+    out.resize(n_unknowns);
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        const double s_x = r * sigma[k] + fixed[k] + c_x, s_y = r * sigma[n + k] + fixed[n + k] + c_y;
+        sigma[k] = s_x, sigma[n + k] = s_y;
+        const double q_x = v[k] - s_x, q_y = v[n + k] - s_y;
+        const double size = std::hypot(q_x, q_y);
+        if (size <= bound[k])
+          {
+            weight[k]  = -1.;
+            out[k]     = s_x;
+            out[n + k] = s_y;
+          }
+        else
+          {
+            weight[k]  = bound[k] / size;
+            e_x[k]     = q_x / size;
+            e_y[k]     = q_y / size;
+            out[k]     = v[k] - weight[k] * q_x;
+            out[n + k] = v[n + k] - weight[k] * q_y;
+          }
+        worst = std::max({worst, std::abs(out[k]), std::abs(out[n + k])});
+        sum[0] += v[k];
+        sum[1] += v[n + k];
+      }
+    const double unit = p_ref * equations.patch->grid.element_area();
+    for (unsigned int d = 0; d < 2; ++d)
+      if (row[d] >= 0)
+        {
+          out[row[d]] = border * (sum[d] - equations.force[d] / unit);
+          worst       = std::max(worst, std::abs(out[row[d]]) * border);
+        }
+    return worst;
+  }
+
+  void FrictionNewton::jacobian(const double *in, double *out)
+  {
+    op.apply(in, work.data());
+    const double c_x = row[0] < 0 ? 0. : in[row[0]] * border, c_y = row[1] < 0 ? 0. : in[row[1]] * border;
+    double       sum[2] = {0., 0.};
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        const double s_x = r * work[k] + c_x, s_y = r * work[n + k] + c_y;
+        sum[0] += in[k];
+        sum[1] += in[n + k];
+        if (weight[k] < 0.)
+          {
+            out[k]     = s_x;
+            out[n + k] = s_y;
+          }
+        else
+          {
+            const double q_x = in[k] - s_x, q_y = in[n + k] - s_y;
+            const double along = e_x[k] * q_x + e_y[k] * q_y;
+            out[k]             = in[k] - weight[k] * (q_x - along * e_x[k]);
+            out[n + k]         = in[n + k] - weight[k] * (q_y - along * e_y[k]);
+          }
+      }
+    for (unsigned int d = 0; d < 2; ++d)
+      if (row[d] >= 0)
+        out[row[d]] = border * sum[d];
+  }
+
+  // In the adhesion area the inverse of the operator as if the plane were periodic, with some viscosity added that makes it
+  // regular for waves along y; identity elsewhere.
+  void FrictionNewton::precondition(const double *in, double *out)
+  {
+    std::copy_n(in, n_unknowns, out);
+    for (std::size_t k = 0; k < n; ++k)
+      if (weight[k] >= 0.)
+        out[k] = out[n + k] = 0.;
+    inverse->apply(out, work.data());
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        const bool adheres = weight[k] < 0.;
+        out[k]             = adheres ? work[k] / r : in[k];
+        out[n + k]         = adheres ? work[n + k] / r : in[n + k];
+      }
+  }
+
+  bool FrictionNewton::iterate(State &state, const double tolerance, const unsigned int max_iterations)
+  {
+    std::vector<double> v(n_unknowns, 0.), f, delta;
+    for (std::size_t k = 0; k < 2 * n; ++k)
+      v[k] = state.shear[k] / p_ref;
+    for (unsigned int d = 0; d < 2; ++d)
+      if (row[d] >= 0)
+        v[row[d]] = state.creepage[d] * r / p_ref / border;
+
+    bool preconditioned = false; static const unsigned N0 = std::getenv("N0") ? atoi(std::getenv("N0")) : 2000; unsigned int its = n > N0 ? 1000 : 0;
+    unsigned int k              = 0;
+    violation                   = residual(v, f);
+    static const bool verbose = std::getenv("V") != nullptr;
+    for (; k < max_iterations && violation > tolerance; ++k)
+      {
+        for (double &value : f)
+          value = -value;
+        const auto         product = [&](const double *in, double *out) { jacobian(in, out); };
+
+        static const unsigned switch_at = std::getenv("S") ? atoi(std::getenv("S")) : 50;
+        static const double lintol = std::getenv("L") ? atof(std::getenv("L")) : 1e-2;
+        if (its > switch_at && !preconditioned)
+          {
+            preconditioned = true;
+            if (inverse == nullptr)
+              {
+                auto stencil = equations.stencil;
+                static const double P = std::getenv("P") ? atof(std::getenv("P")) : .5;
+                stencil[0][0] += 1. / (P * equations.length);
+                inverse = std::make_unique<TangentialOperator>(fourier, equations.pair, stencil);
+                inverse->invert();
+              }
+          }
+        if (preconditioned)
+          its = gmres.solve(f, delta, lintol, 400, product, [&](const double *in, double *out) { precondition(in, out); });
+        else
+          its = gmres.solve(f, delta, lintol, 400, product, [&](const double *in, double *out) { std::copy_n(in, n_unknowns, out); });
+        linear_iterations += its;
+        ++iterations;
+        for (std::size_t e = 0; e < n_unknowns; ++e)
+          v[e] += delta[e];
+        for (std::size_t e = 0; e < n; ++e)
+          {
+            const double size = std::hypot(v[e], v[n + e]);
+            if (size > bound[e])
+              {
+                v[e] *= bound[e] / size;
+                v[n + e] *= bound[e] / size;
+              }
+          }
+        violation = residual(v, f);
+        if (verbose)
+          {
+            double norm=0; for (double q : f) norm += q*q;
+            std::printf("  n %zu newton %u gmres %u%s worst %.3e norm %.3e stick %ld\n", n, k, its, preconditioned?" p":"", violation, std::sqrt(norm/n), std::count_if(weight.begin(),weight.end(),[](double w){return w<0;}));
+          }
+      }
+    for (std::size_t e = 0; e < 2 * n; ++e)
+      state.shear[e] = v[e] * p_ref;
+    for (unsigned int d = 0; d < 2; ++d)
+      if (row[d] >= 0)
+        state.creepage[d] = v[row[d]] * border * p_ref / r;
+    return violation <= tolerance;
+  }
+
+  std::vector<double> FrictionNewton::slip() const
+  {
+    std::vector<double> result(2 * n);
+    for (std::size_t k = 0; k < 2 * n; ++k)
+      result[k] = sigma[k] * p_ref / r;
+    return result;
+  }
+} // namespace tread::reference

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_tests_check_h
+#define tread_tests_check_h
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace tread::tests
+{
+  /// Counts and prints comparisons: computed, reference, error, allowed, PASS or FAIL.
+  /// A test program returns check.exit_code() from main().
+  class Check
+  {
+  public:
+    /// |computed - reference| <= allowed * |reference|.
+    bool relative(const std::string &what, const double computed, const double reference, const double allowed)
+    {
+      return line(what, computed, reference, std::abs(computed - reference) / std::abs(reference), allowed);
+    }
+
+    /// |computed - reference| <= allowed, in the unit named in what.
+    bool absolute(const std::string &what, const double computed, const double reference, const double allowed)
+    {
+      return line(what, computed, reference, std::abs(computed - reference), allowed);
+    }
+
+    /// |computed| <= allowed.
+    bool below(const std::string &what, const double computed, const double allowed)
+    {
+      return line(what, computed, 0., std::abs(computed), allowed);
+    }
+
+    /// A statement that must hold.
+    bool that(const std::string &what, const bool holds)
+    {
+      return line(what, holds ? 1. : 0., 1., holds ? 0. : 1., 0.);
+    }
+
+    int exit_code() const
+    {
+      std::printf("%u comparisons, %u failed\n", n_lines, n_failed);
+      return (n_failed == 0 && n_lines > 0) ? 0 : 1;
+    }
+
+  private:
+    bool line(const std::string &what,
+              const double       computed,
+              const double       reference,
+              const double       error,
+              const double       allowed)
+    {
+      const bool pass = error <= allowed; // false for NaN
+      ++n_lines;
+      n_failed += pass ? 0 : 1;
+      std::printf("%-52s computed %15.8g  reference %15.8g  error %9.2e  allowed %9.2e  %s\n",
+                  what.c_str(), computed, reference, error, allowed, pass ? "PASS" : "FAIL");
+      return pass;
+    }
+
+    unsigned int n_lines  = 0;
+    unsigned int n_failed = 0;
+  };
+} // namespace tread::tests
+
+#endif
