@@ -1,1 +1,126 @@
-int main(){}
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/version.h>
+#include <tread/scene.h>
+#include <tread/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstring>
+#include <exception>
+#include <iostream>
+
+namespace
+{
+  const char *usage = R"(tread: a railway wheel rolls over a rail
+
+  tread SCENE.prm [options]            mpirun -np N tread SCENE.prm [options]
+
+  -s "Section/Name=value"   set a parameter; may be repeated
+  --output DIR              folder of the results
+  --resume                  go on from the last checkpoint in that folder
+  --dry-run                 print size and cost of the run; run and write nothing
+  --print-parameters        print all parameters with units, ranges and meaning, and stop
+  --version, --help
+)";
+
+  struct CommandLine
+  {
+    std::string              scene;
+    std::vector<std::string> settings;
+    std::string              output;
+    bool                     resume = false, dry_run = false, print_parameters = false;
+  };
+
+  CommandLine parse(const int argc, char **argv)
+  {
+    CommandLine line;
+    for (int i = 1; i < argc; ++i)
+      {
+        const std::string argument = argv[i];
+        const auto        value    = [&]() -> std::string {
+          if (i + 1 >= argc)
+            throw tread::SceneError(argument + " needs a value");
+          return argv[++i];
+        };
+        if (argument == "-s")
+          line.settings.push_back(value());
+        else if (argument == "--output")
+          line.output = value();
+        else if (argument == "--resume")
+          line.resume = true;
+        else if (argument == "--dry-run")
+          line.dry_run = true;
+        else if (argument == "--print-parameters")
+          line.print_parameters = true;
+        else if (!argument.empty() && argument[0] == '-')
+          throw tread::SceneError("unknown option '" + argument + "'; tread --help lists all");
+        else if (!line.scene.empty())
+          throw tread::SceneError("more than one scene: '" + line.scene + "' and '" + argument + "'");
+        else
+          line.scene = argument;
+      }
+    return line;
+  }
+
+  int run(const int argc, char **argv, const MPI_Comm comm)
+  {
+    const bool speaks = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    for (int i = 1; i < argc; ++i)
+      if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 || std::strcmp(argv[i], "--version") == 0)
+        {
+          if (speaks)
+            std::cout << (std::strcmp(argv[i], "--version") == 0 ? "tread " + tread::version() + "\n" : std::string(usage));
+          return 0;
+        }
+    const CommandLine line = parse(argc, argv);
+    tread::Scene      scene;
+    if (line.scene.empty() && !line.print_parameters)
+      throw tread::SceneError("no scene given; tread --help shows how, prm/ holds scenes to start from");
+    if (!line.scene.empty())
+      scene.read(line.scene, line.settings);
+    if (line.print_parameters)
+      {
+        if (speaks)
+          scene.print(std::cout, true);
+        return 0;
+      }
+    tread::Simulation simulation(scene, comm);
+    if (line.dry_run)
+      {
+        simulation.estimate();
+        return 0;
+      }
+    return simulation.run(line.output.empty() ? scene.output : line.output, line.resume) ? 0 : 130;
+  }
+} // namespace
+
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const MPI_Comm                           comm = MPI_COMM_WORLD;
+  const unsigned int                       rank = dealii::Utilities::MPI::this_mpi_process(comm);
+  try
+    {
+      return run(argc, argv, comm);
+    }
+  catch (const tread::SceneError &error)
+    {
+      // What is wrong with the input is found by all ranks alike.
+      if (rank == 0)
+        std::cerr << "tread: " << error.what() << std::endl;
+      return 1;
+    }
+  catch (const std::exception &error)
+    {
+      std::string text = error.what();
+      for (char &c : text)
+        if (c == '\n')
+          c = ' ';
+      std::cerr << "tread: " << (dealii::Utilities::MPI::n_mpi_processes(comm) > 1 ? "rank " + std::to_string(rank) + ": " : "")
+                << text << std::endl;
+      if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+        MPI_Abort(comm, 2);
+      return 2;
+    }
+}

@@ -1,1 +1,538 @@
-namespace tread {}
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/version.h>
+#include <tread/mesh/rail_body.h>
+#include <tread/mesh/wheel_body.h>
+#include <tread/output/checkpoint.h>
+#include <tread/output/summary.h>
+#include <tread/reference/hertz.h>
+#include <tread/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    volatile std::sig_atomic_t signal_received = 0;
+
+    void on_signal(int)
+    {
+      signal_received = 1;
+    }
+
+    template <typename... T>
+    std::string format(const char *pattern, const T... values)
+    {
+      char text[512];
+      std::snprintf(text, sizeof text, pattern, values...);
+      return text;
+    }
+
+    /// Half of the crown's relative curvature is B of the undeformed gap; the head's crown has its own radius.
+    double lateral_radius(const Scene &scene)
+    {
+      return scene.rail_shape == "block" ? 1e-3 * scene.crown_radius_mm :
+             scene.profile == "54E1"     ? RailProfile::rail_54e1().crown_radius() :
+                                           RailProfile::rail_60e1().crown_radius();
+    }
+
+    reference::RollingCase half_space_case(const Scene &scene, const double normal_force, const double traction_coefficient)
+    {
+      reference::RollingCase c;
+      c.curvature_x          = 0.5 / (1e-3 * scene.radius_mm);
+      c.curvature_y          = 0.5 / lateral_radius(scene);
+      c.normal_force         = normal_force;
+      c.friction             = std::max(scene.friction, 1e-6);
+      c.speed                = scene.speed();
+      c.wheel                = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
+      c.rail                 = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
+      c.prescribe_force      = true;
+      c.traction_coefficient = traction_coefficient;
+      c.element_size         = std::min(1e-3 * scene.finest_mm, 0.33e-3);
+      return c;
+    }
+
+    reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
+    {
+      const reference::RollingCase c = half_space_case(scene, normal_force, 0.);
+      return reference::hertz_ellipse(c.curvature_x, c.curvature_y, reference::combine(c.wheel, c.rail).hertz_modulus(),
+                                      normal_force);
+    }
+
+    std::vector<Body> make_bodies(const Scene &scene)
+    {
+      const double rolled = 1e-3 * scene.rolled_mm;
+      const double patch  = 1.4 * hertz(scene, scene.static_load()).semi_axis_x + 2e-3 * scene.finest_mm;
+
+      FineZone on_rail;
+      on_rail.finest_cell_size = 1e-3 * scene.finest_mm;
+      on_rail.x_begin          = -rolled - patch;
+      on_rail.x_end            = patch;
+      on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
+      on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
+      on_rail.cells_per_level  = scene.cells_per_level;
+      FineZone on_wheel        = on_rail;
+      on_wheel.x_begin         = -patch;
+      on_wheel.x_end           = rolled + patch;
+
+      std::vector<Body> bodies;
+      const double      margin = 1e-3 * scene.rail_margin_mm;
+      if (scene.rail_shape == "block")
+        {
+          RailBlock block;
+          block.x_begin            = -rolled - margin;
+          block.x_end              = margin;
+          block.width              = 1e-3 * scene.block_width_mm;
+          block.height             = 1e-3 * scene.block_height_mm;
+          block.crown_radius       = 1e-3 * scene.crown_radius_mm;
+          block.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
+          bodies.push_back(make_rail_block(block, on_rail));
+        }
+      else
+        {
+          RailHead head;
+          head.x_begin            = -rolled - margin;
+          head.x_end              = margin;
+          head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
+          bodies.push_back(
+            make_rail_head(scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1(), head, on_rail));
+        }
+      bodies.back().name = "rail";
+      if (scene.wheel_shape == "sector")
+        {
+          WheelSector sector;
+          sector.center_x           = -rolled;
+          sector.radius             = 1e-3 * scene.radius_mm;
+          sector.thickness          = 1e-3 * scene.sector_thickness_mm;
+          sector.width              = 1e-3 * scene.sector_width_mm;
+          sector.arc_begin          = -1e-3 * scene.sector_margin_mm;
+          sector.arc_end            = rolled + 1e-3 * scene.sector_margin_mm;
+          sector.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
+          bodies.push_back(make_wheel_sector(sector, on_wheel));
+        }
+      else
+        {
+          FullWheel wheel;
+          wheel.center_x           = -rolled;
+          wheel.radius             = 1e-3 * scene.radius_mm;
+          wheel.rim_inner_radius   = 1e-3 * scene.rim_inner_radius_mm;
+          wheel.rim_width          = 1e-3 * scene.rim_width_mm;
+          wheel.web_thickness      = 1e-3 * scene.web_thickness_mm;
+          wheel.hub_outer_radius   = 1e-3 * scene.hub_outer_radius_mm;
+          wheel.hub_length         = 1e-3 * scene.hub_length_mm;
+          wheel.bore_radius        = 1e-3 * scene.bore_radius_mm;
+          wheel.coarsest_cell_size = 1e-3 * std::max(scene.coarsest_mm, 20.);
+          bodies.push_back(make_full_wheel(wheel, on_wheel));
+        }
+      bodies.back().name = "wheel";
+      return bodies;
+    }
+
+    SolidParameters solid_parameters(const Scene &scene)
+    {
+      SolidParameters p;
+      p.element_type = scene.element == "one-point" ? ElementType::one_point : ElementType::fully_integrated;
+      p.hourglass_coefficient    = scene.hourglass_coefficient;
+      p.linear_bulk_viscosity    = scene.linear_bulk_viscosity;
+      p.quadratic_bulk_viscosity = scene.quadratic_bulk_viscosity;
+      p.density_scale            = scene.density_scale;
+      return p;
+    }
+
+    WheelHubParameters hub_parameters(const Scene &scene)
+    {
+      WheelHubParameters p;
+      p.mass                 = scene.wheel_mass;
+      p.moment_of_inertia    = scene.wheel_inertia;
+      p.sprung_mass          = scene.sprung_mass;
+      p.suspension_stiffness = 1e3 * scene.suspension_stiffness_kN_m;
+      p.suspension_damping   = scene.suspension_damping;
+      p.gravity              = scene.gravity;
+      return p;
+    }
+
+    DynamicsParameters dynamics_parameters(const Scene &scene)
+    {
+      DynamicsParameters p;
+      p.courant_number = scene.courant_number;
+      p.damping_steps  = scene.damping_steps;
+      p.density_scale  = scene.density_scale;
+      p.gravity        = scene.gravity;
+      return p;
+    }
+
+    ContactParameters contact_parameters(const Scene &scene)
+    {
+      ContactParameters p;
+      p.solver.tolerance  = scene.contact_tolerance;
+      p.solver.max_sweeps = scene.max_sweeps;
+      return p;
+    }
+  } // namespace
+
+
+  Simulation::Simulation(const Scene &scene, const MPI_Comm comm)
+    : scene(scene)
+    , comm(comm)
+    , mesh(comm, make_bodies(scene))
+    , solid(mesh, {scene.rail_material.si(), scene.wheel_material.si()}, solid_parameters(scene))
+    , hub(hub_parameters(scene))
+    , dynamics(mesh, solid, dynamics_parameters(scene))
+    , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
+    , end_position(0.5e-3 * scene.finest_mm)
+    , next_history(-1e-3 * (scene.rolled_mm - scene.history_mm))
+    , next_surface(scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300)
+    , next_volume(scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300)
+  {
+    const double radius = 1e-3 * scene.radius_mm, omega = scene.speed() / radius;
+    hub.place(-1e-3 * scene.rolled_mm, radius);
+    hub.motion.angular_velocity = omega;
+    dynamics.fix_nodes(dynamics.support_nodes(rail_body));
+    dynamics.attach_hub(hub, wheel_body, omega);
+    dynamics.attach_contact(contact);
+  }
+
+
+  std::uint64_t Simulation::remaining_steps() const
+  {
+    const double step = dynamics.time_step > 0. ? dynamics.time_step : scene.courant_number * dynamics.critical_time_step();
+    return static_cast<std::uint64_t>(std::ceil((end_position - position()) / (scene.speed() * step)));
+  }
+
+
+  bool Simulation::interrupted() const
+  {
+    return dealii::Utilities::MPI::max(static_cast<int>(signal_received), comm) != 0;
+  }
+
+
+  void Simulation::estimate()
+  {
+    const double        step  = scene.courant_number * dynamics.critical_time_step();
+    const std::uint64_t steps = remaining_steps();
+    // A few force evaluations tell this machine's pace.
+    NodalField          force(mesh.nodes.size(), Row{});
+    const auto          start = MPI_Wtime();
+    unsigned int        n     = 0;
+    for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
+      solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data());
+    const double seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
+    const double memory  = dealii::Utilities::MPI::sum(
+      static_cast<double>(solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.)), comm);
+    const double relaxation_steps = 3500.;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
+        std::printf("unknowns             %12llu\n", 3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
+        std::printf("time step            %12.4g s\n", step);
+        std::printf("steps                %12llu\n", (unsigned long long)steps);
+        std::printf("cells and nodes use  %12.0f MB\n", memory / 1e6);
+        std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
+                    scene.inertia_error_estimate(), scene.density_scale);
+        std::printf("estimated time       %12.0f s on %u rank(s), about 1.7 times that of the internal forces\n",
+                    1.7 * seconds * (steps + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
+      }
+  }
+
+
+  void Simulation::prepare_start(Progress &progress)
+  {
+    const double radius = 1e-3 * scene.radius_mm;
+    if (scene.creepage == "predicted")
+      {
+        predicted       = reference::solve_rolling(half_space_case(scene, scene.static_load(), scene.traction_coefficient));
+        target_creepage = -predicted.creepage;
+      }
+    else
+      target_creepage = std::stod(scene.creepage);
+
+    const double began = progress.seconds();
+    relaxation_iterations =
+      dynamics.relax(scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
+        if (progress.due())
+          progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
+      });
+    relaxation_seconds = progress.seconds() - began;
+    free_creepage      = contact.free_rolling_creepage(dynamics.x.data());
+    progress.say(format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
+                        relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
+
+    contact.set_friction(std::make_shared<CoulombFriction>(scene.friction));
+    hub.drive                   = Drive::creepage;
+    hub.motion.velocity_x       = scene.speed();
+    hub.motion.angular_velocity = scene.speed() / radius * (1. + target_creepage + free_creepage);
+    dynamics.set_wheel_velocities();
+    contact.scale_impulses(scene.courant_number * dynamics.critical_time_step());
+    dynamics.start();
+  }
+
+
+  void Simulation::set_drive()
+  {
+    if (scene.drive == "torque" && !torque_released && position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
+      {
+        hub.drive        = Drive::torque;
+        hub.drive_torque = scene.traction_coefficient * scene.static_load() * hub.motion.z;
+        torque_released  = true;
+      }
+  }
+
+
+  void Simulation::add_to_interval()
+  {
+    const Row force = (1. / dynamics.time_step) * contact.total_impulse();
+    interval_force += force;
+    ++interval_steps;
+    if (position() <= 0. && position() >= -10e-3)
+      {
+        last_force_sum += force;
+        last_force_low  = std::min(last_force_low, force[2]);
+        last_force_high = std::max(last_force_high, force[2]);
+        ++last_steps;
+      }
+    if (std::abs(position()) <= end_position)
+      average.add(contact.active_nodes(), position(), dynamics.time_step);
+  }
+
+
+  void Simulation::end_interval(RunFolder &folder)
+  {
+    HistoryRow row;
+    row.time     = dynamics.time;
+    row.position = position();
+    row.force    = (1. / interval_steps) * interval_force;
+    row.creepage = hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+    row.patch    = measure(patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    row.energy   = dynamics.ledger();
+    folder.append(row);
+    interval_force = Row{};
+    interval_steps = 0;
+  }
+
+
+  void Simulation::take_solution(RunFolder &folder)
+  {
+    solution_patch = patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
+    solution_taken = true;
+    folder.write_patch("patch.csv", solution_patch);
+    std::vector<Row> positions;
+    contact.surfaces.replicate(dynamics.x.data(), positions);
+    folder.write_surface(contact, rail_body, positions, dynamics.time, dynamics.time_step);
+    if (scene.write_volume)
+      folder.write_volume(dynamics, hub, wheel_body);
+  }
+
+
+  bool Simulation::run(const std::string &path, const bool resume)
+  {
+    Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    RunFolder  folder(path, comm);
+    Checkpoint checkpoint(folder, comm);
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+
+    std::ostringstream effective;
+    scene.print(effective, true);
+    folder.write("parameters.prm", effective.str());
+    progress.say("tread " + version() + (scene.title.empty() ? "" : ": " + scene.title));
+    progress.say(format("%llu cells, %llu unknowns, %u rank(s), %u lanes", (unsigned long long)mesh.n_global_cells,
+                        3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes),
+                        dealii::Utilities::MPI::n_mpi_processes(comm), n_lanes));
+    if (scene.density_scale > 1.)
+      progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%", scene.density_scale,
+                          100. * scene.inertia_error_estimate()));
+
+    if (resume)
+      {
+        checkpoint.read(*this);
+        progress.say(format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
+      }
+    else
+      prepare_start(progress);
+    folder.open_history(resume, dynamics.time);
+
+    const std::uint64_t n_steps = dynamics.n_steps + remaining_steps(), first_step = dynamics.n_steps;
+    progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
+                        (unsigned long long)(n_steps - first_step), 1e3 * (end_position - position())));
+    const double loop_began   = progress.seconds();
+    double       last_written = loop_began;
+    constexpr unsigned int steps_between_checks = 100;
+    bool         stopped = false;
+    while (dynamics.n_steps < n_steps)
+      {
+        set_drive();
+        dynamics.step();
+        add_to_interval();
+
+        if (!solution_taken && position() >= 0.)
+          take_solution(folder);
+        if (position() >= next_history)
+          {
+            end_interval(folder);
+            next_history += 1e-3 * scene.history_mm;
+          }
+        if (position() >= next_surface)
+          {
+            std::vector<Row> positions;
+            contact.surfaces.replicate(dynamics.x.data(), positions);
+            folder.write_surface(contact, rail_body, positions, dynamics.time, dynamics.time_step);
+            next_surface += 1e-3 * scene.surface_mm;
+          }
+        if (scene.write_volume && position() >= next_volume)
+          {
+            folder.write_volume(dynamics, hub, wheel_body);
+            next_volume += 1e-3 * scene.volume_mm;
+          }
+
+        if (dynamics.n_steps % steps_between_checks == 0)
+          {
+            dynamics.check_stability();
+            if (contact.touches_rim())
+              throw std::runtime_error(format("contact leaves the fine mesh at x = %.2f mm: raise 'Mesh/Fine half width (mm)'",
+                                              1e3 * position()));
+            if (interrupted())
+              {
+                stopped = true;
+                break;
+              }
+            const double now = progress.seconds();
+            const bool write_now = dealii::Utilities::MPI::max(
+              scene.checkpoint_minutes > 0. && now - last_written > 60. * scene.checkpoint_minutes ? 1 : 0, comm);
+            if (write_now)
+              {
+                checkpoint.write(*this);
+                last_written = now;
+              }
+            if (progress.due())
+              {
+                const Row    force = (1. / dynamics.time_step) * contact.total_impulse();
+                const double spent = now - loop_began, done = dynamics.n_steps - first_step;
+                progress.show(format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),
+                                     1e-3 * force[2], force[0] / force[2], 1e9 * spent / done / mesh.cells.size(),
+                                     spent / done * (n_steps - dynamics.n_steps)));
+              }
+          }
+      }
+    if (stopped)
+      checkpoint.write(*this);
+    finish(folder, !stopped, progress.seconds());
+    return !stopped;
+  }
+
+
+  void Simulation::finish(RunFolder &folder, const bool completed, const double wall_seconds)
+  {
+    using dealii::Utilities::MPI::max;
+    const EnergyLedger  energy = dynamics.ledger();
+    const bool          averaged = average.n_steps() > 0;
+    const PatchMeasures instant =
+      measure(solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    const PatchMeasures mean = averaged ? average.measures() : instant;
+    const Row    force = last_steps > 0 ? (1. / last_steps) * last_force_sum : (1. / dynamics.time_step) * contact.total_impulse();
+    const double normal = force[2];
+    const double creepage = hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+    const double steps = std::max<double>(1., dynamics.n_steps);
+
+    Summary summary;
+    summary.set("title", scene.title);
+    summary.set("completed", completed);
+    summary.set("normal_force_N", normal);
+    summary.set("longitudinal_force_N", force[0]);
+    summary.set("lateral_force_N", force[1]);
+    summary.set("traction_coefficient", force[0] / normal);
+    summary.set("normal_force_ripple_share",
+                last_steps > 0 ? std::max(last_force_high - normal, normal - last_force_low) / normal : 0.);
+    summary.set("free_rolling_creepage", free_creepage);
+
+    const reference::HertzEllipse ellipse = hertz(scene, normal);
+    const auto compare_hertz = [&](const char *name, const char *label, const double scale, const double value, const double reference) {
+      summary.compare(name, label, scale, value, "Hertz", reference);
+    };
+    compare_hertz("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure, ellipse.max_pressure);
+    compare_hertz("patch_area_m2", "patch area, mm2", 1e6, mean.area, ellipse.area);
+    compare_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, mean.semi_axis_x, ellipse.semi_axis_x);
+    compare_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, mean.semi_axis_y, ellipse.semi_axis_y);
+    compare_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, mean.pressure_semi_axis_x, ellipse.semi_axis_x);
+    compare_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, mean.pressure_semi_axis_y, ellipse.semi_axis_y);
+
+    // Kalker's answer for the forces that act.
+    std::string note;
+    summary.set("creepage", creepage);
+    summary.set("adhesion_share", mean.adhesion_share);
+    summary.set("max_shear_Pa", mean.max_shear);
+    summary.set("max_slip_m_per_s", mean.max_slip);
+    summary.set("frictional_power_W", mean.frictional_power);
+    if (std::abs(force[0]) < 0.999 * scene.friction * normal)
+      try
+        {
+          const reference::RollingResult half_space = reference::solve_rolling(half_space_case(scene, normal, force[0] / normal));
+          const auto compare = [&](const char *name, const char *label, const double scale, const double value, const double reference) {
+            summary.compare(name, label, scale, value, "half-space", reference);
+          };
+          compare("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure, half_space.max_pressure);
+          compare("creepage", "creepage, 1e-3", 1e3, creepage, -half_space.creepage);
+          compare("adhesion_share", "adhesion share, %", 1e2, mean.adhesion_share, half_space.adhesion_share);
+          compare("max_shear_Pa", "maximum shear stress, MPa", 1e-6, mean.max_shear, half_space.max_shear);
+          compare("max_slip_m_per_s", "maximum micro-slip, m/s", 1., mean.max_slip, half_space.max_slip);
+          compare("frictional_power_W", "frictional power, W", 1., mean.frictional_power, half_space.power_balance);
+          std::vector<PatchNode> nodes;
+          for (std::size_t i = 0; i < half_space.x.size(); ++i)
+            if (half_space.state[i] != reference::ElementState::exterior)
+              nodes.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.}, half_space.element_size * half_space.element_size,
+                               half_space.pressure[i], {half_space.shear_x[i], half_space.shear_y[i]},
+                               {half_space.slip_x[i], half_space.slip_y[i]}, half_space.state[i] == reference::ElementState::adhesion});
+          folder.write_patch("reference_patch.csv", nodes);
+        }
+      catch (const std::exception &error)
+        {
+          note = std::string("no half-space reference: ") + error.what();
+          summary.set("note", note);
+        }
+
+    summary.set("energy_residual_share", energy.residual_share());
+    for (const auto &[name, value] : std::vector<std::pair<const char *, double>>{{"external_work_J", energy.external_work},
+                                                                                  {"gross_work_J", energy.gross_work},
+                                                                                  {"frictional_work_J", energy.friction},
+                                                                                  {"damping_work_J", energy.damping},
+                                                                                  {"contact_loss_J", energy.contact},
+                                                                                  {"energy_residual_J", energy.residual()}})
+      summary.set(name, value);
+    summary.set("cells", mesh.n_global_cells);
+    summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
+    summary.set("steps", dynamics.n_steps);
+    summary.set("time_step_s", dynamics.time_step);
+    summary.set("density_scale", scene.density_scale);
+    summary.set("inertia_error_estimate", scene.inertia_error_estimate());
+    summary.set("rolled_m", position() + 1e-3 * scene.rolled_mm);
+    const StepTimes &times = dynamics.times;
+    summary.set("wall_s", max(wall_seconds, comm));
+    summary.set("wall_s_start", max(relaxation_seconds, comm));
+    summary.set("wall_s_internal_forces", max(times.internal_forces, comm));
+    summary.set("wall_s_contact", max(times.contact + times.search, comm));
+    summary.set("wall_s_communication", max(times.communication, comm));
+    summary.set("wall_s_nodes", max(times.nodes, comm));
+    summary.set("element_updates_per_s", mesh.n_global_cells * steps / std::max(1e-9, max(times.internal_forces, comm)));
+    summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
+    summary.set("version", version());
+    folder.write("summary.json", summary.text());
+    if (averaged)
+      folder.write_patch("patch_averaged.csv", average.nodes());
+
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the work\n\n%s\n%s%s",
+                    1e-3 * normal,
+                    last_steps > 0 ? 100. * std::max(last_force_high - normal, normal - last_force_low) / normal : 0.,
+                    force[0] / normal, energy.residual_share(), summary.table().c_str(), note.c_str(), note.empty() ? "" : "\n");
+        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s\n", completed ? "finished" : "INTERRUPTED: stopped",
+                    wall_seconds, folder.path("").c_str(),
+                    solution_taken ? ", patch.csv; for ParaView: volume.pvd, surface.pvd" : "; go on with --resume");
+      }
+  }
+} // namespace tread

@@ -142,7 +142,15 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::start()
+  void ExplicitDynamics::set_wheel_velocities()
+  {
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (on_wheel[i])
+        v[i] = hub->velocity_at(x[i]);
+  }
+
+
+  void ExplicitDynamics::set_inertia()
   {
     time_step = parameters.courant_number * critical_time_step();
     std::vector<char> hanging(mesh.nodes.size(), false);
@@ -159,6 +167,12 @@ namespace tread
     const double beta = parameters.damping_steps * time_step;
     for (unsigned int i = 0; i < x.size(); ++i)
       x_damped[i] = x[i] + beta * v[i];
+  }
+
+
+  void ExplicitDynamics::start()
+  {
+    set_inertia();
     totals              = EnergyLedger();
     start_kinetic       = kinetic_energy();
     start_potential     = body_potential();

@@ -152,7 +152,7 @@ namespace tread
     std::fill(force.begin(), force.end(), Row{});
     std::fill(v.begin(), v.end(), Row{});
     if (hub)
-      hub->place(hub->motion.x, hub->motion.z);
+      hub->balance_suspension();
     return iteration;
   }
 } // namespace tread

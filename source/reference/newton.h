@@ -71,7 +71,7 @@ namespace tread::reference
     const std::size_t                   n;
     FourierGrid                         fourier;
     TangentialOperator                  op;
-    std::unique_ptr<TangentialOperator> inverse; // made when first needed
+    std::unique_ptr<TangentialOperator> inverse; // preconditioner
     double                              p_ref, r;
     double                              border;  // 1/sqrt(n): scales the rows and columns of prescribed forces
     int                                 row[2];  // of the prescribed forces, -1: none

@@ -22,7 +22,7 @@ namespace tread::reference
   /// A finite number > 0.
   inline void require_positive(const std::string &name, const double value, const std::string &unit)
   {
-    require(std::isfinite(value) && value > 0., name, value, "a number > 0 " + unit);
+    require(std::isfinite(value) && value > 0., name, value, "a number > 0" + (unit.empty() ? "" : " " + unit));
   }
 
   inline void require_finite(const std::string &name, const double value)

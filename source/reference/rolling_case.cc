@@ -1,52 +1,153 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// First version: Hertz and Shen-Hedrick-Elkins until the half-space solver is in.
+#include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
-#include <tread/reference/kalker.h>
 #include <tread/reference/rolling_case.h>
 
 #include "require.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace tread::reference
 {
-  double creepage_for_traction(const RollingCase &c)
+  namespace
   {
-    const ElasticPair  pair  = combine(c.wheel, c.rail);
-    const HertzEllipse hertz = hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
-    const CreepPatch   patch{hertz.semi_axis_x, hertz.semi_axis_y, pair.shear, pair.poisson, c.normal_force, c.friction};
-    return -shen_hedrick_elkins_creepage(patch, c.traction_coefficient * c.normal_force);
-  }
+    void check(const RollingCase &c)
+    {
+      require_positive("curvature_x", c.curvature_x, "1/m");
+      require_positive("curvature_y", c.curvature_y, "1/m");
+      require_positive("normal_force", c.normal_force, "N (no contact otherwise)");
+      require_positive("friction", c.friction, "");
+      require_positive("speed", c.speed, "m/s");
+      require_positive("element_size", c.element_size, "m");
+      require_finite("lateral_creepage", c.lateral_creepage);
+      require_finite("spin", c.spin);
+      if (c.prescribe_force)
+        require(std::abs(c.traction_coefficient) < c.friction, "traction_coefficient", c.traction_coefficient,
+                "less in magnitude than the friction coefficient, " + std::to_string(c.friction));
+      else
+        require_finite("creepage", c.creepage);
+    }
+
+    void summarise(const RollingCase &c, const Grid &grid, RollingResult &result)
+    {
+      const double              area = grid.element_area();
+      std::vector<unsigned int> in_row(grid.n_y, 0), in_column(grid.n_x, 0);
+      unsigned int              n_contact = 0, n_adhesion = 0;
+      for (std::size_t e = 0; e < grid.size(); ++e)
+        if (result.state[e] != ElementState::exterior)
+          {
+            ++n_contact;
+            n_adhesion += result.state[e] == ElementState::adhesion ? 1 : 0;
+            ++in_row[e / grid.n_x];
+            ++in_column[e % grid.n_x];
+            const double shear      = std::hypot(result.shear_x[e], result.shear_y[e]);
+            const double slip       = std::hypot(result.slip_x[e], result.slip_y[e]);
+            result.max_pressure     = std::max(result.max_pressure, result.pressure[e]);
+            result.max_shear        = std::max(result.max_shear, shear);
+            result.max_slip         = std::max(result.max_slip, slip);
+            result.frictional_power += shear * slip * area;
+          }
+      result.area                 = n_contact * area;
+      result.semi_axis_x          = 0.5 * grid.dx * *std::max_element(in_row.begin(), in_row.end());
+      result.semi_axis_y          = 0.5 * grid.dy * *std::max_element(in_column.begin(), in_column.end());
+      result.adhesion_share       = static_cast<double>(n_adhesion) / n_contact;
+      result.traction_coefficient = result.longitudinal_force / result.normal_force;
+      result.power_balance        = -c.speed * (result.longitudinal_force * result.creepage + result.lateral_force * result.lateral_creepage +
+                                         result.spin_moment * result.spin);
+    }
+  } // namespace
 
   RollingResult solve_rolling(const RollingCase &c)
   {
+    const auto start = std::chrono::steady_clock::now();
+    check(c);
     const ElasticPair  pair  = combine(c.wheel, c.rail);
     const HertzEllipse hertz = hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
-    const double       d     = c.element_size;
-    require_positive("element_size", d, "m");
-    RollingResult r;
-    const int     mx = static_cast<int>(hertz.semi_axis_x / d) + 2, my = static_cast<int>(hertz.semi_axis_y / d) + 2;
-    r.n_x = 2 * mx + 1, r.n_y = 2 * my + 1;
-    r.element_size = d;
-    for (int j = -my; j <= my; ++j)
-      for (int i = -mx; i <= mx; ++i)
+    require(3. * c.element_size <= std::min(hertz.semi_axis_x, hertz.semi_axis_y), "element_size", c.element_size,
+            "at most a third of the smaller Hertz semi-axis, " + std::to_string(std::min(hertz.semi_axis_x, hertz.semi_axis_y) / 3.) + " m");
+
+    TangentialProblem tangential;
+    tangential.friction                    = c.friction;
+    tangential.longitudinal                = c.prescribe_force ? 0. : c.creepage;
+    tangential.lateral                     = c.lateral_creepage;
+    tangential.spin                        = c.spin;
+    tangential.prescribe_longitudinal_force = c.prescribe_force;
+    tangential.longitudinal_force          = c.traction_coefficient * c.normal_force;
+
+    RollingResult   result;
+    Grid            grid;
+    ContactSolution contact;
+    double          margin = 2. * c.element_size;
+    for (;;)
+      {
+        grid = centred_grid(hertz.semi_axis_x + margin, hertz.semi_axis_y + margin, c.element_size);
+        NormalProblem normal;
+        normal.force = c.normal_force;
+        normal.gap.resize(grid.size());
+        normal.initial_pressure.resize(grid.size());
+        for (unsigned int j = 0; j < grid.n_y; ++j)
+          for (unsigned int i = 0; i < grid.n_x; ++i)
+            {
+              const double x = grid.x(i), y = grid.y(j);
+              normal.gap[j * grid.n_x + i]              = c.curvature_x * x * x + c.curvature_y * y * y;
+              normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
+            }
+        contact = solve_contact(grid, pair, normal, tangential);
+        if (!contact.normal.cut)
+          break;
+        margin *= 3.;
+        result.note = "the patch reached the border of the grid, which was enlarged";
+      }
+
+    result.n_x          = grid.n_x;
+    result.n_y          = grid.n_y;
+    result.element_size = c.element_size;
+    for (unsigned int j = 0; j < grid.n_y; ++j)
+      for (unsigned int i = 0; i < grid.n_x; ++i)
         {
-          r.x.push_back(i * d), r.y.push_back(j * d);
-          const double p = hertz.pressure(i * d, j * d);
-          r.pressure.push_back(p);
-          r.shear_x.push_back(c.traction_coefficient * p), r.shear_y.push_back(0.);
-          r.slip_x.push_back(0.), r.slip_y.push_back(0.);
-          r.state.push_back(p > 0. ? ElementState::adhesion : ElementState::exterior);
+          result.x.push_back(grid.x(i));
+          result.y.push_back(grid.y(j));
         }
-    r.normal_force         = c.normal_force;
-    r.longitudinal_force   = c.traction_coefficient * c.normal_force;
-    r.traction_coefficient = c.traction_coefficient;
-    r.creepage             = -creepage_for_traction(c);
-    r.approach             = hertz.approach;
-    r.max_pressure = r.hertz_pressure = hertz.max_pressure;
-    r.area         = hertz.area;
-    r.semi_axis_x = r.hertz_semi_x = hertz.semi_axis_x;
-    r.semi_axis_y = r.hertz_semi_y = hertz.semi_axis_y;
-    return r;
+    NormalSolution     &n = contact.normal;
+    TangentialSolution &t = contact.tangential;
+    result.pressure       = std::move(n.pressure);
+    result.shear_x        = std::move(t.shear_x);
+    result.shear_y        = std::move(t.shear_y);
+    result.slip_x         = std::move(t.slip_x);
+    result.slip_y         = std::move(t.slip_y);
+    for (std::size_t e = 0; e < grid.size(); ++e)
+      {
+        result.slip_x[e] *= c.speed;
+        result.slip_y[e] *= c.speed;
+      }
+    result.state                 = std::move(t.state);
+    result.normal_force          = n.force;
+    result.longitudinal_force    = t.longitudinal_force;
+    result.lateral_force         = t.lateral_force;
+    result.spin_moment           = t.spin_moment;
+    result.creepage              = t.longitudinal;
+    result.lateral_creepage      = t.lateral;
+    result.spin                  = t.spin;
+    result.approach              = n.approach;
+    result.hertz_pressure        = hertz.max_pressure;
+    result.hertz_semi_x          = hertz.semi_axis_x;
+    result.hertz_semi_y          = hertz.semi_axis_y;
+    result.normal_iterations     = n.iterations;
+    result.tangential_iterations = t.iterations;
+    result.linear_iterations     = t.linear_iterations;
+    result.normal_residual       = n.residual;
+    result.tangential_residual   = t.residual;
+    summarise(c, grid, result);
+    result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
+  double creepage_for_traction(const RollingCase &rolling_case)
+  {
+    RollingCase c     = rolling_case;
+    c.prescribe_force = true;
+    return -solve_rolling(c).creepage;
   }
 } // namespace tread::reference

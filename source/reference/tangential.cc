@@ -13,8 +13,9 @@ namespace tread::reference
   {
     using Vector = std::vector<double>;
 
-    // Below this number of elements in contact no coarser grid is asked for a first guess.
-    constexpr std::size_t coarsest = 150;
+    // Up to this number of elements in a row no coarser grid is asked for a first guess: Newton's method moves a wrong border of
+    // adhesion and slip by about one element per step.
+    constexpr unsigned int coarsest = 14;
 
     double step_of(const Grid &grid, const TangentialProblem &problem)
     {
@@ -280,7 +281,8 @@ namespace tread::reference
                       const TangentialProblem   &problem,
                       const double               tolerance,
                       TangentialSolution        &solution,
-                      const bool                 finest)
+                      const bool                 finest,
+                      const bool                 started)
     {
       const std::vector<unsigned int> contact = elements_in_contact(pressure);
       const Patch                     patch(grid, contact);
@@ -289,25 +291,31 @@ namespace tread::reference
 
       Level level;
       level.state.shear.assign(2 * n, 0.);
-      level.state.creepage[0] = problem.longitudinal;
-      level.state.creepage[1] = problem.lateral;
-      if (finest && (!problem.initial_shear_x.empty() || !problem.initial_shear_y.empty()))
-        for (std::size_t k = 0; k < n; ++k)
-          {
-            level.state.shear[k]     = problem.initial_shear_x.empty() ? 0. : problem.initial_shear_x[contact[k]];
-            level.state.shear[n + k] = problem.initial_shear_y.empty() ? 0. : problem.initial_shear_y[contact[k]];
-          }
-      else if (n > coarsest && patch.grid.n_x > 8)
+      // Without tractions to start from, the creepages of prescribed forces start at zero: the first, linear step finds better ones than
+      // most guesses, while one beyond full slip leads nowhere.
+      if (started)
+        {
+          level.state.creepage[0] = problem.longitudinal;
+          level.state.creepage[1] = problem.lateral;
+          for (std::size_t k = 0; k < n; ++k)
+            {
+              level.state.shear[k]     = problem.initial_shear_x.empty() ? 0. : problem.initial_shear_x[contact[k]];
+              level.state.shear[n + k] = problem.initial_shear_y.empty() ? 0. : problem.initial_shear_y[contact[k]];
+            }
+        }
+      else if (patch.grid.n_x > coarsest)
         {
           // the coarse grid's own violation of the fine equations is some per cent: no need to solve it well
           const CoarseProblem coarse = coarsen(grid, pressure, problem);
-          const Level guess = solve_level(coarse.grid, pair, coarse.pressure, coarse.problem, std::max(tolerance, 1e-3), solution, false);
+          const Level guess = solve_level(coarse.grid, pair, coarse.pressure, coarse.problem, std::max(tolerance, 1e-3), solution, false, false);
           level.state.shear = prolongate(grid, patch, equations.bound, coarse, guess.shear_x, guess.shear_y);
           std::copy_n(guess.state.creepage, 2, level.state.creepage);
         }
 
       FrictionNewton newton(equations);
       bool           converged = newton.iterate(level.state, tolerance, problem.max_iterations);
+      if (!converged && started)
+        return solve_level(grid, pair, pressure, problem, tolerance, solution, finest, false);
       if (!converged && problem.motion == Motion::steady)
         {
           solution.fallback_steps += march(grid, pair, patch, pressure, problem, level);
@@ -358,7 +366,8 @@ namespace tread::reference
   {
     check(grid, pressure, problem);
     TangentialSolution solution;
-    Level              level = solve_level(grid, pair, pressure, problem, problem.tolerance, solution, true);
+    const bool         started = !problem.initial_shear_x.empty() || !problem.initial_shear_y.empty();
+    Level              level   = solve_level(grid, pair, pressure, problem, problem.tolerance, solution, true, started);
     solution.shear_x         = std::move(level.shear_x);
     solution.shear_y         = std::move(level.shear_y);
     return solution;

@@ -9,9 +9,9 @@ namespace tread
 {
   void WheelHub::place(const double x, const double z)
   {
-    motion.x      = x;
-    motion.z      = z;
-    equilibrium_z = z;
+    motion.x = reference_x = x;
+    motion.z = reference_z = z;
+    balance_suspension();
   }
 
 

@@ -69,6 +69,9 @@ namespace tread
     /// Largest stable time step of the free cells with the damping asked for, s.
     double critical_time_step() const;
 
+    /// Give the nodes of the wheel the velocities of the hub's rigid motion at their present positions.
+    void set_wheel_velocities();
+
     /// Take over inertia and time step and zero the ledger; call after all that is attached and set.
     void start();
 
@@ -108,7 +111,8 @@ namespace tread
     const Solid &solid;
 
   private:
-    void   add_internal_forces();
+    /// Time step, inverse masses and all that follows from positions and velocities.
+    void   set_inertia();
     void   add_hub_sums(std::vector<double> &sums) const;
     void   move_hub_nodes();
     double kinetic_energy() const;

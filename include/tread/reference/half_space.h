@@ -59,7 +59,7 @@ namespace tread::reference
     double friction = 0.; ///< f > 0
     double step     = 0.; ///< distance rolled per step [m]; 0: the element edge dx
 
-    double longitudinal = 0.; ///< xi [-] (shift: [m]); first guess if a force is prescribed
+    double longitudinal = 0.; ///< xi [-] (shift: [m]); if Fx is prescribed: not used, or first guess with initial_shear
     double lateral      = 0.; ///< eta [-] (shift: [m])
     double spin         = 0.; ///< phi [rad/m] (shift: [rad])
 
@@ -71,7 +71,7 @@ namespace tread::reference
     std::vector<double> previous_shear_x; ///< full grid, before the step; empty: none (not used if steady)
     std::vector<double> previous_shear_y;
     std::vector<double> previous_pressure; ///< for unlike bodies only; empty: as now if rolling, none if shift
-    std::vector<double> initial_shear_x;   ///< start of the iteration; empty: by itself
+    std::vector<double> initial_shear_x;   ///< start of the iteration; empty: solutions on coarser grids
     std::vector<double> initial_shear_y;
 
     double       tolerance      = 1e-6; ///< on the violation of Coulomb's law, in units of f p_max

@@ -42,8 +42,14 @@ namespace tread
       : parameters(parameters)
     {}
 
-    /// Put the axle at (x, z); z is also where the suspension is in equilibrium.
+    /// Put the axle into its reference position (x, z).
     void place(const double x, const double z);
+
+    /// The suspension is in equilibrium where the axle is now.
+    void balance_suspension()
+    {
+      equilibrium_z = motion.z;
+    }
 
     /// Take the cells' share out of mass and inertia: m (kg), their moment of inertia about the axle (kg m^2) and first
     /// moment in the reference position (x and z, kg m). The whole wheel is balanced, so the rigid rest has the
@@ -64,6 +70,16 @@ namespace tread
     Row velocity_at(const Row x) const;
 
     double kinetic_energy() const;
+
+    /// Where the axle was in the reference configuration, m.
+    double start_x() const
+    {
+      return reference_x;
+    }
+    double start_z() const
+    {
+      return reference_z;
+    }
 
     /// Work done so far on hub and cells by drive, guidance, suspension and weight, J.
     double external_work() const
@@ -86,7 +102,7 @@ namespace tread
     /// First moment now, by turning the reference one about +y.
     void first_moment(double &x, double &z) const;
 
-    double equilibrium_z = 0., work = 0., gross = 0.;
+    double reference_x = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
     double reference_first_moment[2] = {0., 0.};
 
     friend class Checkpoint;

@@ -1,0 +1,342 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of a run of tread, written to RUN_DIR/pictures:
+
+  axis.png      pressure, shear stress and micro-slip along the longitudinal axis of the patch
+  map.png       adhesion and slip areas
+  vectors.png   shear stress on the wheel and micro-slip
+  forces.png    forces, traction coefficient and creepage over the rolled position
+  energies.png  energy ledger over time
+"""
+
+import argparse
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Ellipse, Patch as Swatch
+
+from run_data import DataError, read_contact, read_patch, read_summary, read_table, reference_value
+
+# Okabe and Ito's colours, which the colour-blind can tell apart.
+BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"
+GREY, ADHESION, SLIP = "#666666", "#A9CBE3", "#F3B77E"
+
+plt.rcParams.update({
+    "font.size": 10, "axes.titlesize": 10, "axes.labelsize": 10, "legend.fontsize": 9,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#E3E3E3",
+    "grid.linewidth": 0.7, "axes.axisbelow": True, "legend.frameon": False, "lines.linewidth": 1.6,
+    "figure.dpi": 100, "savefig.dpi": 160, "savefig.bbox": "tight", "font.family": "DejaVu Sans"})
+
+
+class Run:
+    """All that the pictures need."""
+
+    def __init__(self, folder, contact_file):
+        self.summary = read_summary(folder)
+        self.patch = read_patch(os.path.join(folder, "patch.csv"))
+        self.averaged = self.optional(folder, "patch_averaged.csv")
+        self.references = []  # (label, patch, colour, line style)
+        reference = self.optional(folder, "reference_patch.csv")
+        if reference is not None:
+            self.references.append(("half-space solver", reference, ORANGE, "-"))
+        if contact_file:
+            patch = read_contact(contact_file)
+            self.references.append((f"CONTACT, {patch.size_x:.2g} mm", patch, "black", "--"))
+        self.history = read_table(os.path.join(folder, "history.csv"), ("time_s",))
+        if not len(self.history["time_s"]):
+            raise DataError(f"{os.path.join(folder, 'history.csv')}: no rows")
+
+        scale = {"semi_axis_x_m": 1e3, "semi_axis_y_m": 1e3, "max_pressure_Pa": 1e-6}
+        hertz = [reference_value(self.summary, key, "Hertz") for key in scale]
+        self.hertz = None
+        if None in hertz:
+            print("note: summary.json has no Hertz values; drawn without")
+        else:
+            self.hertz = [value * factor for value, factor in zip(hertz, scale.values())]
+        self.missing = []
+        self.friction = self.summary.get("friction_coefficient") or self.patch.friction_coefficient()
+
+    @staticmethod
+    def optional(folder, name):
+        path = os.path.join(folder, name)
+        if os.path.exists(path):
+            return read_patch(path)
+        print(f"note: no {name}; drawn without")
+        return None
+
+    def title(self):
+        parts = []
+        for key, template, factor in (("normal_force_N", "normal force {:.1f} kN", 1e-3),
+                                      ("traction_coefficient", "traction coefficient {:.3f}", 1.0),
+                                      ("creepage", "creepage {:.3f} %", 100.0)):
+            if isinstance(self.summary.get(key), (int, float)):
+                parts.append(template.format(self.summary[key] * factor))
+        parts.append(f"cells {self.patch.size_x:.2f} mm")
+        return ", ".join(parts)
+
+
+def rolling_arrow(axes, y=1.04):
+    axes.annotate("", xy=(1.0, y), xytext=(0.84, y), xycoords="axes fraction",
+                  arrowprops=dict(arrowstyle="-|>", color="black", lw=1.2, mutation_scale=12))
+    axes.text(0.83, y, "rolling direction", transform=axes.transAxes, ha="right", va="center", fontsize=9)
+
+
+def axis_profile(patch, values):
+    """(x, values) on the line y = 0, with a zero at both ends: nodes out of contact carry nothing."""
+    x, _, _ = patch.grid(values)
+    result = patch.sampled(values, x, np.zeros_like(x))
+    loaded = np.nonzero(patch.sampled(patch.pressure, x, np.zeros_like(x)) > 0)[0]
+    span = slice(loaded[0] - 1, loaded[-1] + 2) if len(loaded) else slice(0, 0)
+    return x[span], result[span]
+
+
+def dominant(patch):
+    """Along which axis the shear acts: x unless the lateral force is the larger."""
+    along_x = abs((patch.shear_x * patch.area).sum()) >= abs((patch.shear_y * patch.area).sum())
+    return "x" if along_x else "y"
+
+
+def draw_axis(run):
+    patch, direction = run.patch, dominant(run.patch)
+    name = {"x": "longitudinal", "y": "lateral"}[direction]
+    figure, axes = plt.subplots(3, 1, figsize=(7.6, 8.6), sharex=True)
+    shear, slip = f"shear_{direction}", f"slip_{direction}"
+
+    if run.hertz:
+        a, _, p0 = run.hertz
+        x = np.linspace(-a, a, 401)
+        ellipse = p0 * np.sqrt(1 - (x / a) ** 2)
+        axes[0].plot(x, ellipse, color=GREY, lw=3.5, alpha=0.45, label="Hertz")
+        if run.friction:
+            sign = np.sign((getattr(patch, shear) * patch.area).sum()) or 1.0
+            axes[1].plot(x, sign * run.friction * ellipse, color=GREY, lw=1.2, ls=":",
+                         label=f"friction bound, {run.friction:.2g} x Hertz")
+    for row, field in enumerate(("pressure", shear, slip)):
+        for label, other, colour, style in run.references:
+            axes[row].plot(*axis_profile(other, getattr(other, field)), color=colour, ls=style, lw=1.4,
+                           label=label)
+        axes[row].plot(*axis_profile(patch, getattr(patch, field)), color=BLUE, marker="o", ms=3.6,
+                       lw=0.9, label="tread")
+    if run.averaged is not None:
+        axes[2].plot(*axis_profile(run.averaged, getattr(run.averaged, slip)), color=RED, marker="s",
+                     ms=3.0, lw=0.9, label="tread, mean of one cell passage")
+    entries = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels())}
+
+    axes[0].set_ylabel("pressure [MPa]")
+    axes[1].set_ylabel(f"{name} shear stress\non the wheel [MPa]")
+    axes[2].set_ylabel(f"{name} micro-slip of wheel\nrelative to rail [m/s]")
+    axes[2].set_xlabel("x from the patch centre, at y = 0 [mm]")
+    axes[0].set_ylim(bottom=0)
+    axes[2].legend(entries.values(), entries.keys(), loc="upper center", bbox_to_anchor=(0.47, -0.22), ncol=3)
+    for axis in axes:
+        axis.axhline(0, color="#999999", lw=0.8, zorder=0)
+    limit = 1.12 * max(abs(patch.x).max(), run.hertz[0] if run.hertz else 0)
+    axes[0].set_xlim(-limit, limit)
+    axes[0].set_title(run.title(), loc="left", pad=24)
+    rolling_arrow(axes[0])
+    figure.align_ylabels(axes)
+    return figure
+
+
+def patch_axes(axis, run):
+    if run.hertz:
+        a, b, _ = run.hertz
+        axis.add_patch(Ellipse((0, 0), 2 * a, 2 * b, fill=False, ec="black", lw=1.3, zorder=4))
+    x = 1.12 * max(abs(run.patch.x).max(), run.hertz[0] if run.hertz else 0)
+    y = 1.12 * max(abs(run.patch.y).max(), run.hertz[1] if run.hertz else 0)
+    axis.set_xlim(-x, x)
+    axis.set_ylim(-y, y)
+    axis.set_aspect("equal")
+    axis.grid(False)
+    axis.set_xlabel("x, rolling direction [mm]")
+    axis.set_ylabel("y, lateral [mm]")
+
+
+def adhesion_border(axis, patch, **style):
+    """The line on which adhesion gives way to slip; the barely loaded rim of the patch is left out."""
+    loaded = patch.pressure > 0.2 * patch.pressure.max()
+    x, y, adhesion = patch.grid(np.where(loaded, patch.adhesion.astype(float), np.nan))
+    if 0 < patch.adhesion.sum() < len(patch.adhesion):
+        axis.contour(x, y, np.ma.masked_invalid(adhesion), levels=[0.5], **style)
+
+
+def draw_map(run):
+    patch = run.patch
+    figure, axis = plt.subplots(figsize=(7.2, 5.6))
+    x, y, state = patch.grid(np.where(patch.adhesion, 0.0, 1.0))
+    axis.pcolormesh(x, y, np.ma.masked_invalid(state), cmap=ListedColormap([ADHESION, SLIP]), vmin=0, vmax=1,
+                    shading="nearest", edgecolors="white", linewidth=0.4)
+    entries = [Swatch(fc=ADHESION, label=f"adhesion, {100 * patch.adhesion_share:.1f} % of the patch"),
+               Swatch(fc=SLIP, label=f"slip, {100 * (1 - patch.adhesion_share):.1f} %")]
+    patch_axes(axis, run)
+    if run.hertz:
+        entries.append(Line2D([], [], color="black", lw=1.3, label="Hertz ellipse"))
+    for label, other, colour, style in run.references:
+        adhesion_border(axis, other, colors=colour, linewidths=1.8, linestyles=style)
+        entries.append(Line2D([], [], color=colour, ls=style, lw=1.8, label="adhesion border, " + label
+                              + f" ({100 * other.adhesion_share:.1f} %)"))
+    axis.legend(handles=entries, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=2)
+    axis.set_title(run.title(), loc="left", pad=24)
+    rolling_arrow(axis)
+    return figure
+
+
+def draw_vectors(run):
+    patch = run.patch
+    slips = run.averaged if run.averaged is not None else patch
+    figure, axes = plt.subplots(1, 2, figsize=(13.2, 5.4))
+    when = "mean of one cell passage" if slips is run.averaged else "at this instant"
+    parts = ((patch, patch.shear, patch.shear_x, patch.shear_y, "shear stress on the wheel", "MPa", "Blues"),
+             (slips, slips.slip, slips.slip_x, slips.slip_y, f"micro-slip of wheel relative to rail, {when}",
+              "m/s", "Oranges"))
+    for axis, (source, size, u, v, what, unit, colours) in zip(axes, parts):
+        x, y, grid = source.grid(size)
+        largest = size.max() or 1.0
+        image = axis.pcolormesh(x, y, np.ma.masked_invalid(grid), cmap=colours, vmin=0, vmax=1.25 * largest,
+                                shading="nearest")
+        # At most about 28 arrows along the patch, on whole rows and columns of nodes.
+        step = max(1, int(np.ceil(2 * abs(source.x).max() / source.size_x / 28)))
+        columns = np.round((source.x - x[0]) / source.size_x).astype(int)
+        rows = np.round((source.y - y[0]) / source.size_y).astype(int)
+        centre = np.argmin(abs(y))
+        shown = ((columns - np.argmin(abs(x))) % step == 0) & ((rows - centre) % step == 0) & (size > 0.01 * largest)
+        axis.quiver(source.x[shown], source.y[shown], u[shown], v[shown], color="#222222", pivot="middle",
+                    angles="xy", scale_units="xy", scale=largest / (1.35 * step * source.size_x), width=0.0022,
+                    headwidth=4.5, headlength=5, headaxislength=4.5, zorder=3)
+        patch_axes(axis, run)
+        adhesion_border(axis, source, colors=GREEN, linewidths=1.6)
+        bar = figure.colorbar(image, ax=axis, shrink=0.8, pad=0.02, boundaries=np.linspace(0, largest, 200),
+                              ticks=matplotlib.ticker.MaxNLocator(6))
+        bar.set_label(f"magnitude [{unit}]")
+        axis.set_title(f"{what}\nlargest {largest:.3g} {unit}", loc="left", pad=20)
+        rolling_arrow(axis)
+    entries = [Line2D([], [], color=GREEN, lw=1.6, label="adhesion border")]
+    if run.hertz:
+        entries.append(Line2D([], [], color="black", lw=1.3, label="Hertz ellipse"))
+    figure.legend(handles=entries, loc="lower center", ncol=2, bbox_to_anchor=(0.5, 0.04))
+    figure.subplots_adjust(wspace=0.16)
+    return figure
+
+
+def column(run, name):
+    values = run.history.get(name)
+    if values is None:
+        run.missing.append(name)
+    return values
+
+
+def centred_limits(axis, values, share):
+    """Let the axis span at least +-share of the last value, so that round-off is not drawn as an event."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    middle = values[-1]
+    axis.set_ylim(min(low, middle - share * abs(middle)), max(high, middle + share * abs(middle)))
+    axis.margins(y=0.05)
+
+
+def draw_forces(run):
+    history = run.history
+    position = column(run, "position_m")
+    x, label = ((history["time_s"] * 1e3, "time [ms]") if position is None
+                else (position * 1e3, "position of the wheel along the rail [mm]"))
+    figure, axes = plt.subplots(3, 1, figsize=(7.2, 8.0), sharex=True)
+    for name, text, colour, style in (("normal_force_N", "normal", BLUE, "-"),
+                                      ("longitudinal_force_N", "longitudinal, on the wheel", RED, "-"),
+                                      ("lateral_force_N", "lateral, on the wheel", GREEN, "--")):
+        values = column(run, name)
+        if values is not None:
+            axes[0].plot(x, values / 1e3, color=colour, ls=style, label=f"{text} (at the end {values[-1] / 1e3:.2f} kN)")
+    axes[0].set_ylabel("contact force [kN]")
+    for axis, name, factor, text, colour in ((axes[1], "traction_coefficient", 1.0, "traction coefficient [-]", PURPLE),
+                                             (axes[2], "creepage", 100.0, "creepage [%]", ORANGE)):
+        values = column(run, name)
+        axis.set_ylabel(text)
+        if values is None:
+            continue
+        axis.plot(x, factor * values, color=colour, label=f"at the end {factor * values[-1]:.4f}")
+        wanted = reference_value(run.summary, name)
+        if wanted is not None:
+            axis.axhline(factor * wanted, color="black", ls="--", lw=1.1, label=f"reference {factor * wanted:.4f}")
+        if name == "creepage":
+            centred_limits(axis, factor * values, 0.1)
+    axes[2].set_xlabel(label)
+    axes[0].set_title(run.title(), loc="left")
+    for axis in axes:
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(loc="best")
+    figure.align_ylabels(axes)
+    return figure
+
+
+def draw_energies(run):
+    history = run.history
+    time = history["time_s"] * 1e3
+    figure, axes = plt.subplots(3, 1, figsize=(7.2, 8.4), sharex=True)
+    large = (("external_work_J", "external work", "black", "-"),
+             ("kinetic_energy_J", "kinetic energy, change", BLUE, "-"),
+             ("internal_energy_J", "internal (elastic)", GREEN, "-"),
+             ("frictional_work_J", "frictional work", RED, "-"))
+    small = (("hourglass_energy_J", "hourglass", PURPLE, "-"),
+             ("damping_work_J", "damping", ORANGE, "-"),
+             ("contact_loss_J", "contact loss", SKY, "-"))
+    scale = 0.0
+    for axis, group in ((axes[0], large), (axes[1], small)):
+        for name, label, colour, style in group:
+            values = column(run, name)
+            if values is None:
+                continue
+            if name == "kinetic_energy_J":
+                values = values - values[0]
+            if axis is axes[0]:
+                scale = max(scale, abs(values).max())
+            axis.plot(time, values, color=colour, ls=style, label=f"{label}\n({values[-1]:.3g} J)")
+        axis.set_ylabel("energy [J]")
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="(value at the end)", title_fontsize=9)
+    residual = column(run, "energy_residual_J")
+    if residual is not None and scale > 0:
+        share = 100 * residual / scale
+        axes[2].plot(time, share, color=BLUE)
+        axes[2].axhspan(-0.1, 0.1, color="#DDEBDD", zorder=0)
+        axes[2].text(0.99, 0.94, "shaded: $\\pm$0.1 %", transform=axes[2].transAxes, ha="right", va="top", fontsize=9)
+        limit = max(0.15, 1.1 * abs(share).max())
+        axes[2].set_ylim(-limit, limit)
+    axes[2].set_ylabel("residual of the balance [%\nof the largest term above]")
+    axes[2].set_xlabel("time [ms]")
+    axes[0].set_title(run.title(), loc="left")
+    figure.align_ylabels(axes)
+    return figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Draw the pictures of a run of tread into RUN_DIR/pictures.")
+    parser.add_argument("run", metavar="RUN_DIR")
+    parser.add_argument("--contact", metavar="FILE", help="surface file of CONTACT (.csv or .csv.gz) to compare with")
+    arguments = parser.parse_args()
+    try:
+        run = Run(arguments.run, arguments.contact)
+        folder = os.path.join(arguments.run, "pictures")
+        os.makedirs(folder, exist_ok=True)
+        for name, draw in (("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors),
+                           ("forces", draw_forces), ("energies", draw_energies)):
+            path = os.path.join(folder, name + ".png")
+            figure = draw(run)
+            figure.savefig(path)
+            plt.close(figure)
+            print(path)
+        if run.missing:
+            print(f"note: history.csv has no {', '.join(run.missing)}; drawn without")
+    except DataError as error:
+        sys.exit(f"plot-run.py: {error}")
+    except OSError as error:
+        sys.exit(f"plot-run.py: {error.filename}: {error.strerror}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,12 @@
+#!/bin/bash
+# Build all and run the tests. Arguments go to ctest, e.g. contrib/test.sh -R contact
+# TREAD_JOBS: compilers and tests at a time (default: the number of processors).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. contrib/environment.sh
+
+jobs=${TREAD_JOBS:-$(nproc)}
+
+configure_release build
+cmake --build build -j "$jobs"
+ctest --test-dir build --output-on-failure --no-tests=error -j "$jobs" "$@"

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_analysis_contact_patch_h
+#define tread_analysis_contact_patch_h
+
+#include <tread/contact/contact.h>
+
+#include <map>
+#include <vector>
+
+namespace tread
+{
+  /// Tractions on the wheel and slip of its surface over the rail's at one rail node, SI units.
+  struct PatchNode
+  {
+    Row    position; ///< x from the patch centre in rolling direction, y, z
+    double area, pressure, shear[2], slip[2];
+    bool   adhesion;
+
+    double shear_size() const;
+    double slip_speed() const;
+  };
+
+  /// Measures of a contact patch, SI units.
+  struct PatchMeasures
+  {
+    double area = 0., max_pressure = 0., adhesion_share = 0., max_shear = 0., max_slip = 0., frictional_power = 0.;
+    /// Half of the extent of the nodes in contact and their cells.
+    double semi_axis_x = 0., semi_axis_y = 0.;
+    /// Semi-axes of the Hertzian ellipse with the same second moments of pressure, a^2 = 5 int p x^2 / int p: finer than a cell.
+    double pressure_semi_axis_x = 0., pressure_semi_axis_y = 0.;
+  };
+
+  /// The patch of one instant. @param centre_x where the wheel's centre stands, m; @param time_step s.
+  std::vector<PatchNode>
+  patch_nodes(const std::vector<ContactNodeState> &states, const double centre_x, const double time_step);
+
+  PatchMeasures measure(const std::vector<PatchNode> &patch);
+
+  /// Mean over some steps of what each rail node carries, and of the measures of the patch.
+  class PatchAverage
+  {
+  public:
+    void add(const std::vector<ContactNodeState> &states, const double centre_x, const double time_step);
+
+    /// Mean tractions over all steps; mean slip over the steps in contact; x from the mean centre.
+    /// A node is in adhesion that adhered in most of its steps in contact.
+    std::vector<PatchNode> nodes() const;
+
+    /// Means of the measures of each step.
+    PatchMeasures measures() const;
+
+    unsigned int n_steps() const
+    {
+      return steps;
+    }
+
+  private:
+    struct Sum
+    {
+      PatchNode    values{};
+      unsigned int in_contact = 0, adhesive = 0;
+    };
+    std::map<unsigned int, Sum> sums;
+    PatchMeasures               measure_sums;
+    double                      centre_sum = 0.;
+    unsigned int                steps = 0;
+
+    friend class Checkpoint;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_output_checkpoint_h
+#define tread_output_checkpoint_h
+
+#include <tread/output/run_folder.h>
+
+#include <mpi.h>
+
+namespace tread
+{
+  class Simulation;
+
+  /// The whole state of a run in one of two files, written in turn; checkpoint.last names the one that
+  /// is complete. Nodes are stored by position, so a run may resume on any number of ranks.
+  class Checkpoint
+  {
+  public:
+    Checkpoint(const RunFolder &folder, const MPI_Comm comm);
+
+    /// Collective. The contact's coupling is integrated anew, as it will be when resuming: both go on alike.
+    void write(Simulation &simulation);
+
+    /// Collective. @throws SceneError if there is none, or if it belongs to other parameters.
+    void read(Simulation &simulation);
+
+  private:
+    template <typename Archive>
+    static void state(Archive &archive, Simulation &simulation);
+    static std::string fingerprint(const Simulation &simulation);
+
+    const RunFolder &folder;
+    MPI_Comm         comm;
+    unsigned int     next_slot = 0;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_output_run_folder_h
+#define tread_output_run_folder_h
+
+#include <tread/analysis/contact_patch.h>
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <mpi.h>
+
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tread
+{
+  /// One row of history.csv, SI units.
+  struct HistoryRow
+  {
+    double        time, position;
+    Row           force; ///< on the wheel, mean over the interval
+    double        creepage;
+    PatchMeasures patch;
+    EnergyLedger  energy;
+  };
+
+  /// The folder of a run and the files in it. Only rank 0 writes tables; pictures are written by all.
+  /// Every write is checked: a full disk is an error, not a short file.
+  class RunFolder
+  {
+  public:
+    /// Make the folder. @throws std::runtime_error with one line if it cannot be written.
+    RunFolder(const std::string &path, const MPI_Comm comm);
+
+    std::string path(const std::string &name) const
+    {
+      return folder + "/" + name;
+    }
+
+    /// Write text to a file of the folder by way of a temporary one, so that it is whole or not there.
+    void write(const std::string &name, const std::string &text) const;
+
+    void write_patch(const std::string &name, const std::vector<PatchNode> &patch) const;
+
+    /// Begin history.csv anew, or (when resuming) go on after the last row not later than time.
+    void open_history(const bool resume, const double time);
+    void append(const HistoryRow &row);
+
+    /// Bodies as they are now: displacement without the hub's rigid motion, velocity, stress.
+    void write_volume(const ExplicitDynamics &dynamics, const WheelHub &hub, const unsigned int wheel_body);
+
+    /// The rail's contact surface with pressure, shear, slip and state.
+    void write_surface(const Contact &contact, const unsigned int body, const std::vector<Row> &positions,
+                       const double time, const double time_step);
+
+  private:
+    void write_collection(const std::string &name, const std::vector<std::pair<double, std::string>> &files) const;
+
+    std::string   folder;
+    MPI_Comm      comm;
+    bool          writes_tables;
+    std::ofstream history;
+    std::vector<std::pair<double, std::string>> volume_files, surface_files;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_output_summary_h
+#define tread_output_summary_h
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// The figures of a run: names with units, values, and what they are compared with.
+  class Summary
+  {
+  public:
+    template <typename T>
+    void set(const std::string &name, const T &value)
+    {
+      json[name] = value;
+    }
+
+    /// A figure with its reference: stands under "reference" in the file and as a line of the table.
+    /// @param scale from SI to the unit shown in the table.
+    void compare(const std::string &name,
+                 const std::string &label,
+                 const double       scale,
+                 const double       value,
+                 const std::string &source,
+                 const double       reference_value);
+
+    std::string text() const
+    {
+      return json.dump(2) + "\n";
+    }
+
+    /// Computed, reference and difference, one line a figure.
+    std::string table() const;
+
+  private:
+    struct Line
+    {
+      std::string label, source;
+      double      value, reference;
+    };
+    nlohmann::ordered_json json;
+    std::vector<Line>      lines;
+  };
+} // namespace tread
+
+#endif

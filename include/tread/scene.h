@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_h
+#define tread_scene_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <tread/material/elastic.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// A parameter or file that cannot be used; what() is one line for the user.
+  class SceneError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /// All that a user chooses, in the units that the parameter file names. Each entry is declared
+  /// once: name, default, range, meaning.
+  class Scene
+  {
+  public:
+    Scene();
+
+    struct Material
+    {
+      double young_modulus_GPa = 210., poisson_ratio = 0.3, density = 7800.;
+
+      ElasticMaterial si() const
+      {
+        return {young_modulus_GPa * 1e9, poisson_ratio, density};
+      }
+    };
+
+    // Scene
+    std::string title;
+    bool        quasi_static  = true;
+    double      density_scale = 1.;
+    // Wheel
+    std::string wheel_shape = "sector";
+    double      radius_mm = 460., wheel_mass = 900., wheel_inertia = 58.;
+    double      sector_thickness_mm = 60., sector_width_mm = 120., sector_margin_mm = 60.;
+    double      rim_inner_radius_mm = 380., rim_width_mm = 135., web_thickness_mm = 52.3;
+    double      hub_outer_radius_mm = 140., hub_length_mm = 180., bore_radius_mm = 92.5;
+    Material    wheel_material;
+    // Rail
+    std::string rail_shape = "head", profile = "54E1";
+    double      crown_radius_mm = 300., block_width_mm = 120., block_height_mm = 60., rail_margin_mm = 60.;
+    Material    rail_material;
+    // Mesh
+    double       finest_mm = 0.63, fine_half_width_mm = 8., cells_per_level = 2., coarsest_mm = 22.;
+    unsigned int fine_layers = 2;
+    // Solid
+    std::string element = "one-point";
+    double      hourglass_coefficient = 1., damping_steps = 0.1, linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
+    // Contact
+    double       friction = 0.5, contact_tolerance = 1e-5;
+    unsigned int max_sweeps = 200;
+    // Vehicle
+    double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500., gravity = 9.81;
+    // Motion
+    double      speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
+    std::string drive = "creepage", creepage = "predicted";
+    double      traction_coefficient = 0.3;
+    // Time stepping
+    double courant_number = 0.9;
+    // Start
+    double       start_tolerance = 1e-5;
+    unsigned int start_iterations = 20000;
+    // Output
+    std::string  output = "results";
+    double       history_mm = 0.25, surface_mm = 0., volume_mm = 0., checkpoint_minutes = 10.;
+    bool         write_volume = true;
+
+    /// Read a parameter file, then "Section/Name=value" settings in their order, and check that
+    /// they make sense together. @throws SceneError
+    void read(const std::string &file, const std::vector<std::string> &settings);
+
+    /// All parameters with their values, units, ranges and meaning, as a parameter file.
+    void print(std::ostream &out, const bool with_documentation) const;
+
+    double speed() const
+    {
+      return speed_kmh / 3.6;
+    }
+    /// Weight that rests on the contact, N.
+    double static_load() const
+    {
+      return (wheel_mass + sprung_mass) * gravity;
+    }
+    /// Rolling speed over the speed of Rayleigh waves in the scaled material, squared: the order of
+    /// the relative error that the inertia of rolling makes in a quasi-static scene.
+    double inertia_error_estimate() const;
+
+  private:
+    void declare();
+    void set(const std::string &setting);
+    void check() const;
+
+    mutable dealii::ParameterHandler handler;
+  };
+} // namespace tread
+
+#endif

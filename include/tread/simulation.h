@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_simulation_h
+#define tread_simulation_h
+
+#include <tread/analysis/contact_patch.h>
+#include <tread/contact/contact.h>
+#include <tread/dynamics/explicit_dynamics.h>
+#include <tread/mesh/mesh.h>
+#include <tread/output/progress.h>
+#include <tread/output/run_folder.h>
+#include <tread/reference/rolling_case.h>
+#include <tread/scene.h>
+#include <tread/solid/solid.h>
+#include <tread/track/wheel_hub.h>
+
+#include <mpi.h>
+
+#include <optional>
+
+namespace tread
+{
+  /// One wheel rolling over one rail, from equilibrium at the start to the solution instant.
+  class Simulation
+  {
+  public:
+    Simulation(const Scene &scene, const MPI_Comm comm);
+
+    /// What a run would cost, printed; nothing is run or written.
+    void estimate();
+
+    /// @param folder of the results; @param resume from its last checkpoint.
+    /// @returns false when interrupted by a signal.
+    bool run(const std::string &folder, const bool resume);
+
+  private:
+    void prepare_start(Progress &progress);
+    void set_drive();
+    void add_to_interval();
+    void end_interval(RunFolder &folder);
+    void take_solution(RunFolder &folder);
+    void finish(RunFolder &folder, const bool completed, const double wall_seconds);
+    bool interrupted() const;
+    double position() const
+    {
+      return hub.motion.x;
+    }
+    std::uint64_t remaining_steps() const;
+
+    static constexpr unsigned int rail_body = 0, wheel_body = 1;
+
+    const Scene                &scene;
+    MPI_Comm                    comm;
+    reference::RollingResult    predicted; ///< half-space answer before the run
+    Mesh                        mesh;
+    Solid                       solid;
+    WheelHub                    hub;
+    ExplicitDynamics            dynamics;
+    Contact                     contact;
+
+    double                      target_creepage = 0., free_creepage = 0., end_position;
+    bool                        torque_released = false, solution_taken = false;
+
+    // Sums since the last row of the history.
+    Row                         interval_force{};
+    unsigned int                interval_steps = 0;
+    double                      next_history, next_surface, next_volume;
+
+    PatchAverage                average;             ///< while rolling one cell about the solution instant
+    std::vector<PatchNode>      solution_patch;
+    Row                         last_force_sum{};    ///< over the last 10 mm before the solution instant
+    double                      last_force_low = 1e300, last_force_high = -1e300;
+    std::uint64_t               last_steps = 0, sweeps = 0;
+    double                      relaxation_seconds = 0., relaxation_iterations = 0.;
+
+    friend class Checkpoint;
+  };
+} // namespace tread
+
+#endif
