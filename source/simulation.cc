@@ -54,7 +54,7 @@ namespace tread
       c.rail                 = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
       c.prescribe_force      = true;
       c.traction_coefficient = traction_coefficient;
-      c.element_size         = std::min(1e-3 * scene.finest_mm, 0.33e-3);
+      c.element_size         = std::min(1e-3 * scene.finest_mm, 0.15e-3);
       return c;
     }
 
@@ -337,6 +337,10 @@ namespace tread
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 
+    if (resume)
+      checkpoint.read(*this);
+    else
+      folder.remove_results();
     std::ostringstream effective;
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
@@ -350,7 +354,6 @@ namespace tread
 
     if (resume)
       {
-        checkpoint.read(*this);
         progress.say(format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
       }
     else

@@ -38,8 +38,10 @@ namespace tread::tests
               cell.vertices[v] = number(i + (v & 1), j + ((v >> 1) & 1), k + ((v >> 2) & 1));
             body.cells.push_back(cell);
           }
-    body.wanted_cell_size = [](const dealii::Point<3> &) { return std::numeric_limits<double>::max(); };
-    body.boundary_at      = [=](const dealii::Point<3> &p) {
+    body.wanted_cell_size = [](const dealii::Point<3> &) {
+      return std::numeric_limits<double>::max();
+    };
+    body.boundary_at = [=](const dealii::Point<3> &p) {
       for (unsigned int d = 0; d < 3; ++d)
         {
           const double tolerance = 1e-9 * (high[d] - low[d]);
@@ -57,20 +59,31 @@ namespace tread::tests
   inline dealii::Point<3> turn(const dealii::Point<3> &p, const dealii::Point<3> &axis, const double angle)
   {
     const dealii::Tensor<1, 3> along = (axis * p) * axis;
-    return dealii::Point<3>(along + std::cos(angle) * (p - along) + std::sin(angle) * dealii::cross_product_3d(axis, p));
+    return dealii::Point<3>(along + std::cos(angle) * (p - along) +
+                            std::sin(angle) * dealii::cross_product_3d(axis, p));
   }
 
   /// The same body turned about an axis through the origin, then shifted.
-  inline Body turned(Body body, const dealii::Point<3> &axis, const double angle, const dealii::Tensor<1, 3> &shift = {})
+  inline Body turned(Body                        body,
+                     const dealii::Point<3>     &axis,
+                     const double                angle,
+                     const dealii::Tensor<1, 3> &shift = {})
   {
     const auto before = body.to_space;
-    body.to_space     = [=](const dealii::Point<3> &p) { return turn(before ? before(p) : p, axis, angle) + shift; };
+    body.to_space     = [=](const dealii::Point<3> &p) {
+      return turn(before ? before(p) : p, axis, angle) + shift;
+    };
     return body;
   }
 
-  /// A cube-like block of half-width and height size, top z = 0 flat or (radius > 0) a paraboloid cap with that
-  /// radius at the origin that fades towards the flat bottom; the fine zone is where the top touches. Bottom: support.
-  inline Body make_indenter(const std::string &name, const double size, const double coarsest, const double radius, const FineZone &zone)
+  /// A cube-like block of half-width and height size, top z = 0 flat or (radius > 0) a paraboloid cap with
+  /// that radius at the origin that fades towards the flat bottom; the fine zone is where the top touches.
+  /// Bottom: support.
+  inline Body make_indenter(const std::string &name,
+                            const double       size,
+                            const double       coarsest,
+                            const double       radius,
+                            const FineZone    &zone)
   {
     RailBlock block;
     block.x_begin            = -size;
@@ -89,7 +102,10 @@ namespace tread::tests
   }
 
   /// Ask for cells of this edge length (m) around a point; the octree puts hanging nodes around them.
-  inline void refine_near(Body &body, const dealii::Point<3> &point, const double radius, const double cell_size)
+  inline void refine_near(Body                   &body,
+                          const dealii::Point<3> &point,
+                          const double            radius,
+                          const double            cell_size)
   {
     body.wanted_cell_size = [=](const dealii::Point<3> &p) {
       return p.distance(point) < radius ? cell_size : std::numeric_limits<double>::max();
@@ -99,9 +115,10 @@ namespace tread::tests
   /// A cube [0, edge]^3 of seven distorted hexahedra: an irregular inner one, six between it and the faces.
   inline Body make_patch_cube(const double edge)
   {
-    static constexpr double shift[8][3] = {{-.04, .07, .02},  {.05, -.03, .06}, {.02, .03, -.05}, {-.06, -.02, .01},
-                                           {.03, -.06, -.04}, {-.02, .05, .03}, {.06, .01, -.02}, {.01, .04, .05}};
-    Body body;
+    static constexpr double shift[8][3] = {{-.04, .07, .02},  {.05, -.03, .06},  {.02, .03, -.05},
+                                           {-.06, -.02, .01}, {.03, -.06, -.04}, {-.02, .05, .03},
+                                           {.06, .01, -.02},  {.01, .04, .05}};
+    Body                    body;
     body.name = "patch cube";
     for (unsigned int v = 0; v < 8; ++v)
       body.vertices.emplace_back(edge * (v & 1), edge * ((v >> 1) & 1), edge * ((v >> 2) & 1));
@@ -124,8 +141,12 @@ namespace tread::tests
             }
           body.cells.push_back(cell);
         }
-    body.wanted_cell_size = [](const dealii::Point<3> &) { return std::numeric_limits<double>::max(); };
-    body.boundary_at      = [](const dealii::Point<3> &) { return Boundary::free; };
+    body.wanted_cell_size = [](const dealii::Point<3> &) {
+      return std::numeric_limits<double>::max();
+    };
+    body.boundary_at = [](const dealii::Point<3> &) {
+      return Boundary::free;
+    };
     return body;
   }
 
@@ -157,9 +178,11 @@ namespace tread::tests
                 (i + (v & 1)) % n[0] + n[0] * (j + ((v >> 1) & 1) + (n[1] + 1) * (k + ((v >> 2) & 1)));
             body.cells.push_back(cell);
           }
-    body.wanted_cell_size = [](const dealii::Point<3> &) { return std::numeric_limits<double>::max(); };
-    const double middle   = 0.5 * (inner_radius + outer_radius) - 0.49 * (outer_radius - inner_radius);
-    body.boundary_at      = [=](const dealii::Point<3> &p) {
+    body.wanted_cell_size = [](const dealii::Point<3> &) {
+      return std::numeric_limits<double>::max();
+    };
+    const double middle = 0.5 * (inner_radius + outer_radius) - 0.49 * (outer_radius - inner_radius);
+    body.boundary_at    = [=](const dealii::Point<3> &p) {
       return std::hypot(p[0], p[2]) < middle ? Boundary::support : Boundary::free;
     };
     return body;

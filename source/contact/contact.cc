@@ -11,9 +11,17 @@ namespace tread
 {
   namespace
   {
+    /// Normals are averaged anew every so many steps.
+    constexpr unsigned int steps_between_normals = 5;
+
     double norm(const Row a)
     {
       return std::sqrt(dot(a, a));
+    }
+
+    Row cross(const Row a, const Row b)
+    {
+      return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
     }
   } // namespace
 
@@ -29,6 +37,11 @@ namespace tread
   {
     // The smallest slave face sets the scale of search distances.
     face_size = std::numeric_limits<double>::max();
+    slave_faces.resize(surfaces.nodes.size());
+    for (unsigned int f = 0; f < surfaces.faces.size(); ++f)
+      if (surfaces.faces[f].body == parameters.slave_body)
+        for (const unsigned int i : surfaces.faces[f].nodes)
+          slave_faces[i].push_back(f);
     for (const ContactSurfaces::Face &face : surfaces.faces)
       if (face.body == parameters.slave_body)
         face_size = std::min(face_size, norm(surfaces.nodes[face.nodes[1]].reference - surfaces.nodes[face.nodes[0]].reference));
@@ -95,6 +108,15 @@ namespace tread
             const double sliding = norm(u - dot(u, row.normal) * row.normal);
             if (sliding * time_to_refresh > parameters.sliding_share * face_size)
               time_to_refresh = parameters.sliding_share * face_size / sliding;
+            for (const unsigned int f : slave_faces[row.slave])
+              {
+                const auto  &corners = surfaces.faces[f].nodes;
+                const double turning =
+                  std::max(std::abs(dot(all_v[corners[2]] - all_v[corners[0]], row.normal)),
+                           std::abs(dot(all_v[corners[3]] - all_v[corners[1]], row.normal))) / face_size;
+                if (turning * time_to_refresh > parameters.turning)
+                  time_to_refresh = parameters.turning / turning;
+              }
           }
       }
     time_to_refresh    = std::clamp(time_to_refresh, time_step, 1000. * time_step);
@@ -122,6 +144,16 @@ namespace tread
     problem.constraints.clear();
     problem.entries.clear();
     impulse.clear();
+    corners_around.clear();
+    steps_since_normals = 0;
+    const auto compact_number = [&](const unsigned int node) -> unsigned int {
+      if (number[node] < 0)
+        {
+          number[node] = involved.size();
+          involved.push_back(node);
+        }
+      return number[node];
+    };
     for (const unsigned int j : chosen)
       {
         const MortarRow           &row = coupling.rows[j];
@@ -129,12 +161,7 @@ namespace tread
         for (std::size_t i = row.begin; i < row.end; ++i)
           {
             const MortarEntry &entry = coupling.entries[i];
-            if (number[entry.node] < 0)
-              {
-                number[entry.node] = involved.size();
-                involved.push_back(entry.node);
-              }
-            problem.entries.push_back({(unsigned int)number[entry.node],
+            problem.entries.push_back({compact_number(entry.node),
                                        entry.coefficient,
                                        entry.coefficient * inverse_mass[entry.node]});
             constraint.compliance += entry.coefficient * entry.coefficient * inverse_mass[entry.node];
@@ -142,6 +169,10 @@ namespace tread
         constraint.end = problem.entries.size();
         problem.constraints.push_back(constraint);
         impulse.push_back(impulse_of_node[row.slave]);
+        corners_around.emplace_back();
+        for (const unsigned int f : slave_faces[row.slave])
+          for (const unsigned int i : surfaces.faces[f].nodes)
+            corners_around.back().push_back(compact_number(i));
       }
 
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
@@ -204,8 +235,26 @@ namespace tread
   }
 
 
+  void Contact::update_normals()
+  {
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      {
+        Row sum{};
+        for (unsigned int k = 0; k < corners_around[j].size(); k += 4)
+          {
+            const unsigned int *c = &corners_around[j][k];
+            sum += cross(position[c[2]] - position[c[0]], position[c[3]] - position[c[1]]);
+          }
+        problem.constraints[j].normal = sum * (1. / norm(sum));
+      }
+    steps_since_normals = 0;
+  }
+
+
   CoulombSolverResult Contact::solve(const double time_step, Row *force)
   {
+    if (++steps_since_normals > steps_between_normals)
+      update_normals();
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       gap_rate[j] = dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
     const CoulombSolverResult result =

@@ -131,14 +131,80 @@ namespace tread
   }
 
 
+  std::vector<double> ExplicitDynamics::free_inverse_masses() const
+  {
+    std::vector<double> inverse(mesh.nodes.size(), 0.);
+    for (unsigned int i = 0; i < inverse.size(); ++i)
+      if (!fixed[i] && !carried[i] && true_mass[i] > 0.) // hanging nodes have none
+        inverse[i] = 1. / (parameters.density_scale * true_mass[i]);
+    return inverse;
+  }
+
+
   double ExplicitDynamics::critical_time_step() const
   {
-    double highest = 0.;
+    if (critical_step > 0.)
+      return critical_step;
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::sum;
+    double bound = 0.;
     for (const double frequency : solid.cell_frequencies())
-      highest = std::max(highest, frequency);
-    highest = dealii::Utilities::MPI::max(highest, mesh.comm);
+      bound = std::max(bound, frequency);
+    bound = max(bound, mesh.comm);
+
+    // No cell can vibrate as fast in the mesh as it would alone: the power method on M^-1 K finds how fast
+    // the mesh does. Its Rayleigh quotient comes from below, hence the margin; the cells' bound stays the limit.
+    constexpr unsigned int    iterations = 80;
+    constexpr double          margin     = 1.03;
+    const std::vector<double> inverse    = free_inverse_masses();
+    NodalField                mode(x.size(), Row{}), moved(x.size()), at_rest(x.size(), Row{}), f(x.size()), f0(x.size(), Row{});
+    solid.add_internal_forces(x.data(), at_rest.data(), f0.data());
+    mesh.condense_hanging_nodes(f0.data());
+    mesh.shared_nodes.sum(f0.data());
+    for (unsigned int i = 0; i < mode.size(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          // Any numbers will do that depend on the place alone, not on the rank.
+          const double wave = 1e4 * std::sin(1e5 * (mesh.nodes[i][0] + 1.7 * mesh.nodes[i][1] + 2.3 * mesh.nodes[i][2]) + 2. * d);
+          mode[i][d]        = inverse[i] > 0. ? wave - std::floor(wave) - 0.5 : 0.;
+        }
+    double highest = 0.;
+    for (unsigned int k = 0; k < iterations; ++k)
+      {
+        double inertia = 0., largest = 0.;
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          if (inverse[i] > 0.)
+            largest = std::max(largest, dot(mode[i], mode[i]));
+        const double scale = 1e-9 / std::sqrt(max(largest, mesh.comm)); // m: small against any cell
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          {
+            mode[i] *= scale;
+            if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+              inertia += dot(mode[i], mode[i]) / inverse[i];
+          }
+        mesh.distribute_hanging_nodes(mode.data());
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          {
+            moved[i] = x[i] + mode[i];
+            f[i]     = Row{};
+          }
+        solid.add_internal_forces(moved.data(), at_rest.data(), f.data());
+        mesh.condense_hanging_nodes(f.data());
+        mesh.shared_nodes.sum(f.data());
+        double stiffness = 0.;
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          {
+            const Row change = f0[i] - f[i];
+            if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+              stiffness += dot(mode[i], change);
+            mode[i] = inverse[i] * change;
+          }
+        highest = std::sqrt(std::max(0., sum(stiffness, mesh.comm) / sum(inertia, mesh.comm)));
+      }
+    highest = std::min(bound, margin * highest);
     // With forces at x + beta v of half a step back: dt^2 omega^2 (1 + 2 beta/dt) <= 4.
-    return 2. / (highest * std::sqrt(1. + 2. * parameters.damping_steps));
+    critical_step = 2. / (highest * std::sqrt(1. + 2. * parameters.damping_steps));
+    return critical_step;
   }
 
 
@@ -152,13 +218,8 @@ namespace tread
 
   void ExplicitDynamics::set_inertia()
   {
-    time_step = parameters.courant_number * critical_time_step();
-    std::vector<char> hanging(mesh.nodes.size(), false);
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      hanging[h.node] = true;
-    for (unsigned int i = 0; i < inverse_mass.size(); ++i)
-      inverse_mass[i] =
-        (fixed[i] || carried[i] || hanging[i]) ? 0. : 1. / (parameters.density_scale * true_mass[i]);
+    time_step    = parameters.courant_number * critical_time_step();
+    inverse_mass = free_inverse_masses();
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
@@ -175,8 +236,9 @@ namespace tread
     set_inertia();
     totals              = EnergyLedger();
     start_kinetic       = kinetic_energy();
-    start_potential     = body_potential();
-    start_strain        = solid.strain_energy(x.data());
+    const NodalField positions = positions_with_velocities();
+    start_potential     = body_potential(positions);
+    start_strain        = solid.strain_energy(positions.data());
     start_strain.strain = dealii::Utilities::MPI::sum(start_strain.strain, mesh.comm);
     start_strain.hourglass = dealii::Utilities::MPI::sum(start_strain.hourglass, mesh.comm);
     start_hub_work      = hub ? hub->external_work() : 0.;
@@ -345,17 +407,29 @@ namespace tread
   }
 
 
-  double ExplicitDynamics::body_potential() const
+  NodalField ExplicitDynamics::positions_with_velocities() const
   {
+    NodalField positions(x.size());
+    for (unsigned int i = 0; i < x.size(); ++i)
+      positions[i] = x[i] - 0.5 * time_step * v[i];
+    return positions;
+  }
+
+
+  double ExplicitDynamics::body_potential(const NodalField &positions) const
+  {
+    const Row axle = hub ? Row{hub->motion.x - 0.5 * time_step * hub->motion.velocity_x, 0.,
+                               hub->motion.z - 0.5 * time_step * hub->motion.velocity_z, 0.} :
+                           Row{};
     const double compensation = (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     double       potential    = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          potential += true_mass[i] * parameters.gravity * x[i][2];
+          potential += true_mass[i] * parameters.gravity * positions[i][2];
           if (on_wheel[i])
             {
-              const double rx = x[i][0] - hub->motion.x, rz = x[i][2] - hub->motion.z;
+              const double rx = positions[i][0] - axle[0], rz = positions[i][2] - axle[2];
               potential += 0.5 * compensation * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
             }
         }
@@ -371,7 +445,8 @@ namespace tread
     now.damping      = sum(totals.damping, mesh.comm);
     now.external_work = sum(totals.external_work, mesh.comm);
     now.gross_work    = sum(totals.gross_work, mesh.comm);
-    const double fall = start_potential - body_potential();
+    const NodalField positions = positions_with_velocities();
+    const double fall = start_potential - body_potential(positions);
     now.external_work += fall;
     now.gross_work += std::abs(fall);
     if (hub)
@@ -380,7 +455,7 @@ namespace tread
         now.gross_work += hub->gross_work() - start_hub_gross;
       }
     now.kinetic               = kinetic_energy() - start_kinetic;
-    const StrainEnergy energy = solid.strain_energy(x.data());
+    const StrainEnergy energy = solid.strain_energy(positions.data());
     now.strain                = sum(energy.strain, mesh.comm) - start_strain.strain;
     now.hourglass             = sum(energy.hourglass, mesh.comm) - start_strain.hourglass;
     return now;

@@ -43,6 +43,27 @@ namespace tread
   }
 
 
+  void RunFolder::remove_results() const
+  {
+    if (!writes_tables)
+      return;
+    std::error_code ignored;
+    std::vector<std::filesystem::path> old;
+    for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
+      {
+        const std::string name = entry.path().filename();
+        for (const char *begin : {"summary.json", "history.csv", "patch", "reference_patch.csv", "checkpoint", "volume", "surface"})
+          if (name.rfind(begin, 0) == 0 && entry.is_regular_file(ignored))
+            {
+              old.push_back(entry.path());
+              break;
+            }
+      }
+    for (const std::filesystem::path &path : old)
+      std::filesystem::remove(path, ignored);
+  }
+
+
   void RunFolder::write(const std::string &name, const std::string &text) const
   {
     if (!writes_tables)

@@ -69,7 +69,7 @@ namespace tread::reference
     require_positive("friction", friction, "");
     require(std::abs(traction_ratio) <= 1., "traction_ratio", traction_ratio, "-1 to 1");
     const HertzLine line = hertz_line(radius, hertz_modulus, force_per_length);
-    return -std::copysign(friction * line.half_width / radius * (1. - std::sqrt(1. - std::abs(traction_ratio))),
-                          traction_ratio);
+    return -std::copysign(
+      friction * line.half_width / radius * (1. - std::sqrt(1. - std::abs(traction_ratio))), traction_ratio);
   }
 } // namespace tread::reference

@@ -21,7 +21,8 @@ namespace tread::reference
       {
         const std::string name = (body == &wheel) ? "wheel" : "rail";
         require_positive("Young's modulus of the " + name, body->young, "Pa");
-        require(body->poisson >= 0. && body->poisson <= 0.5, "Poisson's ratio of the " + name, body->poisson, "0 to 0.5");
+        require(body->poisson >= 0. && body->poisson <= 0.5, "Poisson's ratio of the " + name, body->poisson,
+                "0 to 0.5");
       }
     const double g1 = wheel.shear(), g2 = rail.shear();
     ElasticPair  pair;

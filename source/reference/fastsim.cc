@@ -28,7 +28,8 @@ namespace tread::reference
     const double               l2 = 8. * a / (3. * c.c22 * patch.shear);
     const double               l3 = std::numbers::pi * a * std::sqrt(a / b) / (4. * c.c23 * patch.shear);
     const bool                 parabola = pressure == FastsimPressure::paraboloid;
-    const double               scale    = (parabola ? 2. : 1.5) * patch.friction * patch.normal_force / (std::numbers::pi * a * b);
+    const double               scale =
+      (parabola ? 2. : 1.5) * patch.friction * patch.normal_force / (std::numbers::pi * a * b);
 
     CreepForce   force{0., 0.};
     double       volume = 0.; // of the bound, to make the discrete full slip exactly f N
@@ -42,7 +43,8 @@ namespace tread::reference
         for (unsigned int i = 0; i < n_elements; ++i)
           {
             const double x = half - (i + 0.5) * dx;
-            // adhesion: L dp/dx = w; the particle has come from x + dx (half an element from the edge at first)
+            // adhesion: L dp/dx = w; the particle has come from x + dx (half an element from the edge at
+            // first)
             const double step = i == 0 ? 0.5 * dx : dx;
             px -= step * (creepage.longitudinal / l1 - creepage.spin * y / l3);
             py -= step * (creepage.lateral / l2 + creepage.spin * (x + 0.5 * step) / l3);

@@ -38,7 +38,8 @@ namespace tread::reference
           if (beta <= tolerance * norm_b)
             break;
           basis.resize(restart + 1);
-          std::vector<double> h((restart + 1) * restart, 0.), cosine(restart), sine(restart), rhs(restart + 1, 0.);
+          std::vector<double> h((restart + 1) * restart, 0.), cosine(restart), sine(restart),
+            rhs(restart + 1, 0.);
           basis[0] = residual;
           scale(basis[0], 1. / beta);
           rhs[0]         = beta;
@@ -126,8 +127,11 @@ namespace tread::reference
         s0 += a[e] * b[e];
       return (s0 + s1) + (s2 + s3);
     }
-    static double norm(const std::vector<double> &a) { return std::sqrt(product(a, a)); }
-    static void   scale(std::vector<double> &a, const double factor)
+    static double norm(const std::vector<double> &a)
+    {
+      return std::sqrt(product(a, a));
+    }
+    static void scale(std::vector<double> &a, const double factor)
     {
       for (double &v : a)
         v *= factor;

@@ -16,8 +16,8 @@ namespace tread::reference
     require(modulus >= 0. && modulus < 1., "modulus", modulus, "0 <= modulus < 1");
     const double m = modulus * modulus;
     double       a = 1., b = std::sqrt(1. - m);
-    // E = K (1 - sum_n 2^(n-1) c_n^2) with c_0 = e, c_(n+1) = c_n^2/(4 a_(n+1)). Here c = c_n/e and the sum is divided
-    // by e^2, so that nothing cancels for e -> 0.
+    // E = K (1 - sum_n 2^(n-1) c_n^2) with c_0 = e, c_(n+1) = c_n^2/(4 a_(n+1)). Here c = c_n/e and the sum
+    // is divided by e^2, so that nothing cancels for e -> 0.
     double c = 1., sum = 0.5, power = 0.5;
     for (unsigned int n = 0; n < 40; ++n)
       {
@@ -58,7 +58,8 @@ namespace tread::reference
     // Work with the longer axis first: the smaller curvature belongs to it.
     const double small = std::min(curvature_x, curvature_y);
     const double large = std::max(curvature_x, curvature_y);
-    require(large / small < 1e8, "larger curvature over smaller", large / small, "below 1e8 (use the line contact)");
+    require(large / small < 1e8, "larger curvature over smaller", large / small,
+            "below 1e8 (use the line contact)");
 
     // small/large = k^2 D(e)/B(e) with k = b/a; it grows monotonically from 0 to 1 with k: bisection in ln k.
     const auto ratio = [](const double k) {
@@ -68,7 +69,7 @@ namespace tread::reference
     double low = std::log(1e-7), high = 0.;
     for (unsigned int i = 0; i < 200 && high - low > 1e-16; ++i)
       {
-        const double middle = 0.5 * (low + high);
+        const double middle                                    = 0.5 * (low + high);
         (ratio(std::exp(middle)) < small / large ? low : high) = middle;
       }
     const double            k = (small == large) ? 1. : std::exp(0.5 * (low + high));
@@ -153,7 +154,10 @@ namespace tread::reference
     return {sx, poisson * (sx + sz), sz};
   }
 
-  HertzImpact hertz_impact(const double mass, const double radius, const double hertz_modulus, const double velocity)
+  HertzImpact hertz_impact(const double mass,
+                           const double radius,
+                           const double hertz_modulus,
+                           const double velocity)
   {
     require_positive("mass", mass, "kg");
     require_positive("radius", radius, "m");
@@ -162,7 +166,8 @@ namespace tread::reference
     // T v/delta = 2 int_0^1 dx/sqrt(1 - x^(5/2)) = (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10)
     const double factor = 0.8 * std::sqrt(pi) * std::tgamma(0.4) / std::tgamma(0.9);
     HertzImpact  result;
-    result.max_approach   = std::pow(15. * mass * velocity * velocity / (16. * hertz_modulus * std::sqrt(radius)), 0.4);
+    result.max_approach =
+      std::pow(15. * mass * velocity * velocity / (16. * hertz_modulus * std::sqrt(radius)), 0.4);
     result.duration       = factor * result.max_approach / velocity;
     result.max_force      = 4. / 3. * hertz_modulus * std::sqrt(radius) * std::pow(result.max_approach, 1.5);
     result.contact_radius = std::sqrt(result.max_approach * radius);

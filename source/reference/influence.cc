@@ -2,7 +2,6 @@
 #include <tread/reference/influence.h>
 
 #include "require.h"
-
 #include <fftw3.h>
 
 #include <algorithm>
@@ -26,24 +25,28 @@ namespace tread::reference
       const double nu = pair.poisson;
       switch (kind)
         {
-          case Influence::zz:
-            return (1. - nu) * (y_log(x, y) + y_log(y, x));
-          case Influence::xx: // 1/r = x^2/r^3 + y^2/r^3, primitives y ln(x + r) and x ln(y + r)
-            return y_log(x, y) + (1. - nu) * y_log(y, x);
-          case Influence::yy:
-            return (1. - nu) * y_log(x, y) + y_log(y, x);
-          case Influence::xy:
-            return -nu * std::hypot(x, y);
-          case Influence::zx:
-            {
-              const double r2 = x * x + y * y;
-              return r2 == 0. ? 0. : pair.coupling * ((x == 0. ? 0. : x * std::atan(y / x)) + 0.5 * y * std::log(r2));
-            }
-          default:
-            {
-              const double r2 = x * x + y * y;
-              return r2 == 0. ? 0. : pair.coupling * ((y == 0. ? 0. : y * std::atan(x / y)) + 0.5 * x * std::log(r2));
-            }
+        case Influence::zz:
+          return (1. - nu) * (y_log(x, y) + y_log(y, x));
+        case Influence::xx: // 1/r = x^2/r^3 + y^2/r^3, primitives y ln(x + r) and x ln(y + r)
+          return y_log(x, y) + (1. - nu) * y_log(y, x);
+        case Influence::yy:
+          return (1. - nu) * y_log(x, y) + y_log(y, x);
+        case Influence::xy:
+          return -nu * std::hypot(x, y);
+        case Influence::zx:
+          {
+            const double r2 = x * x + y * y;
+            return r2 == 0.
+                     ? 0.
+                     : pair.coupling * ((x == 0. ? 0. : x * std::atan(y / x)) + 0.5 * y * std::log(r2));
+          }
+        default:
+          {
+            const double r2 = x * x + y * y;
+            return r2 == 0.
+                     ? 0.
+                     : pair.coupling * ((y == 0. ? 0. : y * std::atan(x / y)) + 0.5 * x * std::log(r2));
+          }
         }
     }
 
@@ -133,12 +136,12 @@ namespace tread::reference
     : grid(grid)
   {
     check_grid(grid);
-    padded = {good_size(2 * grid.n_x), good_size(2 * grid.n_y)};
-    plans                = std::make_unique<Plans>();
-    const std::size_t n  = static_cast<std::size_t>(padded[0]) * padded[1];
-    plans->real          = fftw_alloc_real(n);
-    plans->output        = fftw_alloc_real(n);
-    plans->complex       = fftw_alloc_complex(spectrum_size());
+    padded              = {good_size(2 * grid.n_x), good_size(2 * grid.n_y)};
+    plans               = std::make_unique<Plans>();
+    const std::size_t n = static_cast<std::size_t>(padded[0]) * padded[1];
+    plans->real         = fftw_alloc_real(n);
+    plans->output       = fftw_alloc_real(n);
+    plans->complex      = fftw_alloc_complex(spectrum_size());
     const int rows = static_cast<int>(padded[1]), columns = static_cast<int>(padded[0]);
     plans->forward = fftw_plan_dft_r2c_2d(rows, columns, plans->real, plans->complex, FFTW_ESTIMATE);
     plans->inverse = fftw_plan_dft_c2r_2d(rows, columns, plans->complex, plans->output, FFTW_ESTIMATE);
@@ -174,13 +177,14 @@ namespace tread::reference
       values[k] = plans->output[positions[k]];
   }
 
-  FourierGrid::Spectrum FourierGrid::kernel(const Influence                           kind,
-                                            const ElasticPair                        &pair,
-                                            const std::vector<std::array<double, 2>> &weights_and_offsets) const
+  FourierGrid::Spectrum FourierGrid::kernel(
+    const Influence                           kind,
+    const ElasticPair                        &pair,
+    const std::vector<std::array<double, 2>> &weights_and_offsets) const
   {
     const int         columns = static_cast<int>(padded[0]), rows = static_cast<int>(padded[1]);
-    const std::size_t n       = static_cast<std::size_t>(columns) * rows;
-    double           *values  = fftw_alloc_real(n);
+    const std::size_t n      = static_cast<std::size_t>(columns) * rows;
+    double           *values = fftw_alloc_real(n);
     std::fill_n(values, n, 0.);
     const int n_x = static_cast<int>(grid.n_x), n_y = static_cast<int>(grid.n_y);
 
@@ -209,9 +213,11 @@ namespace tread::reference
   }
 
   NormalOperator::NormalOperator(const FourierGrid &fourier, const ElasticPair &pair)
-    : fourier(fourier)
+    : self_influence(influence_coefficient(Influence::zz, pair, fourier.grid.dx, fourier.grid.dy, 0., 0.))
+    , fourier(fourier)
     , kernel(fourier.kernel(Influence::zz, pair, {{1., 0.}}))
-  {}
+  {
+  }
 
   void NormalOperator::apply(const double *pressure, double *displacement) const
   {
@@ -228,7 +234,8 @@ namespace tread::reference
     , xx(fourier.kernel(Influence::xx, pair, weights_and_offsets))
     , xy(fourier.kernel(Influence::xy, pair, weights_and_offsets))
     , yy(fourier.kernel(Influence::yy, pair, weights_and_offsets))
-  {}
+  {
+  }
 
   void TangentialOperator::apply(const double *traction, double *displacement) const
   {
@@ -238,8 +245,8 @@ namespace tread::reference
     for (std::size_t k = 0; k < work_x.size(); ++k)
       {
         const std::complex<double> px = work_x[k], py = work_y[k];
-        work_x[k]                     = times(xx[k], px) + times(xy[k], py);
-        work_y[k]                     = times(xy[k], px) + times(yy[k], py);
+        work_x[k] = times(xx[k], px) + times(xy[k], py);
+        work_y[k] = times(xy[k], px) + times(yy[k], py);
       }
     fourier.back(work_x, displacement);
     fourier.back(work_y, displacement + n);
@@ -247,14 +254,15 @@ namespace tread::reference
 
   void TangentialOperator::invert()
   {
-    const double n = static_cast<double>(fourier.padded_x()) * fourier.padded_y(); // kernels carry a factor 1/n
+    const double n =
+      static_cast<double>(fourier.padded_x()) * fourier.padded_y(); // kernels carry a factor 1/n
     for (std::size_t k = 0; k < xx.size(); ++k)
       {
         const std::complex<double> determinant = (times(xx[k], yy[k]) - times(xy[k], xy[k])) * (n * n);
         const std::complex<double> a = xx[k], b = xy[k], d = yy[k];
-        xx[k]                                   = d / determinant;
-        yy[k]                                   = a / determinant;
-        xy[k]                                   = -b / determinant;
+        xx[k] = d / determinant;
+        yy[k] = a / determinant;
+        xy[k] = -b / determinant;
       }
   }
 
@@ -264,7 +272,8 @@ namespace tread::reference
     : fourier(fourier)
     , zx(fourier.kernel(Influence::zx, pair, weights_and_offsets))
     , zy(fourier.kernel(Influence::zy, pair, weights_and_offsets))
-  {}
+  {
+  }
 
   void CouplingOperator::tangential_by_pressure(const double *pressure, double *displacement) const
   {

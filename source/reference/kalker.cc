@@ -65,15 +65,17 @@ namespace tread::reference
 
   CreepageCoefficients creepage_coefficients(const double axis_ratio, const double poisson)
   {
-    require(axis_ratio >= 0.1 * (1. - 1e-12) && axis_ratio <= 10. * (1. + 1e-12), "axis_ratio", axis_ratio, "0.1 to 10");
+    require(axis_ratio >= 0.1 * (1. - 1e-12) && axis_ratio <= 10. * (1. + 1e-12), "axis_ratio", axis_ratio,
+            "0.1 to 10");
     require(poisson >= 0. && poisson <= 0.5, "poisson", poisson, "0 to 0.5");
 
     // four neighbouring rows
     unsigned int right = 1;
     while (right < n_tabulated_axis_ratios - 1 && table[right].axis_ratio < axis_ratio)
       ++right;
-    const int    first = std::clamp(static_cast<int>(right) - 2, 0, static_cast<int>(n_tabulated_axis_ratios) - 4);
-    const double t     = std::log(axis_ratio);
+    const int first =
+      std::clamp(static_cast<int>(right) - 2, 0, static_cast<int>(n_tabulated_axis_ratios) - 4);
+    const double t = std::log(axis_ratio);
 
     double value[3] = {0., 0., 0.};
     for (int i = first; i < first + 4; ++i)
@@ -81,7 +83,8 @@ namespace tread::reference
         double weight = 1.;
         for (int j = first; j < first + 4; ++j)
           if (j != i)
-            weight *= (t - std::log(table[j].axis_ratio)) / std::log(table[i].axis_ratio / table[j].axis_ratio);
+            weight *=
+              (t - std::log(table[j].axis_ratio)) / std::log(table[i].axis_ratio / table[j].axis_ratio);
         for (int k = 0; k < 3; ++k)
           value[k] += weight * std::log(quadratic_in_poisson(table[i].c[k], poisson));
       }
@@ -91,8 +94,9 @@ namespace tread::reference
   CreepForce linear_theory(const CreepPatch &patch, const Creepage &creepage)
   {
     check(patch);
-    const CreepageCoefficients c  = creepage_coefficients(patch.semi_axis_x / patch.semi_axis_y, patch.poisson);
-    const double               ab = patch.semi_axis_x * patch.semi_axis_y;
+    const CreepageCoefficients c =
+      creepage_coefficients(patch.semi_axis_x / patch.semi_axis_y, patch.poisson);
+    const double ab = patch.semi_axis_x * patch.semi_axis_y;
     return {-c.c11 * patch.shear * ab * creepage.longitudinal,
             -patch.shear * ab * (c.c22 * creepage.lateral + c.c23 * std::sqrt(ab) * creepage.spin)};
   }
@@ -103,16 +107,17 @@ namespace tread::reference
     require(creepage.spin == 0., "spin", creepage.spin, "0 in the theory of Vermeulen and Johnson");
     const double a = patch.semi_axis_x, b = patch.semi_axis_y;
 
-    // Second derivatives of the displacements under a semi-ellipsoidal shear of unit maximum. The integrands are smooth and
-    // periodic: the midpoint rule converges exponentially; the number of points grows with the slenderness.
+    // Second derivatives of the displacements under a semi-ellipsoidal shear of unit maximum. The integrands
+    // are smooth and periodic: the midpoint rule converges exponentially; the number of points grows with the
+    // slenderness.
     const unsigned int n   = 64 * static_cast<unsigned int>(1. + std::max(a / b, b / a));
     double             i_x = 0., i_y = 0.;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const double angle = pi * (i + 0.5) / n;
-        const double c2    = std::cos(angle) * std::cos(angle);
-        const double s2    = 1. - c2;
-        const double chord = c2 / (a * a) + s2 / (b * b);
+        const double angle  = pi * (i + 0.5) / n;
+        const double c2     = std::cos(angle) * std::cos(angle);
+        const double s2     = 1. - c2;
+        const double chord  = c2 / (a * a) + s2 / (b * b);
         const double common = s2 / (a * a * b * b * std::pow(chord, 1.5));
         i_x += (1. - patch.poisson + patch.poisson * c2) * common;
         i_y += (1. - patch.poisson + patch.poisson * s2) * common;
@@ -144,9 +149,10 @@ namespace tread::reference
     check(patch);
     const double bound = patch.friction * patch.normal_force;
     require(std::abs(force) <= bound, "force", force, "at most friction times normal force");
-    const CreepageCoefficients c    = creepage_coefficients(patch.semi_axis_x / patch.semi_axis_y, patch.poisson);
-    const double               tau  = 1. - std::cbrt(1. - std::abs(force) / bound);
-    const double               full = 3. * bound / (c.c11 * patch.shear * patch.semi_axis_x * patch.semi_axis_y);
+    const CreepageCoefficients c =
+      creepage_coefficients(patch.semi_axis_x / patch.semi_axis_y, patch.poisson);
+    const double tau  = 1. - std::cbrt(1. - std::abs(force) / bound);
+    const double full = 3. * bound / (c.c11 * patch.shear * patch.semi_axis_x * patch.semi_axis_y);
     return -std::copysign(full * tau, force);
   }
 } // namespace tread::reference

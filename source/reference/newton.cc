@@ -29,16 +29,16 @@ namespace tread::reference
     , op(fourier, equations.pair, equations.stencil)
   {
     fourier.select(equations.patch->inner);
-    p_ref                 = *std::max_element(equations.bound.begin(), equations.bound.end());
-    const Grid &grid      = equations.patch->grid;
-    double      diagonal  = 0.;
+    p_ref                = *std::max_element(equations.bound.begin(), equations.bound.end());
+    const Grid &grid     = equations.patch->grid;
+    double      diagonal = 0.;
     for (const auto &[w, offset] : equations.stencil)
       diagonal += w * influence_coefficient(Influence::xx, equations.pair, grid.dx, grid.dy, offset, 0.);
     r = 1. / diagonal;
     if (equations.stencil.size() == 1)
       {
-        // The displacements themselves, without a difference along x: their operator is smoothing, its largest eigenvalue belongs to
-        // constant traction, and r must not exceed the inverse of that.
+        // The displacements themselves, without a difference along x: their operator is smoothing, its
+        // largest eigenvalue belongs to constant traction, and r must not exceed the inverse of that.
         std::vector<double> ones(2 * n, 0.), u(2 * n);
         std::fill_n(ones.begin(), n, 1.);
         op.apply(ones.data(), u.data());
@@ -54,8 +54,8 @@ namespace tread::reference
     fixed.resize(2 * n);
     for (std::size_t k = 0; k < 2 * n; ++k)
       fixed[k] = equations.fixed[k] * r / p_ref;
-    // Steady rolling: some viscosity makes waves along y regular; half a patch was found best (fewest Krylov steps, with and without
-    // spin).
+    // Steady rolling: some viscosity makes waves along y regular; half a patch was found best (fewest Krylov
+    // steps, with and without spin).
     auto stencil = equations.stencil;
     if (stencil.size() == 2)
       stencil[0][0] += 2. / equations.length;
@@ -168,8 +168,13 @@ namespace tread::reference
           f, delta, 1e-2, 400, [&](const double *in, double *out) { jacobian(in, out); },
           [&](const double *in, double *out) { precondition(in, out); });
         ++iterations;
+        // Where nearly all slips, the force hardly depends on the creepage: its steps are kept to the order
+        // of the slip that turns adhesion into full slip, which is 1 in these variables.
+        double shorten = 1.;
+        for (std::size_t e = 2 * n; e < n_unknowns; ++e)
+          shorten = std::min(shorten, 1. / std::max(1., std::abs(delta[e]) * border));
         for (std::size_t e = 0; e < n_unknowns; ++e)
-          v[e] += delta[e];
+          v[e] += shorten * delta[e];
         for (std::size_t e = 0; e < n; ++e)
           {
             const double size = std::hypot(v[e], v[n + e]);

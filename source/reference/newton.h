@@ -20,25 +20,30 @@ namespace tread::reference
     std::vector<unsigned int> outer; ///< element of the outer grid
     std::vector<unsigned int> inner; ///< the same element on the cropped grid
 
-    std::size_t size() const { return outer.size(); }
+    std::size_t size() const
+    {
+      return outer.size();
+    }
   };
 
-  /// What Newton's method solves: slip s = fixed + (creepages of prescribed forces) + L p with the tangential operator L.
+  /// What Newton's method solves: slip s = fixed + (creepages of prescribed forces) + L p with the tangential
+  /// operator L.
   struct FrictionEquations
   {
     const Patch                       *patch;
     ElasticPair                        pair;
-    std::vector<std::array<double, 2>> stencil;        ///< of L: weights and offsets
-    double                             length;         ///< that of the patch in x, scales the preconditioner [m]
-    std::vector<double>                bound;          ///< f pn per element [Pa]
-    std::vector<double>                fixed;          ///< slip that does not depend on the unknowns (two blocks)
-    bool                               prescribed[2];  ///< force in x, y prescribed
-    double                             force[2];       ///< [N]
+    std::vector<std::array<double, 2>> stencil; ///< of L: weights and offsets
+    double                             length;  ///< that of the patch in x, scales the preconditioner [m]
+    std::vector<double>                bound;   ///< f pn per element [Pa]
+    std::vector<double>                fixed;   ///< slip that does not depend on the unknowns (two blocks)
+    bool                               prescribed[2]; ///< force in x, y prescribed
+    double                             force[2];      ///< [N]
   };
 
-  /// Semismooth Newton method for p = P(p - r s), P the projection on the disc of radius f pn (Alart & Curnier 1991; Hueeber, Stadler &
-  /// Wohlmuth 2008), in scaled variables t = p/p_ref, sigma = r s/p_ref. r is the traction that an element needs for unit slip of its
-  /// own. After each step tractions are brought back into the disc, which tames the overshoot.
+  /// Semismooth Newton method for p = P(p - r s), P the projection on the disc of radius f pn (Alart &
+  /// Curnier 1991; Hueeber, Stadler & Wohlmuth 2008), in scaled variables t = p/p_ref, sigma = r s/p_ref. r
+  /// is the traction that an element needs for unit slip of its own. After each step tractions are brought
+  /// back into the disc, which tames the overshoot.
   class FrictionNewton
   {
   public:
@@ -60,7 +65,10 @@ namespace tread::reference
 
     /// Of the last state: slip (two blocks), and whether an element slips.
     std::vector<double> slip() const;
-    bool                slips(const std::size_t k) const { return weight[k] >= 0.; }
+    bool                slips(const std::size_t k) const
+    {
+      return weight[k] >= 0.;
+    }
 
   private:
     double residual(const std::vector<double> &v, std::vector<double> &out);
@@ -73,8 +81,8 @@ namespace tread::reference
     TangentialOperator                  op;
     std::unique_ptr<TangentialOperator> inverse; // preconditioner
     double                              p_ref, r;
-    double                              border;  // 1/sqrt(n): scales the rows and columns of prescribed forces
-    int                                 row[2];  // of the prescribed forces, -1: none
+    double                              border; // 1/sqrt(n): scales the rows and columns of prescribed forces
+    int                                 row[2]; // of the prescribed forces, -1: none
     std::size_t                         n_unknowns;
     std::vector<double>                 bound, fixed, sigma, weight, e_x, e_y, work;
     Gmres                               gmres;

@@ -13,18 +13,21 @@ namespace tread::reference
   {
     void check(const Grid &grid, const NormalProblem &problem)
     {
-      require(problem.gap.size() == grid.size(), "size of gap", static_cast<double>(problem.gap.size()), "the number of grid elements");
+      require(problem.gap.size() == grid.size(), "size of gap", static_cast<double>(problem.gap.size()),
+              "the number of grid elements");
       for (const double h : problem.gap)
         require_finite("gap", h);
-      require(problem.initial_pressure.empty() || problem.initial_pressure.size() == grid.size(), "size of initial_pressure",
-              static_cast<double>(problem.initial_pressure.size()), "0 or the number of grid elements");
+      require(problem.initial_pressure.empty() || problem.initial_pressure.size() == grid.size(),
+              "size of initial_pressure", static_cast<double>(problem.initial_pressure.size()),
+              "0 or the number of grid elements");
       require_positive("tolerance", problem.tolerance, "");
       if (problem.prescribe_force)
         require_positive("normal force", problem.force, "N (no contact otherwise)");
       else
         {
           const double smallest = *std::min_element(problem.gap.begin(), problem.gap.end());
-          require(problem.approach > smallest, "approach", problem.approach, "more than the smallest gap: no contact otherwise");
+          require(problem.approach > smallest, "approach", problem.approach,
+                  "more than the smallest gap: no contact otherwise");
         }
     }
 
@@ -33,19 +36,22 @@ namespace tread::reference
       for (const unsigned int e : solution.contact)
         {
           const unsigned int i = e % grid.n_x, j = e / grid.n_x;
-          if ((grid.n_x > 1 && (i == 0 || i == grid.n_x - 1)) || (grid.n_y > 1 && (j == 0 || j == grid.n_y - 1)))
+          if ((grid.n_x > 1 && (i == 0 || i == grid.n_x - 1)) ||
+              (grid.n_y > 1 && (j == 0 || j == grid.n_y - 1)))
             solution.cut = true;
         }
     }
   } // namespace
 
-  NormalSolution solve_normal(const FourierGrid &fourier, const NormalOperator &op, const NormalProblem &problem)
+  NormalSolution solve_normal(const FourierGrid    &fourier,
+                              const NormalOperator &op,
+                              const NormalProblem  &problem)
   {
     const Grid &grid = fourier.grid;
     check(grid, problem);
-    const std::size_t n    = grid.size();
-    const double      area = grid.element_area();
-    const auto       &h    = problem.gap;
+    const std::size_t n     = grid.size();
+    const double      area  = grid.element_area();
+    const auto       &h     = problem.gap;
     const double      h_min = *std::min_element(h.begin(), h.end());
 
     NormalSolution      solution;
@@ -80,7 +86,7 @@ namespace tread::reference
           v *= std::max(wanted / work, 1e-12);
       }
 
-    double norm_old = 1.;
+    double norm_old  = 1.;
     bool   conjugate = false;
     double approach  = problem.approach;
     for (unsigned int iteration = 1;; ++iteration)
@@ -113,8 +119,9 @@ namespace tread::reference
         if (solution.residual <= problem.tolerance && approach > h_min)
           break;
         if (iteration >= problem.max_iterations)
-          throw std::runtime_error("normal contact: the conjugate gradients reached " + std::to_string(solution.residual) +
-                                   " in place of the tolerance " + std::to_string(problem.tolerance));
+          throw std::runtime_error("normal contact: the conjugate gradients reached " +
+                                   std::to_string(solution.residual) + " in place of the tolerance " +
+                                   std::to_string(problem.tolerance));
 
         const double beta = conjugate && norm_old > 0. ? norm / norm_old : 0.;
         norm_old          = norm;
@@ -134,7 +141,7 @@ namespace tread::reference
             gt += g[e] * t[e], rt += (r[e] - r_mean) * t[e];
         // one element in contact has no direction left under a given force: only the active set can change
         const double length = rt > 0. ? gt / rt : 0.;
-        const double push   = length > 0. ? length : 1. / (r[0] == 0. ? 1. : std::abs(r[0]));
+        const double push   = length > 0. ? length : 1. / op.self_influence;
 
         conjugate = true;
         sum       = 0.;

@@ -10,7 +10,10 @@
 namespace tread::reference
 {
   /// Throw std::invalid_argument "name = value: allowed is ..." unless holds.
-  inline void require(const bool holds, const std::string &name, const double value, const std::string &allowed)
+  inline void require(const bool         holds,
+                      const std::string &name,
+                      const double       value,
+                      const std::string &allowed)
   {
     if (holds)
       return;
@@ -22,7 +25,8 @@ namespace tread::reference
   /// A finite number > 0.
   inline void require_positive(const std::string &name, const double value, const std::string &unit)
   {
-    require(std::isfinite(value) && value > 0., name, value, "a number > 0" + (unit.empty() ? "" : " " + unit));
+    require(std::isfinite(value) && value > 0., name, value,
+            "a number > 0" + (unit.empty() ? "" : " " + unit));
   }
 
   inline void require_finite(const std::string &name, const double value)

@@ -42,11 +42,11 @@ namespace tread::reference
             n_adhesion += result.state[e] == ElementState::adhesion ? 1 : 0;
             ++in_row[e / grid.n_x];
             ++in_column[e % grid.n_x];
-            const double shear      = std::hypot(result.shear_x[e], result.shear_y[e]);
-            const double slip       = std::hypot(result.slip_x[e], result.slip_y[e]);
-            result.max_pressure     = std::max(result.max_pressure, result.pressure[e]);
-            result.max_shear        = std::max(result.max_shear, shear);
-            result.max_slip         = std::max(result.max_slip, slip);
+            const double shear  = std::hypot(result.shear_x[e], result.shear_y[e]);
+            const double slip   = std::hypot(result.slip_x[e], result.slip_y[e]);
+            result.max_pressure = std::max(result.max_pressure, result.pressure[e]);
+            result.max_shear    = std::max(result.max_shear, shear);
+            result.max_slip     = std::max(result.max_slip, slip);
             result.frictional_power += shear * slip * area;
           }
       result.area                 = n_contact * area;
@@ -54,8 +54,9 @@ namespace tread::reference
       result.semi_axis_y          = 0.5 * grid.dy * *std::max_element(in_column.begin(), in_column.end());
       result.adhesion_share       = static_cast<double>(n_adhesion) / n_contact;
       result.traction_coefficient = result.longitudinal_force / result.normal_force;
-      result.power_balance        = -c.speed * (result.longitudinal_force * result.creepage + result.lateral_force * result.lateral_creepage +
-                                         result.spin_moment * result.spin);
+      result.power_balance =
+        0. - c.speed * (result.longitudinal_force * result.creepage +
+                        result.lateral_force * result.lateral_creepage + result.spin_moment * result.spin);
     }
   } // namespace
 
@@ -63,18 +64,21 @@ namespace tread::reference
   {
     const auto start = std::chrono::steady_clock::now();
     check(c);
-    const ElasticPair  pair  = combine(c.wheel, c.rail);
-    const HertzEllipse hertz = hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
-    require(3. * c.element_size <= std::min(hertz.semi_axis_x, hertz.semi_axis_y), "element_size", c.element_size,
-            "at most a third of the smaller Hertz semi-axis, " + std::to_string(std::min(hertz.semi_axis_x, hertz.semi_axis_y) / 3.) + " m");
+    const ElasticPair  pair = combine(c.wheel, c.rail);
+    const HertzEllipse hertz =
+      hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
+    require(3. * c.element_size <= std::min(hertz.semi_axis_x, hertz.semi_axis_y), "element_size",
+            c.element_size,
+            "at most a third of the smaller Hertz semi-axis, " +
+              std::to_string(std::min(hertz.semi_axis_x, hertz.semi_axis_y) / 3.) + " m");
 
     TangentialProblem tangential;
-    tangential.friction                    = c.friction;
-    tangential.longitudinal                = c.prescribe_force ? 0. : c.creepage;
-    tangential.lateral                     = c.lateral_creepage;
-    tangential.spin                        = c.spin;
+    tangential.friction                     = c.friction;
+    tangential.longitudinal                 = c.prescribe_force ? 0. : c.creepage;
+    tangential.lateral                      = c.lateral_creepage;
+    tangential.spin                         = c.spin;
     tangential.prescribe_longitudinal_force = c.prescribe_force;
-    tangential.longitudinal_force          = c.traction_coefficient * c.normal_force;
+    tangential.longitudinal_force           = c.traction_coefficient * c.normal_force;
 
     RollingResult   result;
     Grid            grid;
@@ -127,7 +131,7 @@ namespace tread::reference
     result.longitudinal_force    = t.longitudinal_force;
     result.lateral_force         = t.lateral_force;
     result.spin_moment           = t.spin_moment;
-    result.creepage              = t.longitudinal;
+    result.creepage              = t.longitudinal + 0.; // no negative zero
     result.lateral_creepage      = t.lateral;
     result.spin                  = t.spin;
     result.approach              = n.approach;
@@ -148,6 +152,6 @@ namespace tread::reference
   {
     RollingCase c     = rolling_case;
     c.prescribe_force = true;
-    return -solve_rolling(c).creepage;
+    return 0. - solve_rolling(c).creepage;
   }
 } // namespace tread::reference

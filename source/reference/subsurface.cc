@@ -22,8 +22,8 @@ namespace tread::reference
       return t >= 0. ? 1. / (r + t) : (s2 > 0. ? (r - t) / s2 : 0.);
     }
 
-    /// Double primitives in x and y of derivatives of phi = ln(r + z) and omega = z ln(r + z) - r, named by the derivative.
-    /// They are to be summed over the corners of the rectangle with alternating signs.
+    /// Double primitives in x and y of derivatives of phi = ln(r + z) and omega = z ln(r + z) - r, named by
+    /// the derivative. They are to be summed over the corners of the rectangle with alternating signs.
     struct Primitives
     {
       double phi_xx, phi_yy, phi_zz, phi_xy, phi_xz, phi_yz;
@@ -34,8 +34,8 @@ namespace tread::reference
     Primitives primitives(const double x, const double y, const double z)
     {
       const double x2 = x * x, y2 = y * y, z2 = z * z;
-      const double r = std::sqrt(x2 + y2 + z2);
-      const double s = 1. / (r + z);
+      const double r   = std::sqrt(x2 + y2 + z2);
+      const double s   = 1. / (r + z);
       const double l_y = log_sum(r, y, x2 + z2), l_x = log_sum(r, x, y2 + z2);
       const double i_y = inverse_sum(r, y, x2 + z2), i_x = inverse_sum(r, x, y2 + z2);
       const double ir = 1. / r;
@@ -66,9 +66,14 @@ namespace tread::reference
       return f;
     }
 
-    // Stress times 2 pi of one corner. Point forces, with z into the body (Johnson 1985, eqs. 3.18 to 3.20, 3.75 to 3.77):
+    // Stress times 2 pi of one corner. Point forces, with z into the body (Johnson 1985, eqs. 3.18
+    // to 3.20, 3.75 to 3.77):
     //   P: 2 pi sigma_ij = 2 nu phi_zz delta_ij(x, y only) - z phi_ijz - (1 - 2 nu) phi_ij, ...
-    Stress corner(const double nu, const std::array<double, 3> &q, const double x, const double y, const double z)
+    Stress corner(const double                 nu,
+                  const std::array<double, 3> &q,
+                  const double                 x,
+                  const double                 y,
+                  const double                 z)
     {
       const Primitives f = primitives(x, y, z);
       const double     m = 1. - 2. * nu;
@@ -134,7 +139,8 @@ namespace tread::reference
     Stress sum;
     for (const double i : {-1., 1.})
       for (const double j : {-1., 1.})
-        add(sum, i * j / (2. * std::numbers::pi), corner(poisson, traction, x + 0.5 * i * dx, y + 0.5 * j * dy, z));
+        add(sum, i * j / (2. * std::numbers::pi),
+            corner(poisson, traction, x + 0.5 * i * dx, y + 0.5 * j * dy, z));
     return sum;
   }
 
@@ -149,11 +155,13 @@ namespace tread::reference
     check_grid(grid);
     require(poisson >= 0. && poisson <= 0.5, "poisson", poisson, "0 to 0.5");
     for (const std::vector<double> *field : {&pressure, &shear_x, &shear_y})
-      require(field->size() == grid.size(), "size of a traction field", static_cast<double>(field->size()), "the number of grid elements");
+      require(field->size() == grid.size(), "size of a traction field", static_cast<double>(field->size()),
+              "the number of grid elements");
     for (const auto &point : points)
       require(point[2] >= 0., "depth", point[2], ">= 0 m");
 
-    // The corner functions are shared by up to four elements: sum over corners, the tractions' mixed differences as weights.
+    // The corner functions are shared by up to four elements: sum over corners, the tractions' mixed
+    // differences as weights.
     struct Corner
     {
       double                x, y;
@@ -171,9 +179,10 @@ namespace tread::reference
       for (int i = 0; i <= static_cast<int>(grid.n_x); ++i)
         {
           // For an element centred at x', its corner x - x' + dx/2 is at the grid line x' - dx/2.
-          const auto right_up = load(i, j), left_up = load(i - 1, j), right_down = load(i, j - 1), left_down = load(i - 1, j - 1);
-          Corner     c{grid.x_first + (i - 0.5) * grid.dx, grid.y_first + (j - 0.5) * grid.dy, {}};
-          bool       any = false;
+          const auto right_up = load(i, j), left_up = load(i - 1, j), right_down = load(i, j - 1),
+                     left_down = load(i - 1, j - 1);
+          Corner c{grid.x_first + (i - 0.5) * grid.dx, grid.y_first + (j - 0.5) * grid.dy, {}};
+          bool   any = false;
           for (unsigned int d = 0; d < 3; ++d)
             {
               c.traction[d] = right_up[d] - left_up[d] - right_down[d] + left_down[d];
@@ -188,7 +197,8 @@ namespace tread::reference
       {
         Stress sum;
         for (const Corner &c : corners)
-          add(sum, 1. / (2. * std::numbers::pi), corner(poisson, c.traction, points[k][0] - c.x, points[k][1] - c.y, points[k][2]));
+          add(sum, 1. / (2. * std::numbers::pi),
+              corner(poisson, c.traction, points[k][0] - c.x, points[k][1] - c.y, points[k][2]));
         // The rail's own axis points down: the shear stresses with z change sign in the global axes.
         sum.xz *= sign;
         sum.yz *= sign;

@@ -13,8 +13,8 @@ namespace tread::reference
   {
     using Vector = std::vector<double>;
 
-    // Up to this number of elements in a row no coarser grid is asked for a first guess: Newton's method moves a wrong border of
-    // adhesion and slip by about one element per step.
+    // Up to this number of elements in a row no coarser grid is asked for a first guess: Newton's method
+    // moves a wrong border of adhesion and slip by about one element per step.
     constexpr unsigned int coarsest = 14;
 
     double step_of(const Grid &grid, const TangentialProblem &problem)
@@ -46,8 +46,8 @@ namespace tread::reference
       for (const double p : pressure)
         force += std::max(p, 0.) * grid.element_area();
       require(force > 0., "sum of the pressure", force, "positive: no contact otherwise");
-      const double f_x = problem.prescribe_longitudinal_force ? problem.longitudinal_force : 0.;
-      const double f_y = problem.prescribe_lateral_force ? problem.lateral_force : 0.;
+      const double f_x   = problem.prescribe_longitudinal_force ? problem.longitudinal_force : 0.;
+      const double f_y   = problem.prescribe_lateral_force ? problem.lateral_force : 0.;
       const double bound = problem.friction * force;
       require(std::hypot(f_x, f_y) < bound, "prescribed tangential force [N]", std::hypot(f_x, f_y),
               "less than friction times normal force, " + std::to_string(bound));
@@ -62,7 +62,8 @@ namespace tread::reference
       return contact;
     }
 
-    /// Tangential displacements at the patch's elements (two blocks) by tractions and pressure anywhere on the grid.
+    /// Tangential displacements at the patch's elements (two blocks) by tractions and pressure anywhere on
+    /// the grid.
     Vector displacement(const Grid                               &grid,
                         const ElasticPair                        &pair,
                         const Patch                              &patch,
@@ -91,7 +92,7 @@ namespace tread::reference
       FourierGrid       fourier(both.grid);
       fourier.select(both.inner);
 
-      Vector load(2 * m), u(2 * m, 0.), result(2 * n, 0.);
+      Vector     load(2 * m), u(2 * m, 0.), result(2 * n, 0.);
       const auto add = [&] {
         for (std::size_t k = 0; k < n; ++k)
           {
@@ -143,10 +144,12 @@ namespace tread::reference
       equations.fixed.resize(2 * n);
       for (std::size_t k = 0; k < n; ++k)
         {
-          const unsigned int e   = patch.outer[k];
-          equations.bound[k]     = problem.friction * pressure[e];
-          equations.fixed[k]     = (equations.prescribed[0] ? 0. : problem.longitudinal) - problem.spin * grid.y(e / grid.n_x);
-          equations.fixed[n + k] = (equations.prescribed[1] ? 0. : problem.lateral) + problem.spin * grid.x(e % grid.n_x);
+          const unsigned int e = patch.outer[k];
+          equations.bound[k]   = problem.friction * pressure[e];
+          equations.fixed[k] =
+            (equations.prescribed[0] ? 0. : problem.longitudinal) - problem.spin * grid.y(e / grid.n_x);
+          equations.fixed[n + k] =
+            (equations.prescribed[1] ? 0. : problem.lateral) + problem.spin * grid.x(e % grid.n_x);
         }
       const auto add = [&](const Vector &u) {
         for (std::size_t k = 0; k < 2 * n; ++k)
@@ -156,9 +159,11 @@ namespace tread::reference
         add(displacement(grid, pair, patch, {}, {}, pressure, equations.stencil));
       if (problem.motion != Motion::steady)
         {
-          const bool    rolls    = problem.motion == Motion::transient;
-          const Vector &previous = problem.previous_pressure.empty() && rolls ? pressure : problem.previous_pressure;
-          if (!problem.previous_shear_x.empty() || !problem.previous_shear_y.empty() || (pair.coupling != 0. && !previous.empty()))
+          const bool    rolls = problem.motion == Motion::transient;
+          const Vector &previous =
+            problem.previous_pressure.empty() && rolls ? pressure : problem.previous_pressure;
+          if (!problem.previous_shear_x.empty() || !problem.previous_shear_y.empty() ||
+              (pair.coupling != 0. && !previous.empty()))
             add(displacement(grid, pair, patch, problem.previous_shear_x, problem.previous_shear_y, previous,
                              {{-1. / step, rolls ? step : 0.}}));
         }
@@ -182,9 +187,12 @@ namespace tread::reference
     CoarseProblem coarsen(const Grid &fine, const Vector &pressure, const TangentialProblem &problem)
     {
       CoarseProblem coarse;
-      coarse.factor_y = fine.n_y > 1 ? 2 : 1;
-      coarse.grid     = Grid{(fine.n_x + 1) / 2, (fine.n_y + coarse.factor_y - 1) / coarse.factor_y, 2. * fine.dx,
-                         coarse.factor_y * fine.dy, fine.x_first + 0.5 * fine.dx,
+      coarse.factor_y    = fine.n_y > 1 ? 2 : 1;
+      coarse.grid        = Grid{(fine.n_x + 1) / 2,
+                         (fine.n_y + coarse.factor_y - 1) / coarse.factor_y,
+                         2. * fine.dx,
+                         coarse.factor_y * fine.dy,
+                         fine.x_first + 0.5 * fine.dx,
                          fine.y_first + 0.5 * (coarse.factor_y - 1) * fine.dy};
       const auto average = [&](const Vector &field) {
         Vector result(field.empty() ? 0 : coarse.grid.size(), 0.);
@@ -197,7 +205,8 @@ namespace tread::reference
       coarse.problem.previous_shear_x  = average(problem.previous_shear_x);
       coarse.problem.previous_shear_y  = average(problem.previous_shear_y);
       coarse.problem.previous_pressure = average(problem.previous_pressure);
-      // Rolling steps of an element are kept one element long; a transient step must remain the step asked for.
+      // Rolling steps of an element are kept one element long; a transient step must remain the step asked
+      // for.
       if (problem.motion == Motion::steady)
         coarse.problem.step = 2. * problem.step;
       else if (problem.motion == Motion::transient)
@@ -206,7 +215,12 @@ namespace tread::reference
     }
 
     /// Tractions from the coarse grid: the share of the friction bound that is used, interpolated bilinearly.
-    Vector prolongate(const Grid &fine, const Patch &patch, const Vector &bound, const CoarseProblem &coarse, const Vector &shear_x, const Vector &shear_y)
+    Vector prolongate(const Grid          &fine,
+                      const Patch         &patch,
+                      const Vector        &bound,
+                      const CoarseProblem &coarse,
+                      const Vector        &shear_x,
+                      const Vector        &shear_y)
     {
       const std::size_t n = patch.size();
       Vector            result(2 * n, 0.);
@@ -215,9 +229,11 @@ namespace tread::reference
         {
           const unsigned int i = patch.outer[k] % fine.n_x, j = patch.outer[k] / fine.n_x;
           const int          i0 = static_cast<int>(i / 2), i1 = i0 + (i % 2 == 0 ? -1 : 1);
-          const int          j0 = static_cast<int>(j / coarse.factor_y), j1 = coarse.factor_y == 1 ? j0 : j0 + (j % 2 == 0 ? -1 : 1);
-          double             sum = 0., x = 0., y = 0.;
-          for (const auto &[ii, jj, w] : {std::tuple<int, int, double>{i0, j0, 9.}, {i1, j0, 3.}, {i0, j1, 3.}, {i1, j1, 1.}})
+          const int          j0 = static_cast<int>(j / coarse.factor_y),
+                    j1          = coarse.factor_y == 1 ? j0 : j0 + (j % 2 == 0 ? -1 : 1);
+          double sum = 0., x = 0., y = 0.;
+          for (const auto &[ii, jj, w] :
+               {std::tuple<int, int, double>{i0, j0, 9.}, {i1, j0, 3.}, {i0, j1, 3.}, {i1, j1, 1.}})
             if (ii >= 0 && ii < c_x && jj >= 0 && jj < c_y)
               {
                 const std::size_t e = static_cast<std::size_t>(jj) * c_x + ii;
@@ -255,10 +271,14 @@ namespace tread::reference
         }
     }
 
-    /// Roll over twice the patch's length in transient steps: each is a convex problem if no force is prescribed, and the end is close to
-    /// steady rolling.
-    unsigned int
-    march(const Grid &grid, const ElasticPair &pair, const Patch &patch, const Vector &pressure, TangentialProblem problem, Level &level)
+    /// Roll over twice the patch's length in transient steps: each is a convex problem if no force is
+    /// prescribed, and the end is close to steady rolling.
+    unsigned int march(const Grid        &grid,
+                       const ElasticPair &pair,
+                       const Patch       &patch,
+                       const Vector      &pressure,
+                       TangentialProblem  problem,
+                       Level             &level)
     {
       problem.motion             = Motion::transient;
       problem.step               = step_of(grid, problem);
@@ -270,19 +290,19 @@ namespace tread::reference
           problem.previous_shear_y          = level.shear_y;
           const FrictionEquations equations = make_equations(grid, pair, patch, pressure, problem);
           FrictionNewton          newton(equations);
-          newton.iterate(level.state, 1e-3, problem.max_iterations);
+          newton.iterate(level.state, 1e-3, 15);
         }
       return n_steps;
     }
 
-    Level solve_level(const Grid                &grid,
-                      const ElasticPair         &pair,
-                      const Vector              &pressure,
-                      const TangentialProblem   &problem,
-                      const double               tolerance,
-                      TangentialSolution        &solution,
-                      const bool                 finest,
-                      const bool                 started)
+    Level solve_level(const Grid              &grid,
+                      const ElasticPair       &pair,
+                      const Vector            &pressure,
+                      const TangentialProblem &problem,
+                      const double             tolerance,
+                      TangentialSolution      &solution,
+                      const bool               finest,
+                      const bool               started)
     {
       const std::vector<unsigned int> contact = elements_in_contact(pressure);
       const Patch                     patch(grid, contact);
@@ -291,23 +311,26 @@ namespace tread::reference
 
       Level level;
       level.state.shear.assign(2 * n, 0.);
-      // Without tractions to start from, the creepages of prescribed forces start at zero: the first, linear step finds better ones than
-      // most guesses, while one beyond full slip leads nowhere.
+      // Without tractions to start from, the creepages of prescribed forces start at zero: the first, linear
+      // step finds better ones than most guesses, while one beyond full slip leads nowhere.
       if (started)
         {
           level.state.creepage[0] = problem.longitudinal;
           level.state.creepage[1] = problem.lateral;
           for (std::size_t k = 0; k < n; ++k)
             {
-              level.state.shear[k]     = problem.initial_shear_x.empty() ? 0. : problem.initial_shear_x[contact[k]];
-              level.state.shear[n + k] = problem.initial_shear_y.empty() ? 0. : problem.initial_shear_y[contact[k]];
+              level.state.shear[k] =
+                problem.initial_shear_x.empty() ? 0. : problem.initial_shear_x[contact[k]];
+              level.state.shear[n + k] =
+                problem.initial_shear_y.empty() ? 0. : problem.initial_shear_y[contact[k]];
             }
         }
       else if (patch.grid.n_x > coarsest)
         {
           // the coarse grid's own violation of the fine equations is some per cent: no need to solve it well
           const CoarseProblem coarse = coarsen(grid, pressure, problem);
-          const Level guess = solve_level(coarse.grid, pair, coarse.pressure, coarse.problem, std::max(tolerance, 1e-3), solution, false, false);
+          const Level         guess  = solve_level(coarse.grid, pair, coarse.pressure, coarse.problem,
+                                                   std::max(tolerance, 1e-3), solution, false, false);
           level.state.shear = prolongate(grid, patch, equations.bound, coarse, guess.shear_x, guess.shear_y);
           std::copy_n(guess.state.creepage, 2, level.state.creepage);
         }
@@ -327,14 +350,16 @@ namespace tread::reference
         return level;
 
       if (!converged)
-        throw std::runtime_error("tangential contact: Newton's method reached a violation of " + std::to_string(newton.violation) +
-                                 " f p_max, the tolerance is " + std::to_string(tolerance));
-      solution.iterations = newton.iterations;
-      solution.residual   = newton.violation;
+        throw std::runtime_error("tangential contact: Newton's method reached a violation of " +
+                                 std::to_string(newton.violation) + " f p_max, the tolerance is " +
+                                 std::to_string(tolerance));
+      solution.iterations   = newton.iterations;
+      solution.residual     = newton.violation;
       solution.longitudinal = equations.prescribed[0] ? level.state.creepage[0] : problem.longitudinal;
       solution.lateral      = equations.prescribed[1] ? level.state.creepage[1] : problem.lateral;
       solution.spin         = problem.spin;
-      for (Vector *field : {&solution.slip_x, &solution.slip_y, &solution.displacement_x, &solution.displacement_y})
+      for (Vector *field :
+           {&solution.slip_x, &solution.slip_y, &solution.displacement_x, &solution.displacement_y})
         field->assign(grid.size(), 0.);
       solution.state.assign(grid.size(), ElementState::exterior);
       const Vector slip = newton.slip();
@@ -353,7 +378,8 @@ namespace tread::reference
           const double area = grid.element_area();
           solution.longitudinal_force += level.shear_x[e] * area;
           solution.lateral_force += level.shear_y[e] * area;
-          solution.spin_moment += (grid.x(e % grid.n_x) * level.shear_y[e] - grid.y(e / grid.n_x) * level.shear_x[e]) * area;
+          solution.spin_moment +=
+            (grid.x(e % grid.n_x) * level.shear_y[e] - grid.y(e / grid.n_x) * level.shear_x[e]) * area;
         }
       return level;
     }
@@ -367,14 +393,16 @@ namespace tread::reference
     check(grid, pressure, problem);
     TangentialSolution solution;
     const bool         started = !problem.initial_shear_x.empty() || !problem.initial_shear_y.empty();
-    Level              level   = solve_level(grid, pair, pressure, problem, problem.tolerance, solution, true, started);
-    solution.shear_x         = std::move(level.shear_x);
-    solution.shear_y         = std::move(level.shear_y);
+    Level level      = solve_level(grid, pair, pressure, problem, problem.tolerance, solution, true, started);
+    solution.shear_x = std::move(level.shear_x);
+    solution.shear_y = std::move(level.shear_y);
     return solution;
   }
 
-  ContactSolution
-  solve_contact(const Grid &grid, const ElasticPair &pair, const NormalProblem &normal, const TangentialProblem &tangential)
+  ContactSolution solve_contact(const Grid              &grid,
+                                const ElasticPair       &pair,
+                                const NormalProblem     &normal,
+                                const TangentialProblem &tangential)
   {
     FourierGrid     fourier(grid);
     NormalOperator  op(fourier, pair);
@@ -392,7 +420,8 @@ namespace tread::reference
       {
         ++solution.outer_iterations;
         std::copy(solution.tangential.shear_x.begin(), solution.tangential.shear_x.end(), traction.begin());
-        std::copy(solution.tangential.shear_y.begin(), solution.tangential.shear_y.end(), traction.begin() + grid.size());
+        std::copy(solution.tangential.shear_y.begin(), solution.tangential.shear_y.end(),
+                  traction.begin() + grid.size());
         coupling.normal_by_traction(traction.data(), lift.data());
         for (std::size_t e = 0; e < grid.size(); ++e)
           changed_normal.gap[e] = normal.gap[e] + lift[e];
@@ -404,7 +433,7 @@ namespace tread::reference
         changed_tangential.initial_shear_y = solution.tangential.shear_y;
         changed_tangential.longitudinal    = solution.tangential.longitudinal;
         changed_tangential.lateral         = solution.tangential.lateral;
-        solution.tangential                = solve_tangential(grid, pair, solution.normal.pressure, changed_tangential);
+        solution.tangential = solve_tangential(grid, pair, solution.normal.pressure, changed_tangential);
         double change = 0., p_max = 0.;
         for (std::size_t e = 0; e < grid.size(); ++e)
           {
@@ -414,6 +443,7 @@ namespace tread::reference
         if (change <= 1e-7 * p_max)
           return solution;
       }
-    throw std::runtime_error("contact of unlike bodies: normal and tangential problem did not settle in 50 turns");
+    throw std::runtime_error(
+      "contact of unlike bodies: normal and tangential problem did not settle in 50 turns");
   }
 } // namespace tread::reference

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -143,12 +144,14 @@ namespace tread
 
   double hourglass_stiffness(const HexahedronIntegrals &cell, const ElasticMaterial &material, const double coefficient)
   {
-    double squares = 0.;
+    // The direction with the smallest gradients is the longest edge: bending along it is what the
+    // modes must not stiffen.
+    double squares[3] = {0., 0., 0.};
     for (const auto &g : cell.gradient)
-      for (const double component : g)
-        squares += component * component;
+      for (unsigned int i = 0; i < 3; ++i)
+        squares[i] += g[i] * g[i];
     const double plate_modulus = material.young_modulus / (1. - material.poisson_ratio * material.poisson_ratio);
-    return coefficient * plate_modulus * cell.volume * squares / 72.;
+    return coefficient * plate_modulus * cell.volume * std::min({squares[0], squares[1], squares[2]}) / 24.;
   }
 
 

@@ -3,6 +3,7 @@
 #include <tread/solid/solid.h>
 
 #include <limits>
+#include <stdexcept>
 
 namespace tread
 {
@@ -63,6 +64,8 @@ namespace tread
     , n_cells(mesh.cells.size())
   {
     const bool full = parameters.element_type == ElementType::fully_integrated;
+    if (full && needs_velocity())
+      throw std::invalid_argument("bulk viscosity is for one-point cells only");
     frequencies.resize(n_cells);
     volumes.resize(n_cells);
     masses.resize(n_cells);

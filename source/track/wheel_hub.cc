@@ -73,9 +73,11 @@ namespace tread
     motion.angle += time_step * motion.angular_velocity;
     motion.sprung_z += time_step * motion.sprung_velocity;
 
-    // The guidance holds the hub's speed against the cells and the pull of the balancing part.
-    const double pull  = before.angular_velocity * before.angular_velocity * moment_x;
-    const double along = -time_step * (force[0] + pull) * motion.velocity_x;
+    // The guidance holds the hub's speed against the cells and the pull of the balancing part, which changes its
+    // momentum along x, angular velocity times first moment, by turning and by turning faster.
+    const double pull   = before.angular_velocity * before.angular_velocity * moment_x;
+    const double faster = moment_z * (motion.angular_velocity - before.angular_velocity);
+    const double along  = (faster - time_step * (force[0] + pull)) * motion.velocity_x;
     const double up    = time_step * vertical_outside * 0.5 * (before.velocity_z + motion.velocity_z);
     const double turn  = time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
     work += along + up + turn;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The half-space solver beyond Hertz: a rail head of three arcs, two patches at once, unlike bodies; and bad input.
+// The half-space solver beyond Hertz: a rail head of three arcs, two patches at once, unlike bodies; and bad
+// input.
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
 #include <tread/reference/rolling_case.h>
@@ -32,7 +33,8 @@ namespace
     return *std::max_element(f.begin(), f.end());
   }
 
-  /// Head of the rail 54E1 (EN 13674-1): arcs of 300, 80 and 13 mm that touch at |y| = 10.012 and 24.8635 mm. Depth below the crown.
+  /// Head of the rail 54E1 (EN 13674-1): arcs of 300, 80 and 13 mm that touch at |y| = 10.012 and 24.8635 mm.
+  /// Depth below the crown.
   double rail_depth(const double y)
   {
     const double r[3] = {0.3, 0.08, 0.013}, border[2] = {10.012e-3, 24.8635e-3};
@@ -59,11 +61,12 @@ namespace
 
   void rail_head(tread::tests::Check &check)
   {
-    std::printf("\n--- head of 54E1 under a conical tread, R = 460 mm, that touches it 0 to 8 mm beside the crown; 80 kN\n");
-    const ElasticPair  pair  = combine(Elastic{}, Elastic{});
-    const double       force = 80e3;
-    const HertzEllipse crown = hertz_ellipse(1. / 0.92, 1. / 0.6, pair.hertz_modulus(), force);
-    const HertzEllipse side  = hertz_ellipse(1. / 0.92, 1. / 0.16, pair.hertz_modulus(), force);
+    std::printf("\n--- head of 54E1 under a conical tread, R = 460 mm, that touches it 0 to 8 mm beside the "
+                "crown; 80 kN\n");
+    const ElasticPair  pair        = combine(Elastic{}, Elastic{});
+    const double       force       = 80e3;
+    const HertzEllipse crown       = hertz_ellipse(1. / 0.92, 1. / 0.6, pair.hertz_modulus(), force);
+    const HertzEllipse side        = hertz_ellipse(1. / 0.92, 1. / 0.16, pair.hertz_modulus(), force);
     double             area_before = 1e9, pressure_before = 0.;
     for (const double shift : {0., 2e-3, 4e-3, 6e-3, 8e-3})
       {
@@ -76,13 +79,13 @@ namespace
           return x * x / 0.92 + rail_depth(y) - depth - slope * (y - shift);
         });
         TangentialProblem rolling;
-        rolling.friction                    = 0.4;
+        rolling.friction                     = 0.4;
         rolling.prescribe_longitudinal_force = true;
-        rolling.longitudinal_force          = 0.1 * force;
-        rolling.spin                        = slope / 0.46; // of a cone of this slope
-        const ContactSolution c             = solve_contact(grid, pair, normal, rolling);
-        const double          area = c.normal.contact.size() * grid.element_area(), p_max = largest(c.normal.pressure);
-        double                sum = 0., moment = 0.;
+        rolling.longitudinal_force           = 0.1 * force;
+        rolling.spin                         = slope / 0.46; // of a cone of this slope
+        const ContactSolution c              = solve_contact(grid, pair, normal, rolling);
+        const double area = c.normal.contact.size() * grid.element_area(), p_max = largest(c.normal.pressure);
+        double       sum = 0., moment = 0.;
         for (std::size_t e = 0; e < grid.size(); ++e)
           {
             sum += c.normal.pressure[e] * grid.element_area();
@@ -90,27 +93,35 @@ namespace
           }
         char name[20];
         std::snprintf(name, sizeof(name), "%.0f mm: ", shift * 1e3);
-        std::printf("    %sarea %.2f mm^2, p_max %.1f MPa, centre of force at %.3f mm, xi %.3e, Fy/Fn %+.4f, %u + %u iterations\n", name,
-                    area * 1e6, p_max * 1e-6, moment / sum * 1e3, c.tangential.longitudinal, c.tangential.lateral_force / force,
-                    c.normal.iterations, c.tangential.iterations);
+        std::printf("    %sarea %.2f mm^2, p_max %.1f MPa, centre of force at %.3f mm, xi %.3e, Fy/Fn %+.4f, "
+                    "%u + %u iterations\n",
+                    name, area * 1e6, p_max * 1e-6, moment / sum * 1e3, c.tangential.longitudinal,
+                    c.tangential.lateral_force / force, c.normal.iterations, c.tangential.iterations);
         check.relative(std::string(name) + "sum of the pressure [kN]", sum * 1e-3, 80., 1e-12);
         check.relative(std::string(name) + "Fx [kN]", c.tangential.longitudinal_force * 1e-3, 8., 1e-5);
         check.that(std::string(name) + "patch inside the grid", !c.normal.cut);
         double gap_error = 0.;
         for (std::size_t e = 0; e < grid.size(); ++e)
-          gap_error = std::max(gap_error, c.normal.pressure[e] > 0. ? std::abs(c.normal.gap[e]) : -c.normal.gap[e]);
-        check.below(std::string(name) + "gap in contact, penetration outside, over the approach", gap_error / c.normal.approach, 1e-8);
+          gap_error =
+            std::max(gap_error, c.normal.pressure[e] > 0. ? std::abs(c.normal.gap[e]) : -c.normal.gap[e]);
+        check.below(std::string(name) + "gap in contact, penetration outside, over the approach",
+                    gap_error / c.normal.approach, 1e-8);
         // between the ellipses of the crown and of the 80 mm arc, and monotonic as the patch leaves the crown
         // whole elements are counted: an element more or less along half of the edge is 3 %
-        check.that(std::string(name) + "area between that of both arcs", area < 1.03 * crown.area && area > 0.97 * side.area);
-        check.that(std::string(name) + "pressure between that of both arcs", p_max > 0.995 * crown.max_pressure && p_max < 1.01 * side.max_pressure);
-        check.that(std::string(name) + "area falls, pressure rises", area <= area_before && p_max >= pressure_before * (1. - 1e-3));
+        check.that(std::string(name) + "area between that of both arcs",
+                   area < 1.03 * crown.area && area > 0.97 * side.area);
+        check.that(std::string(name) + "pressure between that of both arcs",
+                   p_max > 0.995 * crown.max_pressure && p_max < 1.01 * side.max_pressure);
+        check.that(std::string(name) + "area falls, pressure rises",
+                   area <= area_before && p_max >= pressure_before * (1. - 1e-3));
         if (shift == 0.)
           {
             // the patch (b = 5.0 mm) lies on the crown arc alone; that is a circle, Hertz's a parabola:
             // (b/R)^2/4 of the gap, 1e-4
-            check.relative(std::string(name) + "p_max against Hertz [MPa]", p_max * 1e-6, crown.max_pressure * 1e-6, 1e-3);
-            check.relative(std::string(name) + "area against Hertz [mm^2]", area * 1e6, crown.area * 1e6, 0.03);
+            check.relative(std::string(name) + "p_max against Hertz [MPa]", p_max * 1e-6,
+                           crown.max_pressure * 1e-6, 1e-3);
+            check.relative(std::string(name) + "area against Hertz [mm^2]", area * 1e6, crown.area * 1e6,
+                           0.03);
             check.below(std::string(name) + "Fy/Fn", c.tangential.lateral_force / force, 1e-6);
           }
         area_before     = area;
@@ -126,27 +137,31 @@ namespace
       return x * x / 0.92 + d * d / 0.1;
     });
     TangentialProblem rolling;
-    rolling.friction        = 0.3;
-    rolling.longitudinal    = -1e-3;
-    const ContactSolution c = solve_contact(grid, pair, normal, rolling);
-    const HertzEllipse    half = hertz_ellipse(1. / 0.92, 1. / 0.1, pair.hertz_modulus(), 30e3);
+    rolling.friction            = 0.3;
+    rolling.longitudinal        = -1e-3;
+    const ContactSolution c     = solve_contact(grid, pair, normal, rolling);
+    const HertzEllipse    half  = hertz_ellipse(1. / 0.92, 1. / 0.1, pair.hertz_modulus(), 30e3);
     double                upper = 0.;
     for (std::size_t e = 0; e < grid.size(); ++e)
       upper += grid.y(e / grid.n_x) > 0. ? c.normal.pressure[e] * grid.element_area() : 0.;
     check.relative("each carries half [kN]", upper * 1e-3, 30., 1e-6);
-    // at 18 mm each patch tilts and sinks the other's ground: the pressure stays Hertz's nearly, the approach grows by 1/(pi E* 18 mm) N/2
-    check.relative("p_max against Hertz for half the load [MPa]", largest(c.normal.pressure) * 1e-6, half.max_pressure * 1e-6, 0.01);
+    // at 18 mm each patch tilts and sinks the other's ground: the pressure stays Hertz's nearly, the approach
+    // grows by 1/(pi E* 18 mm) N/2
+    check.relative("p_max against Hertz for half the load [MPa]", largest(c.normal.pressure) * 1e-6,
+                   half.max_pressure * 1e-6, 0.01);
     check.relative("approach with the neighbour's share [um]", c.normal.approach * 1e6,
                    (half.approach + 30e3 / (M_PI * pair.hertz_modulus() * 18e-3)) * 1e6, 0.01);
-    check.that("slip and adhesion in both", c.tangential.longitudinal_force > 0. && c.tangential.longitudinal_force < 0.3 * 60e3);
+    check.that("slip and adhesion in both",
+               c.tangential.longitudinal_force > 0. && c.tangential.longitudinal_force < 0.3 * 60e3);
 
     // prescribed approach gives the force back
-    NormalProblem by_approach = normal;
+    NormalProblem by_approach   = normal;
     by_approach.prescribe_force = false;
     by_approach.approach        = c.normal.approach;
     FourierGrid          fourier(grid);
     const NormalOperator op(fourier, pair);
-    check.relative("force of a prescribed approach [kN]", solve_normal(fourier, op, by_approach).force * 1e-3, 60., 1e-6);
+    check.relative("force of a prescribed approach [kN]", solve_normal(fourier, op, by_approach).force * 1e-3,
+                   60., 1e-6);
   }
 
   void unlike_bodies(tread::tests::Check &check)
@@ -156,16 +171,17 @@ namespace
     const ElasticPair pair = combine(aluminium, steel);
     {
       // Pressure on a strip stretches both surfaces: du_x/dx = -2 K/G p at each point (plane strain)
-      const unsigned int n = 60;
-      const Grid         grid{n, 1, 0.1e-3, 10., 0., 0.};
-      FourierGrid        fourier(grid);
+      const unsigned int     n = 60;
+      const Grid             grid{n, 1, 0.1e-3, 10., 0., 0.};
+      FourierGrid            fourier(grid);
       const CouplingOperator coupling(fourier, pair, {{1., 0.}});
-      Field p(n), u(2 * n), q(2 * n, 0.), w(n);
+      Field                  p(n), u(2 * n), q(2 * n, 0.), w(n);
       for (unsigned int i = 0; i < n; ++i)
         p[i] = 1e9 * (1. + std::sin(0.3 * i));
       coupling.tangential_by_pressure(p.data(), u.data());
       // between the centres of two elements lie two halves; the strip is 10 m long: errors (6 mm/10 m)
-      check.relative("strain under pressure", (u[31] - u[30]) / grid.dx, -2. * pair.coupling / pair.shear * 0.5 * (p[30] + p[31]), 1e-3);
+      check.relative("strain under pressure", (u[31] - u[30]) / grid.dx,
+                     -2. * pair.coupling / pair.shear * 0.5 * (p[30] + p[31]), 1e-3);
       for (unsigned int i = 0; i < n; ++i)
         q[i] = 1e8 * std::cos(0.2 * i * i);
       coupling.normal_by_traction(q.data(), w.data());
@@ -176,18 +192,19 @@ namespace
     }
 
     RollingCase c;
-    c.curvature_x          = c.curvature_y = 1. / 0.1;
-    c.normal_force         = 2e3;
-    c.friction             = 0.2;
-    c.wheel                = aluminium;
-    c.rail                 = steel;
-    c.traction_coefficient = 0.;
-    c.element_size         = 0.04e-3;
-    const RollingResult r = solve_rolling(c);
+    c.curvature_x = c.curvature_y = 1. / 0.1;
+    c.normal_force                = 2e3;
+    c.friction                    = 0.2;
+    c.wheel                       = aluminium;
+    c.rail                        = steel;
+    c.traction_coefficient        = 0.;
+    c.element_size                = 0.04e-3;
+    const RollingResult r         = solve_rolling(c);
     std::swap(c.wheel, c.rail);
     const RollingResult s = solve_rolling(c);
-    std::printf("    free rolling of aluminium on steel: creepage %.4e, largest shear %.3f f p0, slip in %.1f %% of the patch\n", r.creepage,
-                r.max_shear / (c.friction * r.max_pressure), 100. * (1. - r.adhesion_share));
+    std::printf("    free rolling of aluminium on steel: creepage %.4e, largest shear %.3f f p0, slip in "
+                "%.1f %% of the patch\n",
+                r.creepage, r.max_shear / (c.friction * r.max_pressure), 100. * (1. - r.adhesion_share));
     double shear = 0., pressure = 0.;
     for (std::size_t e = 0; e < r.x.size(); ++e)
       {
@@ -198,17 +215,68 @@ namespace
     check.that("free rolling has creepage", std::abs(r.creepage) > 1e-5);
     check.below("Fx/Fn", r.traction_coefficient, 1e-7);
     check.relative("bodies exchanged: creepage changes its sign", s.creepage, -r.creepage, 1e-4);
-    check.below("bodies exchanged: shear changes its sign, over f p0", shear / (c.friction * r.max_pressure), 1e-4);
+    check.below("bodies exchanged: shear changes its sign, over f p0", shear / (c.friction * r.max_pressure),
+                1e-4);
     check.below("bodies exchanged: same pressure, over p0", pressure / r.max_pressure, 1e-5);
     check.relative("force [kN]", r.normal_force * 1e-3, 2., 1e-9);
     // shear changes the pressure by about f K, here below 1 %
     check.relative("p_max against Hertz [MPa]", r.max_pressure * 1e-6, r.hertz_pressure * 1e-6, 0.02);
   }
 
+  // A transient step that starts from steady rolling must stay there, for unlike bodies too; and so must the
+  // answer from any start.
+  void steady_is_steady(tread::tests::Check &check)
+  {
+    std::printf("\n--- a transient step from steady rolling; normal problem from a poor start\n");
+    for (const bool alike : {true, false})
+      {
+        const ElasticPair  pair  = combine(alike ? Elastic{} : Elastic{70e9, 0.33}, Elastic{});
+        const HertzEllipse hertz = hertz_ellipse(10., 6., pair.hertz_modulus(), 1e3);
+        const Grid         grid =
+          centred_grid(1.1 * hertz.semi_axis_x, 1.1 * hertz.semi_axis_y, hertz.semi_axis_x / 12.);
+        NormalProblem normal;
+        normal.force = 1e3;
+        normal.gap = make_gap(grid, [](const double x, const double y) { return 10. * x * x + 6. * y * y; });
+        TangentialProblem rolling;
+        rolling.friction                = 0.25;
+        rolling.longitudinal            = -1e-3;
+        rolling.lateral                 = 4e-4;
+        rolling.spin                    = 0.5;
+        rolling.tolerance               = 1e-9;
+        const ContactSolution c         = solve_contact(grid, pair, normal, rolling);
+        rolling.motion                  = Motion::transient;
+        rolling.previous_shear_x        = c.tangential.shear_x;
+        rolling.previous_shear_y        = c.tangential.shear_y;
+        const TangentialSolution next   = solve_tangential(grid, pair, c.normal.pressure, rolling);
+        double                   change = 0.;
+        for (std::size_t e = 0; e < grid.size(); ++e)
+          change = std::max(change, std::hypot(next.shear_x[e] - c.tangential.shear_x[e],
+                                               next.shear_y[e] - c.tangential.shear_y[e]));
+        // both solved to 1e-9 f p0 of their own scaling, whose ratio is the patch's length in elements
+        check.below(std::string(alike ? "like" : "unlike") + " bodies: change of the shear over f p0",
+                    change / (0.25 * hertz.max_pressure), 1e-6);
+
+        // all load on one element at the wrong place: same answer
+        NormalProblem poor = normal;
+        poor.initial_pressure.assign(grid.size(), 0.);
+        poor.initial_pressure[grid.size() / 3] = 1.;
+        FourierGrid          fourier(grid);
+        const NormalOperator op(fourier, pair);
+        const NormalSolution first  = solve_normal(fourier, op, normal),
+                             second = solve_normal(fourier, op, poor);
+        double difference           = 0.;
+        for (std::size_t e = 0; e < grid.size(); ++e)
+          difference = std::max(difference, std::abs(first.pressure[e] - second.pressure[e]));
+        check.below("start from one element: change of the pressure over p0", difference / hertz.max_pressure,
+                    1e-5);
+      }
+  }
+
   void bad_input(tread::tests::Check &check)
   {
     std::printf("\n--- bad input: one line that names the argument and what is allowed\n");
-    const auto refused = [&](const std::string &what, const std::string &name, const std::function<void()> &call) {
+    const auto refused = [&](const std::string &what, const std::string &name,
+                             const std::function<void()> &call) {
       std::string got = "nothing thrown";
       try
         {
@@ -219,7 +287,8 @@ namespace
           got = error.what();
         }
       std::printf("    %s\n", got.c_str());
-      check.that(what, got.find(name) != std::string::npos && got.find("allowed") != std::string::npos && got.find('\n') == std::string::npos);
+      check.that(what, got.find(name) != std::string::npos && got.find("allowed") != std::string::npos &&
+                         got.find('\n') == std::string::npos);
     };
     RollingCase good;
     good.curvature_x  = 1. / 0.92;
@@ -236,21 +305,25 @@ namespace
     };
     refused("negative force", "normal_force", with([](RollingCase &c) { c.normal_force = -1.; }));
     refused("no force, no contact", "no contact", with([](RollingCase &c) { c.normal_force = 0.; }));
-    refused("force beyond f N", "traction_coefficient", with([](RollingCase &c) { c.traction_coefficient = -0.6; }));
-    refused("force equal to f N", "traction_coefficient", with([](RollingCase &c) { c.traction_coefficient = 0.5; }));
+    refused("force beyond f N", "traction_coefficient",
+            with([](RollingCase &c) { c.traction_coefficient = -0.6; }));
+    refused("force equal to f N", "traction_coefficient",
+            with([](RollingCase &c) { c.traction_coefficient = 0.5; }));
     refused("no friction", "friction", with([](RollingCase &c) { c.friction = 0.; }));
     refused("no curvature", "curvature_y", with([](RollingCase &c) { c.curvature_y = 0.; }));
-    refused("NaN creepage", "creepage", with([](RollingCase &c) { c.prescribe_force = false, c.creepage = NAN; }));
+    refused("NaN creepage", "creepage",
+            with([](RollingCase &c) { c.prescribe_force = false, c.creepage = NAN; }));
     refused("elements too large", "element_size", with([](RollingCase &c) { c.element_size = 4e-3; }));
     refused("elements too small", "element_size", with([](RollingCase &c) { c.element_size = 1e-6; }));
-    refused("Young's modulus", "Young's modulus of the wheel", with([](RollingCase &c) { c.wheel.young = 0.; }));
+    refused("Young's modulus", "Young's modulus of the wheel",
+            with([](RollingCase &c) { c.wheel.young = 0.; }));
 
     const ElasticPair    pair = combine(Elastic{}, Elastic{});
     const Grid           grid = centred_grid(4e-3, 4e-3, 1e-3);
     FourierGrid          fourier(grid);
     const NormalOperator op(fourier, pair);
     NormalProblem        normal;
-    normal.gap             = make_gap(grid, [](const double x, const double y) { return 1e-4 + x * x + y * y; });
+    normal.gap = make_gap(grid, [](const double x, const double y) { return 1e-4 + x * x + y * y; });
     normal.prescribe_force = false;
     normal.approach        = 0.5e-4;
     refused("approach without contact", "approach", [&] { solve_normal(fourier, op, normal); });
@@ -258,10 +331,12 @@ namespace
     refused("gap of wrong size", "size of gap", [&] { solve_normal(fourier, op, normal); });
     TangentialProblem t;
     t.friction = 0.3;
-    refused("tangential problem without contact", "no contact", [&] { solve_tangential(grid, pair, Field(grid.size(), 0.), t); });
+    refused("tangential problem without contact", "no contact",
+            [&] { solve_tangential(grid, pair, Field(grid.size(), 0.), t); });
     t.prescribe_lateral_force = true;
     t.lateral_force           = 1e9;
-    refused("tangential force beyond f N", "tangential force", [&] { solve_tangential(grid, pair, Field(grid.size(), 1e8), t); });
+    refused("tangential force beyond f N", "tangential force",
+            [&] { solve_tangential(grid, pair, Field(grid.size(), 1e8), t); });
 
     // a grid that cuts the patch is reported...
     normal.gap             = make_gap(grid, [](const double x, const double y) { return x * x + y * y; });
@@ -279,7 +354,8 @@ namespace
         const auto result = solve_rolling(c);
         bool       border = false;
         for (std::size_t e = 0; e < result.x.size(); ++e)
-          if (e % result.n_x == 0 || e % result.n_x == result.n_x - 1 || e / result.n_x == 0 || e / result.n_x == result.n_y - 1)
+          if (e % result.n_x == 0 || e % result.n_x == result.n_x - 1 || e / result.n_x == 0 ||
+              e / result.n_x == result.n_y - 1)
             border = border || result.pressure[e] > 0.;
         check.that("the grid holds the patch", !border);
       }
@@ -302,6 +378,7 @@ int main()
   tread::tests::Check check;
   rail_head(check);
   unlike_bodies(check);
+  steady_is_steady(check);
   bad_input(check);
   return check.exit_code();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The half-space solver against Kalker's and Vollebregt's program CONTACT on the same grids, in the surface and below, and
-// its convergence with the grid. Reference data in tests/data/contact_*.csv.
+// The half-space solver against Kalker's and Vollebregt's program CONTACT on the same grids, in the surface
+// and below, and its convergence with the grid. Reference data in tests/data/contact_*.csv.
 #include <tread/reference/rolling_case.h>
 #include <tread/reference/subsurface.h>
 
@@ -74,9 +74,9 @@ namespace
     return text;
   }
 
-  // Both programs solve the same equations, so agreement is limited by CONTACT's tolerance (1e-6) and the printed digits. The
-  // allowed differences below are some ten times what is seen, and far inside what is asked for between two
-  // programs (0.3 %).
+  // Both programs solve the same equations, so agreement is limited by CONTACT's tolerance (1e-6) and the
+  // printed digits. The allowed differences below are some ten times what is seen, and far inside what is
+  // asked for between two programs (0.3 %).
   void totals(tread::tests::Check &check)
   {
     std::printf("\n--- totals on five grids; and the time of a solve, for information\n");
@@ -92,18 +92,21 @@ namespace
         check.relative(name + "Fn [kN]", r.normal_force * 1e-3, 127.1, 1e-9);
         check.absolute(name + "Fx [kN]", r.longitudinal_force * 1e-3, mu * 127.1, 1e-4);
         check.below(name + "Fy/Fn", r.lateral_force / r.normal_force, 1e-6);
-        check.absolute(name + "adhesion share [points]", 100. * r.adhesion_share, 100. * number(row, "adhesion_share"), 0.05);
+        check.absolute(name + "adhesion share [points]", 100. * r.adhesion_share,
+                       100. * number(row, "adhesion_share"), 0.05);
         if (mu > 0.)
           {
             check.relative(name + "creepage [1e-3]", r.creepage * 1e3, number(row, "creepage") * 1e3, 2e-5);
             check.relative(name + "max shear [MPa]", r.max_shear * 1e-6, number(row, "max_shear_MPa"), 2e-5);
             check.relative(name + "max slip [m/s]", r.max_slip, number(row, "max_slip_m_per_s"), 1e-4);
-            check.relative(name + "frictional power [W]", r.frictional_power, number(row, "frictional_power_W"), 1e-4);
+            check.relative(name + "frictional power [W]", r.frictional_power,
+                           number(row, "frictional_power_W"), 1e-4);
           }
         check.below(name + "residual of the normal problem", r.normal_residual, 1e-8);
         check.below(name + "residual of the tangential problem", r.tangential_residual, 1e-6);
-        std::printf("    %u x %u elements: %u conjugate gradients, %u Newton steps, %u Krylov steps, %.4f s\n", r.n_x, r.n_y,
-                    r.normal_iterations, r.tangential_iterations, r.linear_iterations, r.solve_seconds);
+        std::printf(
+          "    %u x %u elements: %u conjugate gradients, %u Newton steps, %u Krylov steps, %.4f s\n", r.n_x,
+          r.n_y, r.normal_iterations, r.tangential_iterations, r.linear_iterations, r.solve_seconds);
         // iterations do not grow with the grid (seen: 3 to 5), Krylov steps slowly (48 to 595)
         check.that(name + "at most 8 Newton steps", r.tangential_iterations <= 8);
         check.that(name + "at most 1000 Krylov steps", r.linear_iterations <= 1000);
@@ -116,7 +119,7 @@ namespace
     const std::vector<Row> rows = read("contact_surface_dx033.csv");
     for (const double mu : {0.10, 0.15, 0.30})
       {
-        const RollingResult r    = solve_rolling(thesis_case(mu, 0.33));
+        const RollingResult r = solve_rolling(thesis_case(mu, 0.33));
         char                tag[8];
         std::snprintf(tag, sizeof(tag), "mu%03.0f", 100. * mu);
         const std::string key = tag;
@@ -125,8 +128,10 @@ namespace
         unsigned int states = 0, found = 0;
         for (const Row &row : rows)
           {
-            const int         i = static_cast<int>(std::lround((number(row, "x_mm") * 1e-3 - r.x[0]) / r.element_size));
-            const int         j = static_cast<int>(std::lround((number(row, "y_mm") * 1e-3 - r.y[0]) / r.element_size));
+            const int i =
+              static_cast<int>(std::lround((number(row, "x_mm") * 1e-3 - r.x[0]) / r.element_size));
+            const int j =
+              static_cast<int>(std::lround((number(row, "y_mm") * 1e-3 - r.y[0]) / r.element_size));
             const std::size_t e = static_cast<std::size_t>(j) * r.n_x + i;
             found += r.state[e] != ElementState::exterior ? 1 : 0;
             pressure += std::pow(r.pressure[e] * 1e-6 - number(row, "pressure_MPa"), 2);
@@ -139,8 +144,10 @@ namespace
             states += (r.state[e] == ElementState::slip) != (row.at("state_" + key) == "1") ? 1 : 0;
           }
         const double n = static_cast<double>(rows.size());
-        // asked for: 0.5 %, 0.5 %, 1 %. The same equations: only CONTACT's tolerance and the printed digits remain.
-        check.that(key + ": the same elements in contact", found == rows.size() && std::abs(r.area / (n * 0.1089e-6) - 1.) < 1e-9);
+        // asked for: 0.5 %, 0.5 %, 1 %. The same equations: only CONTACT's tolerance and the printed digits
+        // remain.
+        check.that(key + ": the same elements in contact",
+                   found == rows.size() && std::abs(r.area / (n * 0.1089e-6) - 1.) < 1e-9);
         check.below(key + ": pressure, rms [%]", 100. * std::sqrt(pressure / n) * 1e6 / r.max_pressure, 0.01);
         check.below(key + ": shear, rms [%]", 100. * std::sqrt(shear / n) * 1e6 / r.max_shear, 0.01);
         check.below(key + ": slip, rms [%]", 100. * std::sqrt(slip / n) / r.max_slip, 0.02);
@@ -151,7 +158,8 @@ namespace
         double wrong = 0.;
         for (std::size_t e = 0; e < r.shear_x.size(); ++e)
           wrong += std::pow(0.01 * r.shear_x[e], 2);
-        check.that(key + ": one per cent of error would be caught", 100. * std::sqrt(wrong / n) / r.max_shear > 0.01);
+        check.that(key + ": one per cent of error would be caught",
+                   100. * std::sqrt(wrong / n) / r.max_shear > 0.01);
       }
   }
 
@@ -162,8 +170,9 @@ namespace
     std::vector<double>        size{0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1};
     for (const double dx : size)
       r.push_back(solve_rolling(thesis_case(0.3, dx)));
-    // First order (slip is taken between two elements): the points lie on a line over dx. The patch's edge moves by whole elements,
-    // which scatters single points; half of the slope's share at 0.1 mm is allowed at 0.5 mm.
+    // First order (slip is taken between two elements): the points lie on a line over dx. The patch's edge
+    // moves by whole elements, which scatters single points; half of the slope's share at 0.1 mm is allowed
+    // at 0.5 mm.
     const auto line = [&](const std::string &name, const auto &value, const double reference) {
       double s = 0., s_x = 0., s_xx = 0., s_y = 0., s_xy = 0.;
       for (std::size_t k = 0; k < r.size(); ++k)
@@ -172,24 +181,30 @@ namespace
       double       scatter = 0.;
       for (std::size_t k = 0; k < r.size(); ++k)
         {
-          std::printf("    %s at %.2f mm: %.7g, %+.3f %% from the limit, line %+.3f %%\n", name.c_str(), size[k], value(r[k]),
-                      100. * (value(r[k]) / limit - 1.), 100. * slope * size[k] / limit);
+          std::printf("    %s at %.2f mm: %.7g, %+.3f %% from the limit, line %+.3f %%\n", name.c_str(),
+                      size[k], value(r[k]), 100. * (value(r[k]) / limit - 1.),
+                      100. * slope * size[k] / limit);
           scatter = std::max(scatter, std::abs(value(r[k]) - limit - slope * size[k]));
         }
       check.relative(name + ": limit of the line against CONTACT's", limit, reference, 0.004);
       check.below(name + ": scatter over the line's rise", scatter / (std::abs(slope) * size[0]), 0.25);
     };
     // limits: 2 q(0.1 mm) - q(0.2 mm) of CONTACT
-    line("creepage [1e-3]", [](const RollingResult &q) { return q.creepage * 1e3; }, -2.8899);
-    line("frictional power [W]", [](const RollingResult &q) { return q.frictional_power; }, 4283.43);
-    r = {r[1], r[4], r[6]};
+    line(
+      "creepage [1e-3]", [](const RollingResult &q) { return q.creepage * 1e3; }, -2.8899);
+    line(
+      "frictional power [W]", [](const RollingResult &q) { return q.frictional_power; }, 4283.43);
+    r                  = {r[1], r[4], r[6]};
     const double limit = 2. * r[2].creepage - r[1].creepage;
     check.relative("creepage at 0.1 mm against its limit", r[2].creepage, limit, 0.005);
     // sum of |p||s| and the energy balance meet only in the limit
-    const double limit_power = 2. * r[2].frictional_power - r[1].frictional_power, limit_balance = 2. * r[2].power_balance - r[1].power_balance;
+    const double limit_power   = 2. * r[2].frictional_power - r[1].frictional_power,
+                 limit_balance = 2. * r[2].power_balance - r[1].power_balance;
     check.relative("power in the limit: dissipation against balance [W]", limit_power, limit_balance, 0.003);
-    check.relative("p_max at 0.1 mm against Hertz [MPa]", r[2].max_pressure * 1e-6, r[2].hertz_pressure * 1e-6, 1e-4);
-    check.relative("area at 0.1 mm against Hertz [mm^2]", r[2].area * 1e6, M_PI * r[2].hertz_semi_x * r[2].hertz_semi_y * 1e6, 0.006);
+    check.relative("p_max at 0.1 mm against Hertz [MPa]", r[2].max_pressure * 1e-6,
+                   r[2].hertz_pressure * 1e-6, 1e-4);
+    check.relative("area at 0.1 mm against Hertz [mm^2]", r[2].area * 1e6,
+                   M_PI * r[2].hertz_semi_x * r[2].hertz_semi_y * 1e6, 0.006);
   }
 
   void subsurface(tread::tests::Check &check)
@@ -198,9 +213,9 @@ namespace
     const std::vector<Row> rows = read("contact_subsurface.csv");
     for (const std::string name : {"mu000", "mu030", "full_slip"})
       {
-        RollingCase c     = thesis_case(name == "mu030" ? 0.3 : 0., 0.1);
-        c.prescribe_force = name != "full_slip";
-        c.creepage        = -10.;
+        RollingCase c         = thesis_case(name == "mu030" ? 0.3 : 0., 0.1);
+        c.prescribe_force     = name != "full_slip";
+        c.creepage            = -10.;
         const RollingResult r = solve_rolling(c);
         const Grid          grid{r.n_x, r.n_y, r.element_size, r.element_size, r.x[0], r.y[0]};
 
@@ -215,22 +230,26 @@ namespace
                   points.push_back({number(row, "x_mm") * 1e-3, 0., number(row, "depth_mm") * 1e-3});
                   here.push_back(&row);
                 }
-            const std::vector<Stress> s = subsurface_stress(grid, 0.3, r.pressure, r.shear_x, r.shear_y, body, points);
+            const std::vector<Stress> s =
+              subsurface_stress(grid, 0.3, r.pressure, r.shear_x, r.shear_y, body, points);
             for (std::size_t k = 0; k < here.size(); ++k)
               {
-                const double mises = number(*here[k], "von_mises_MPa"), error = std::abs(s[k].von_mises() * 1e-6 - mises);
-                maximum      = std::max(maximum, mises);
-                maximum_ours = std::max(maximum_ours, s[k].von_mises() * 1e-6);
+                const double mises = number(*here[k], "von_mises_MPa"),
+                             error = std::abs(s[k].von_mises() * 1e-6 - mises);
+                maximum            = std::max(maximum, mises);
+                maximum_ours       = std::max(maximum_ours, s[k].von_mises() * 1e-6);
                 const bool surface = points[k][2] < 1e-6;
-                (surface ? worst_surface : worst_below) = std::max(surface ? worst_surface : worst_below, error);
+                (surface ? worst_surface : worst_below) =
+                  std::max(surface ? worst_surface : worst_below, error);
                 if (!surface)
-                  worst_component = std::max({worst_component, std::abs(s[k].xx * 1e-6 - number(*here[k], "xx_MPa")),
-                                              std::abs(s[k].zz * 1e-6 - number(*here[k], "zz_MPa")),
-                                              std::abs(s[k].xz * 1e-6 - number(*here[k], "xz_MPa"))});
+                  worst_component =
+                    std::max({worst_component, std::abs(s[k].xx * 1e-6 - number(*here[k], "xx_MPa")),
+                              std::abs(s[k].zz * 1e-6 - number(*here[k], "zz_MPa")),
+                              std::abs(s[k].xz * 1e-6 - number(*here[k], "xz_MPa"))});
               }
           }
-        // Asked for: 1 % (of about 1000 MPa). Seen: 0.005 MPa below the surface (printed digits), 0.3 on it (CONTACT's rail
-        // "surface" is at 1e-4 mm), where mu030 has its maximum.
+        // Asked for: 1 % (of about 1000 MPa). Seen: 0.005 MPa below the surface (printed digits), 0.3 on it
+        // (CONTACT's rail "surface" is at 1e-4 mm), where mu030 has its maximum.
         check.relative(name + ": maximum", maximum_ours, maximum, 5e-4);
         check.below(name + ": worst difference below the surface", worst_below, 0.05);
         check.below(name + ": worst difference on it", worst_surface, 1.);
@@ -238,16 +257,17 @@ namespace
       }
 
     std::printf("\n--- under Hertz pressure on a circle\n");
-    RollingCase c  = thesis_case(0., 0.1);
-    c.curvature_x  = c.curvature_y = 1. / 0.7;
-    c.element_size = 1e-4;
+    RollingCase c = thesis_case(0., 0.1);
+    c.curvature_x = c.curvature_y        = 1. / 0.7;
+    c.element_size                       = 1e-4;
     const RollingResult                r = solve_rolling(c);
     const Grid                         grid{r.n_x, r.n_y, r.element_size, r.element_size, r.x[0], r.y[0]};
     std::vector<std::array<double, 3>> points;
     for (double z = 0.2; z < 0.9; z += 0.005)
       points.push_back({0., 0., z * r.hertz_semi_x});
-    const std::vector<Stress> s       = subsurface_stress(grid, 0.3, r.pressure, r.shear_x, r.shear_y, Body::rail, points);
-    std::size_t               largest = 0;
+    const std::vector<Stress> s =
+      subsurface_stress(grid, 0.3, r.pressure, r.shear_x, r.shear_y, Body::rail, points);
+    std::size_t largest = 0;
     for (std::size_t k = 0; k < s.size(); ++k)
       if (s[k].von_mises() > s[largest].von_mises())
         largest = k;
@@ -267,9 +287,11 @@ namespace
           if (std::hypot(x + 0.125, y + 0.125) < 60.)
             force_z -= t.zz / 16., force_x -= t.xz / 16.;
         }
-    // The plane is cut at r = 60, z = 1.5: of the pressure (z/r)^3 is missing, of the shear 3 z/(2 r) (point force).
+    // The plane is cut at r = 60, z = 1.5: of the pressure (z/r)^3 is missing, of the shear 3 z/(2 r) (point
+    // force).
     check.relative("one square: a plane below carries the pressure", force_z, 1., 1e-3);
-    check.relative("one square: a plane below carries the shear", force_x, 0.7 * (1. - 1.5 * 1.5 / 60.), 1e-3);
+    check.relative("one square: a plane below carries the shear", force_x, 0.7 * (1. - 1.5 * 1.5 / 60.),
+                   1e-3);
   }
 } // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The half-space solver against closed forms and its own symmetries: Carter, Cattaneo-Mindlin, Kalker's coefficients,
-// FASTSIM, full slip, pure spin, and a transient start that goes over into steady rolling.
+// The half-space solver against closed forms and its own symmetries: Carter, Cattaneo-Mindlin, Kalker's
+// coefficients, FASTSIM, full slip, pure spin, and a transient start that goes over into steady rolling.
 #include <tread/reference/carter.h>
 #include <tread/reference/cattaneo_mindlin.h>
 #include <tread/reference/fastsim.h>
@@ -53,13 +53,14 @@ namespace
     std::printf("\n--- Carter: one row of elements, a thousand half-widths wide\n");
     const Elastic     steel{2. * 82e9 * 1.28, 0.28};
     const ElasticPair pair = combine(steel, steel);
-    const double      a = 1e-3, radius = 0.5, friction = 0.3, load = pi * pair.hertz_modulus() * a * a / (4. * radius);
-    const HertzLine   hertz = hertz_line(radius, pair.hertz_modulus(), load);
-    const double      width = 1000. * a;
+    const double      a = 1e-3, radius = 0.5, friction = 0.3,
+                 load     = pi * pair.hertz_modulus() * a * a / (4. * radius);
+    const HertzLine hertz = hertz_line(radius, pair.hertz_modulus(), load);
+    const double    width = 1000. * a;
 
     for (const double creepage : {-1e-4, -2.4e-4, -5e-4})
       {
-        const Carter exact = carter(radius, pair.hertz_modulus(), load, friction, creepage);
+        const Carter exact  = carter(radius, pair.hertz_modulus(), load, friction, creepage);
         double       own[2] = {0., 0.}, given = 0., shear = 0.;
         for (const unsigned int n : {100u, 200u})
           {
@@ -82,8 +83,8 @@ namespace
             grid.n_x += 11;
             grid.x_first = -0.5 * (grid.n_x - 1) * grid.dx;
             NormalProblem normal;
-            normal.gap             = parabolic_gap(grid, 0.5 / radius, 0.);
-            normal.force           = load * width;
+            normal.gap              = parabolic_gap(grid, 0.5 / radius, 0.);
+            normal.force            = load * width;
             const ContactSolution c = solve_contact(grid, pair, normal, t);
             own[n == 200u]          = c.tangential.longitudinal_force / (friction * load * width);
           }
@@ -94,7 +95,8 @@ namespace
         check.below(std::string(name) + "shear, rms over f p0", shear, 0.004);
         // with the grid's own pressure the edge of contact adds as much again
         check.relative(std::string(name) + "Q/(f P), own pressure", own[1], exact.traction_ratio, 0.005);
-        check.relative(std::string(name) + "Q/(f P), 2 F(200) - F(100)", 2. * own[1] - own[0], exact.traction_ratio, 0.0005);
+        check.relative(std::string(name) + "Q/(f P), 2 F(200) - F(100)", 2. * own[1] - own[0],
+                       exact.traction_ratio, 0.0005);
       }
   }
 
@@ -105,25 +107,26 @@ namespace
     const Elastic     soft{2. * 200e6 * 1.42, 0.42};
     const ElasticPair pair   = combine(soft, soft);
     const double      radius = 0.05, n = 9.1954, f = 0.4, bound = n * f;
-    const Grid        grid   = centred_grid(1.1e-3, 1.1e-3, 2e-3 / 41.);
+    const Grid        grid = centred_grid(1.1e-3, 1.1e-3, 2e-3 / 41.);
     NormalProblem     normal;
     normal.gap   = parabolic_gap(grid, 0.5 / radius, 0.5 / radius);
     normal.force = n;
     TangentialProblem t;
-    t.motion                      = Motion::shift;
-    t.friction                    = f;
+    t.motion                       = Motion::shift;
+    t.friction                     = f;
     t.prescribe_longitudinal_force = true;
     t.prescribe_lateral_force      = true;
-    t.longitudinal_force          = 0.875 * bound;
-    const ContactSolution c       = solve_contact(grid, pair, normal, t);
-    const CattaneoMindlin exact   = cattaneo_mindlin(radius, pair, n, f, 0.875 * bound);
+    t.longitudinal_force           = 0.875 * bound;
+    const ContactSolution c        = solve_contact(grid, pair, normal, t);
+    const CattaneoMindlin exact    = cattaneo_mindlin(radius, pair, n, f, 0.875 * bound);
     // 41 elements across: the edge is known to half an element (2.4 %), integral values far better
-    check.relative("p0 [MPa]", *std::max_element(c.normal.pressure.begin(), c.normal.pressure.end()) * 1e-6, 4.3905, 0.001);
+    check.relative("p0 [MPa]", *std::max_element(c.normal.pressure.begin(), c.normal.pressure.end()) * 1e-6,
+                   4.3905, 0.001);
     check.relative("approach [um]", c.normal.approach * 1e6, 20., 0.001);
     // the shift is that of the rail over the wheel for a force in +x on the wheel
     check.relative("shift [um]", -c.tangential.longitudinal * 1e6, exact.shift * 1e6, 0.003);
     unsigned int adhesion = 0;
-    double       shear = 0.;
+    double       shear    = 0.;
     for (std::size_t e = 0; e < grid.size(); ++e)
       {
         adhesion += c.tangential.state[e] == ElementState::adhesion ? 1 : 0;
@@ -131,17 +134,19 @@ namespace
         shear += std::pow((c.tangential.shear_x[e] - exact.shear(r)) / (f * exact.max_pressure), 2);
       }
     check.relative("adhesion radius [mm]", std::sqrt(adhesion * grid.element_area() / pi) * 1e3, 0.5, 0.03);
-    check.below("shear over f p0, rms in the patch", std::sqrt(shear * grid.element_area() / (pi * 1e-6)), 0.015);
+    check.below("shear over f p0, rms in the patch", std::sqrt(shear * grid.element_area() / (pi * 1e-6)),
+                0.015);
 
     // One cycle between +T* and -T*: start, then there and back in steps, work of the rigid shift
-    double       loss = 0., force = t.longitudinal_force, d = 0.;
-    Field        x = c.tangential.shear_x, y = c.tangential.shear_y;
-    const int    n_steps = 24;
-    double       first = 0.;
+    double    loss = 0., force = t.longitudinal_force, d = 0.;
+    Field     x = c.tangential.shear_x, y = c.tangential.shear_y;
+    const int n_steps = 24;
+    double    first   = 0.;
     for (int k = 1; k <= 2 * n_steps; ++k)
       {
-        const double phase = k <= n_steps ? 1. - 2. * k / n_steps : -3. + 2. * static_cast<double>(k) / n_steps;
-        TangentialProblem s = t;
+        const double phase =
+          k <= n_steps ? 1. - 2. * k / n_steps : -3. + 2. * static_cast<double>(k) / n_steps;
+        TangentialProblem s  = t;
         s.longitudinal_force = phase * 0.875 * bound;
         s.previous_shear_x = s.initial_shear_x = x;
         s.previous_shear_y = s.initial_shear_y = y;
@@ -155,27 +160,30 @@ namespace
         first = k == n_steps ? d : first;
       }
     // 24 chords on each branch lose some half a per cent, the grid as much
-    check.relative("loss per cycle [uJ]", loss * 1e6, cattaneo_mindlin_cycle_energy(radius, pair, n, f, 0.875 * bound) * 1e6, 0.02);
+    check.relative("loss per cycle [uJ]", loss * 1e6,
+                   cattaneo_mindlin_cycle_energy(radius, pair, n, f, 0.875 * bound) * 1e6, 0.02);
     check.absolute("the cycle closes, over its width", d / first, 0., 0.001);
   }
 
   void kalker_table(tread::tests::Check &check)
   {
     std::printf("\n--- Kalker's coefficients from the solver at vanishing creepage\n");
-    // Elements proportional to the axes, 24 and 48 across, extrapolated linearly; f so large that only a seam of elements at the trailing
-    // edge slips. Kalker's numbers have three digits (0.5 %) and were found with some per cent of series; asked for: 2 %.
-    const auto slope = [](const double axis_ratio, const double nu, const unsigned int which, const unsigned int n) {
+    // Elements proportional to the axes, 24 and 48 across, extrapolated linearly; f so large that only a seam
+    // of elements at the trailing edge slips. Kalker's numbers have three digits (0.5 %) and were found with
+    // some per cent of series; asked for: 2 %.
+    const auto slope = [](const double axis_ratio, const double nu, const unsigned int which,
+                          const unsigned int n) {
       const Elastic     body{2. * (1. + nu), nu}; // G = 1
       const ElasticPair pair = combine(body, body);
       HertzEllipse      hertz{};
-      hertz.semi_axis_x  = std::sqrt(axis_ratio);
-      hertz.semi_axis_y  = 1. / hertz.semi_axis_x;
-      hertz.max_pressure = 1.;
-      const double a = hertz.semi_axis_x, b = hertz.semi_axis_y;
-      const Grid   grid{n, n, 2. * a / n, 2. * b / n, -a + a / n, -b + b / n};
+      hertz.semi_axis_x   = std::sqrt(axis_ratio);
+      hertz.semi_axis_y   = 1. / hertz.semi_axis_x;
+      hertz.max_pressure  = 1.;
+      const double      a = hertz.semi_axis_x, b = hertz.semi_axis_y;
+      const Grid        grid{n, n, 2. * a / n, 2. * b / n, -a + a / n, -b + b / n};
       TangentialProblem t;
-      t.friction  = 1e3;
-      t.tolerance = 1e-10;
+      t.friction                                                      = 1e3;
+      t.tolerance                                                     = 1e-10;
       (which == 0 ? t.longitudinal : which == 1 ? t.lateral : t.spin) = -1e-2;
       const TangentialSolution s = solve_tangential(grid, pair, hertz_pressure(grid, hertz), t);
       return (which == 0 ? s.longitudinal_force : s.lateral_force) / 1e-2;
@@ -206,11 +214,11 @@ namespace
 
   struct Steel
   {
-    ElasticPair   pair = combine(Elastic{}, Elastic{});
-    HertzEllipse  hertz;
-    Grid          grid;
-    Field         pressure;
-    double        force = 127.1e3, friction = 0.5;
+    ElasticPair  pair = combine(Elastic{}, Elastic{});
+    HertzEllipse hertz;
+    Grid         grid;
+    Field        pressure;
+    double       force = 127.1e3, friction = 0.5;
 
     explicit Steel(const double size)
     {
@@ -241,39 +249,55 @@ namespace
   {
     std::printf("\n--- combined creepage and spin: forces beside FASTSIM, over f N\n");
     const Steel      steel(0.4e-3);
-    const CreepPatch patch{steel.hertz.semi_axis_x, steel.hertz.semi_axis_y, steel.pair.shear, steel.pair.poisson, steel.force, steel.friction};
-    const double     bound = steel.force * steel.friction;
-    double           worst = 0.;
-    unsigned int     most  = 0;
-    for (const Creepage &w : {Creepage{-1e-3, 0., 0.}, Creepage{-3e-3, 0., 0.}, Creepage{0., 1e-3, 0.}, Creepage{0., 3e-3, 0.},
-                              Creepage{-1e-3, 1e-3, 0.}, Creepage{-2e-3, -1e-3, 0.}, Creepage{0., 0., 0.1}, Creepage{0., 0., 0.3},
-                              Creepage{0., 0., 1.}, Creepage{-1e-3, 0., 0.3}, Creepage{-1e-3, 1e-3, 0.3}, Creepage{-1e-3, -1e-3, 0.3},
-                              Creepage{-3e-3, 3e-3, 1.}, Creepage{0., -3e-3, 1.}, Creepage{1e-3, -4e-3, 1.}, Creepage{0., -1e-2, 2.}})
+    const CreepPatch patch{
+      steel.hertz.semi_axis_x, steel.hertz.semi_axis_y, steel.pair.shear, steel.pair.poisson, steel.force,
+      steel.friction};
+    const double bound = steel.force * steel.friction;
+    double       worst = 0.;
+    unsigned int most  = 0;
+    for (const Creepage &w :
+         {Creepage{-1e-3, 0., 0.}, Creepage{-3e-3, 0., 0.}, Creepage{0., 1e-3, 0.}, Creepage{0., 3e-3, 0.},
+          Creepage{-1e-3, 1e-3, 0.}, Creepage{-2e-3, -1e-3, 0.}, Creepage{0., 0., 0.1}, Creepage{0., 0., 0.3},
+          Creepage{0., 0., 1.}, Creepage{-1e-3, 0., 0.3}, Creepage{-1e-3, 1e-3, 0.3},
+          Creepage{-1e-3, -1e-3, 0.3}, Creepage{-3e-3, 3e-3, 1.}, Creepage{0., -3e-3, 1.},
+          Creepage{1e-3, -4e-3, 1.}, Creepage{0., -1e-2, 2.}})
       {
         const TangentialSolution s = steel.roll(w);
         const CreepForce         f = fastsim(patch, w);
-        std::printf("    xi %+.4f eta %+.4f phi %.2f/m: half-space %+.4f %+.4f, FASTSIM %+.4f %+.4f, %u Newton steps\n", w.longitudinal,
-                    w.lateral, w.spin, s.longitudinal_force / bound, s.lateral_force / bound, f.longitudinal / bound, f.lateral / bound, s.iterations);
-        worst = std::max(worst, std::hypot(s.longitudinal_force - f.longitudinal, s.lateral_force - f.lateral) / bound);
-        most  = std::max(most, s.iterations + s.fallback_steps);
+        std::printf(
+          "    xi %+.4f eta %+.4f phi %.2f/m: half-space %+.4f %+.4f, FASTSIM %+.4f %+.4f, %u Newton steps\n",
+          w.longitudinal, w.lateral, w.spin, s.longitudinal_force / bound, s.lateral_force / bound,
+          f.longitudinal / bound, f.lateral / bound, s.iterations);
+        worst = std::max(
+          worst, std::hypot(s.longitudinal_force - f.longitudinal, s.lateral_force - f.lateral) / bound);
+        most = std::max(most, s.iterations + s.fallback_steps);
 
         // Coulomb's law by each element, and the sign of slip
         double law = 0.;
         for (std::size_t e = 0; e < steel.grid.size(); ++e)
           {
             const double p = std::hypot(s.shear_x[e], s.shear_y[e]), g = steel.friction * steel.pressure[e];
-            law            = std::max(law, p - g);
+            law = std::max(law, p - g);
             if (s.state[e] == ElementState::slip)
-              law = std::max({law, g - p, s.shear_x[e] * s.slip_x[e] + s.shear_y[e] * s.slip_y[e] > 0. ? p : 0.});
+              law =
+                std::max({law, g - p, s.shear_x[e] * s.slip_x[e] + s.shear_y[e] * s.slip_y[e] > 0. ? p : 0.});
           }
         check.below("  Coulomb's law, over f p0", law / (steel.friction * steel.hertz.max_pressure), 1e-6);
 
         // reversal and mirror images
-        const TangentialSolution r = steel.roll({-w.longitudinal, -w.lateral, -w.spin}), m = steel.roll({w.longitudinal, -w.lateral, -w.spin});
-        check.below("  reversal", std::hypot(r.longitudinal_force + s.longitudinal_force, r.lateral_force + s.lateral_force) / bound, 1e-6);
-        check.below("  mirror image", std::hypot(m.longitudinal_force - s.longitudinal_force, m.lateral_force + s.lateral_force) / bound, 1e-6);
+        const TangentialSolution r = steel.roll({-w.longitudinal, -w.lateral, -w.spin}),
+                                 m = steel.roll({w.longitudinal, -w.lateral, -w.spin});
+        check.below(
+          "  reversal",
+          std::hypot(r.longitudinal_force + s.longitudinal_force, r.lateral_force + s.lateral_force) / bound,
+          1e-6);
+        check.below(
+          "  mirror image",
+          std::hypot(m.longitudinal_force - s.longitudinal_force, m.lateral_force + s.lateral_force) / bound,
+          1e-6);
       }
-    // Kalker (1982) and later comparisons: FASTSIM is good to about 0.1 f N, worst with spin against lateral creepage
+    // Kalker (1982) and later comparisons: FASTSIM is good to about 0.1 f N, worst with spin against lateral
+    // creepage
     check.below("largest difference to FASTSIM over f N", worst, 0.15);
     check.below("Newton steps of the worst case, no fallback", most, 20.);
 
@@ -285,35 +309,38 @@ namespace
     {
       // a circle that only spins: the moment is -f N a 3 pi/16, the lateral force vanishes
       Steel round(0.4e-3);
-      round.hertz    = hertz_ellipse(1., 1., round.pair.hertz_modulus(), round.force);
-      round.grid     = centred_grid(round.hertz.semi_axis_x, round.hertz.semi_axis_x, 0.25e-3);
-      round.pressure = hertz_pressure(round.grid, round.hertz);
+      round.hertz                = hertz_ellipse(1., 1., round.pair.hertz_modulus(), round.force);
+      round.grid                 = centred_grid(round.hertz.semi_axis_x, round.hertz.semi_axis_x, 0.25e-3);
+      round.pressure             = hertz_pressure(round.grid, round.hertz);
       const TangentialSolution s = round.roll({0., 0., 1e4});
-      check.relative("pure spin: moment over f N a", s.spin_moment / (bound * round.hertz.semi_axis_x), -3. * pi / 16., 0.005);
+      check.relative("pure spin: moment over f N a", s.spin_moment / (bound * round.hertz.semi_axis_x),
+                     -3. * pi / 16., 0.005);
       check.below("pure spin: F/(f N)", std::hypot(s.longitudinal_force, s.lateral_force) / bound, 1e-3);
     }
     {
       // prescribed forces: the same creepage comes back
       const TangentialSolution s = steel.roll({-1.2e-3, 0.7e-3, 0.2});
       TangentialProblem        t;
-      t.friction                      = steel.friction;
-      t.spin                          = 0.2;
-      t.prescribe_longitudinal_force  = true;
-      t.prescribe_lateral_force       = true;
-      t.longitudinal_force            = s.longitudinal_force;
-      t.lateral_force                 = s.lateral_force;
-      t.tolerance                     = 1e-8;
-      const TangentialSolution back   = solve_tangential(steel.grid, steel.pair, steel.pressure, t);
-      check.relative("prescribed forces give the creepage back: xi [1e-3]", back.longitudinal * 1e3, -1.2, 1e-5);
+      t.friction                     = steel.friction;
+      t.spin                         = 0.2;
+      t.prescribe_longitudinal_force = true;
+      t.prescribe_lateral_force      = true;
+      t.longitudinal_force           = s.longitudinal_force;
+      t.lateral_force                = s.lateral_force;
+      t.tolerance                    = 1e-8;
+      const TangentialSolution back  = solve_tangential(steel.grid, steel.pair, steel.pressure, t);
+      check.relative("prescribed forces give the creepage back: xi [1e-3]", back.longitudinal * 1e3, -1.2,
+                     1e-5);
       check.relative("prescribed forces give the creepage back: eta [1e-3]", back.lateral * 1e3, 0.7, 1e-5);
     }
   }
 
-  // From Cattaneo to Carter: a sphere pressed, shifted, then rolled at the creepage that carries the same force steadily.
+  // From Cattaneo to Carter: a sphere pressed, shifted, then rolled at the creepage that carries the same
+  // force steadily.
   void transient(tread::tests::Check &check)
   {
     std::printf("\n--- from rest to steady rolling\n");
-    const ElasticPair  pair  = combine(Elastic{2. * 1e6 * 1.28, 0.28}, Elastic{2. * 1e6 * 1.28, 0.28});
+    const ElasticPair  pair = combine(Elastic{2. * 1e6 * 1.28, 0.28}, Elastic{2. * 1e6 * 1.28, 0.28});
     const double       n = 1., friction = 0.4, force = -0.657 * friction * n;
     const double       a = 3.5e-3, radius = 4. * pair.hertz_modulus() * a * a * a / (3. * n);
     const HertzEllipse hertz = hertz_sphere(radius, pair.hertz_modulus(), n);
@@ -326,18 +353,18 @@ namespace
     t.longitudinal_force            = force;
     const TangentialSolution steady = solve_tangential(grid, pair, p, t);
 
-    t.motion                = Motion::shift;
-    TangentialSolution now  = solve_tangential(grid, pair, p, t);
+    t.motion                    = Motion::shift;
+    TangentialSolution    now   = solve_tangential(grid, pair, p, t);
     const CattaneoMindlin exact = cattaneo_mindlin(radius, pair, n, friction, -force);
     check.relative("shift before rolling [um]", now.longitudinal * 1e6, exact.shift * 1e6, 0.01);
 
     t.motion                       = Motion::transient;
     t.prescribe_longitudinal_force = false;
     t.longitudinal                 = steady.longitudinal;
-    const double scale = friction * hertz.max_pressure;
-    double       before = 1e9;
-    bool         falls  = true;
-    unsigned int most   = 0;
+    const double scale             = friction * hertz.max_pressure;
+    double       before            = 1e9;
+    bool         falls             = true;
+    unsigned int most              = 0;
     for (unsigned int step = 1; step <= 116; ++step)
       {
         t.previous_shear_x = t.initial_shear_x = now.shear_x;
@@ -347,8 +374,9 @@ namespace
         if (step % 29 == 0)
           {
             const double difference = largest_difference(now.shear_x, steady.shear_x) / scale;
-            std::printf("    rolled %.1f a: Fx/(f N) %.5f, largest difference of the shear to steady rolling %.2e f p0, xi %.3e\n", step / 14.5,
-                        now.longitudinal_force / (friction * n), difference, t.longitudinal);
+            std::printf("    rolled %.1f a: Fx/(f N) %.5f, largest difference of the shear to steady rolling "
+                        "%.2e f p0, xi %.3e\n",
+                        step / 14.5, now.longitudinal_force / (friction * n), difference, t.longitudinal);
             falls  = falls && difference < before;
             before = difference;
           }
@@ -364,9 +392,9 @@ namespace
     t.longitudinal_force           = force;
     t.motion                       = Motion::shift;
     t.previous_shear_x = t.previous_shear_y = t.initial_shear_x = t.initial_shear_y = {};
-    now                                     = solve_tangential(grid, pair, p, t);
-    t.motion                                = Motion::transient;
-    now.longitudinal                        = 0.; // was a shift
+    now              = solve_tangential(grid, pair, p, t);
+    t.motion         = Motion::transient;
+    now.longitudinal = 0.; // was a shift
     for (unsigned int step = 1; step <= 116; ++step)
       {
         t.longitudinal     = now.longitudinal;
@@ -374,7 +402,8 @@ namespace
         t.previous_shear_y = t.initial_shear_y = now.shear_y;
         now                                    = solve_tangential(grid, pair, p, t);
       }
-    check.relative("creepage after 8 a at constant force, over the steady one", now.longitudinal / steady.longitudinal, 1., 1e-3);
+    check.relative("creepage after 8 a at constant force, over the steady one",
+                   now.longitudinal / steady.longitudinal, 1., 1e-3);
   }
 } // namespace
 

@@ -16,6 +16,8 @@ namespace tread
     CoulombSolverParameters solver;
     /// The coupling is integrated anew when surfaces have slid over each other by this share of a face.
     double sliding_share = 0.02;
+    /// ... or when the loaded slave faces have turned by this angle, rad.
+    double turning = 5e-4;
   };
 
   /// What the last step did at one slave node.
@@ -106,6 +108,8 @@ namespace tread
     std::vector<Row> impulse_of_node;
 
   private:
+    /// Normals follow the turning of the slave faces between two refreshes.
+    void update_normals();
     void compact(const MortarCoupling &coupling, const std::vector<unsigned int> &chosen, const std::vector<Row> &x);
 
     MPI_Comm                           comm;
@@ -120,6 +124,10 @@ namespace tread
     std::vector<Row>          position, velocity, velocity_before; ///< by compact number
     std::vector<Row>          impulse;                ///< by constraint
     std::vector<double>       gap_rate;
+    std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
+    /// Compact numbers of the corners of the slave faces around each constraint, four a face.
+    std::vector<std::vector<unsigned int>> corners_around;
+    unsigned int              steps_since_normals = 0;
     std::vector<double>       send_buffer, receive_buffer;
     double                    time_since_refresh = 0., time_to_refresh = 0.;
     ContactWork               work;

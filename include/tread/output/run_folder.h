@@ -37,6 +37,9 @@ namespace tread
       return folder + "/" + name;
     }
 
+    /// A new run leaves nothing of an earlier one that could be taken for its own.
+    void remove_results() const;
+
     /// Write text to a file of the folder by way of a temporary one, so that it is whole or not there.
     void write(const std::string &name, const std::string &text) const;
 

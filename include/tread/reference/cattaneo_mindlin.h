@@ -23,11 +23,20 @@ namespace tread::reference
 
   /// @param radius relative radius R [m]; @param pair combined constants; @param normal_force N [N] > 0;
   /// @param friction f > 0; @param tangential_force T [N], 0 <= T <= f N
-  CattaneoMindlin cattaneo_mindlin(double radius, const ElasticPair &pair, double normal_force, double friction, double tangential_force);
+  CattaneoMindlin cattaneo_mindlin(double             radius,
+                                   const ElasticPair &pair,
+                                   double             normal_force,
+                                   double             friction,
+                                   double             tangential_force);
 
-  /// Energy lost per cycle when T oscillates between -T* and T* (Mindlin & Deresiewicz 1953; Johnson 1985, eq. 7.57), q = T*/(f N):
+  /// Energy lost per cycle when T oscillates between -T* and T* (Mindlin & Deresiewicz 1953; Johnson 1985,
+  /// eq. 7.57), q = T*/(f N):
   ///   9 f^2 N^2/(10 a) 2 (2 - nu)/G {1 - (1 - q)^(5/3) - (5 q/6)[1 + (1 - q)^(2/3)]}  [J].
-  double cattaneo_mindlin_cycle_energy(double radius, const ElasticPair &pair, double normal_force, double friction, double amplitude);
+  double cattaneo_mindlin_cycle_energy(double             radius,
+                                       const ElasticPair &pair,
+                                       double             normal_force,
+                                       double             friction,
+                                       double             amplitude);
 } // namespace tread::reference
 
 #endif

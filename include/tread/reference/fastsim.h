@@ -14,7 +14,8 @@ namespace tread::reference
   };
 
   /// FASTSIM (Kalker 1982): u = L p with flexibilities L1 = 8 a/(3 C11 G), L2 = 8 a/(3 C22 G),
-  /// L3 = pi a sqrt(a/b)/(4 C23 G) for longitudinal, lateral creepage and spin. Strips are integrated from the leading to the trailing edge.
+  /// L3 = pi a sqrt(a/b)/(4 C23 G) for longitudinal, lateral creepage and spin. Strips are integrated from
+  /// the leading to the trailing edge.
   /// @param n_strips   strips across the patch, >= 3
   /// @param n_elements elements along each strip, >= 3
   CreepForce fastsim(const CreepPatch &patch,

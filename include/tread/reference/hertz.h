@@ -5,7 +5,8 @@
 namespace tread::reference
 {
   /// Complete elliptic integrals of modulus e (m = e^2), by the arithmetic-geometric mean
-  /// (Abramowitz & Stegun 1964, 17.6), with the two combinations that Hertz's theory needs free of cancellation.
+  /// (Abramowitz & Stegun 1964, 17.6), with the two combinations that Hertz's theory needs free of
+  /// cancellation.
   struct EllipticIntegrals
   {
     double first;      ///< K(e)
@@ -32,8 +33,10 @@ namespace tread::reference
     double pressure(double x, double y) const;
   };
 
-  /// Two bodies with the undeformed gap A x^2 + B y^2 pressed together (Hertz 1882; Johnson 1985, eqs. 4.25 to 4.28):
-  ///   A = p0/E* b/(a^2) D(e), B = p0/E* b/(b^2) B(e), approach = p0/E* b K(e), for a >= b and e^2 = 1 - b^2/a^2.
+  /// Two bodies with the undeformed gap A x^2 + B y^2 pressed together (Hertz 1882; Johnson 1985, eqs. 4.25
+  /// to 4.28):
+  ///   A = p0/E* b/(a^2) D(e), B = p0/E* b/(b^2) B(e), approach = p0/E* b K(e), for a >= b and e^2 = 1 -
+  ///   b^2/a^2.
   /// @param curvature_x   A [1/m] > 0
   /// @param curvature_y   B [1/m] > 0
   /// @param hertz_modulus E* [Pa] > 0
@@ -72,7 +75,10 @@ namespace tread::reference
   };
 
   /// On the axis under a circular Hertz contact (Johnson 1985, eq. 3.45). @param depth z >= 0 [m]
-  AxisStress hertz_axis_stress_circle(double radius_of_contact, double max_pressure, double poisson, double depth);
+  AxisStress hertz_axis_stress_circle(double radius_of_contact,
+                                      double max_pressure,
+                                      double poisson,
+                                      double depth);
 
   /// On the axis under a line contact, plane strain (Johnson 1985, eq. 4.46). @param depth z >= 0 [m]
   AxisStress hertz_axis_stress_line(double half_width, double max_pressure, double poisson, double depth);

@@ -12,7 +12,8 @@
 
 namespace tread::reference
 {
-  /// A regular grid of rectangular elements on the plane z = 0. Fields are vectors of n_x n_y entries, x fastest.
+  /// A regular grid of rectangular elements on the plane z = 0. Fields are vectors of n_x n_y entries, x
+  /// fastest.
   struct Grid
   {
     unsigned int n_x     = 0;
@@ -22,13 +23,26 @@ namespace tread::reference
     double       x_first = 0.; ///< centre of element (0, 0) [m]
     double       y_first = 0.;
 
-    std::size_t size() const { return static_cast<std::size_t>(n_x) * n_y; }
-    double      x(const unsigned int i) const { return x_first + i * dx; }
-    double      y(const unsigned int j) const { return y_first + j * dy; }
-    double      element_area() const { return dx * dy; }
+    std::size_t size() const
+    {
+      return static_cast<std::size_t>(n_x) * n_y;
+    }
+    double x(const unsigned int i) const
+    {
+      return x_first + i * dx;
+    }
+    double y(const unsigned int j) const
+    {
+      return y_first + j * dy;
+    }
+    double element_area() const
+    {
+      return dx * dy;
+    }
   };
 
-  /// A grid of square elements with element centres at x = 0 and y = 0 that covers |x| <= half_x, |y| <= half_y.
+  /// A grid of square elements with element centres at x = 0 and y = 0 that covers |x| <= half_x, |y| <=
+  /// half_y.
   Grid centred_grid(double half_x, double half_y, double element_size);
 
   /// Throws std::invalid_argument for an empty or impossible grid.
@@ -45,9 +59,14 @@ namespace tread::reference
     zy  ///< u_z by p_y:               K/(pi G) int y/r^2; u_y by pressure is minus this
   };
 
-  /// Displacement at (x, y) of a unit traction on the rectangle |x'| <= dx/2, |y'| <= dy/2 of the surface of a half-space
-  /// (Boussinesq 1885, Cerruti 1882; integrals in closed form, Kalker 1990, sect. 4.2) [m/Pa].
-  double influence_coefficient(Influence kind, const ElasticPair &pair, double dx, double dy, double x, double y);
+  /// Displacement at (x, y) of a unit traction on the rectangle |x'| <= dx/2, |y'| <= dy/2 of the surface of
+  /// a half-space (Boussinesq 1885, Cerruti 1882; integrals in closed form, Kalker 1990, sect. 4.2) [m/Pa].
+  double influence_coefficient(Influence          kind,
+                               const ElasticPair &pair,
+                               double             dx,
+                               double             dy,
+                               double             x,
+                               double             y);
 
   /// Zero-padded Fourier transforms for one grid (FFTW). Not thread-safe: one object per thread.
   class FourierGrid
@@ -61,13 +80,20 @@ namespace tread::reference
       Aligned()        = default;
       template <typename Other>
       Aligned(const Aligned<Other> &)
-      {}
+      {
+      }
       Number *allocate(const std::size_t n)
       {
         return static_cast<Number *>(::operator new(n * sizeof(Number), std::align_val_t(64)));
       }
-      void deallocate(Number *pointer, const std::size_t) { ::operator delete(pointer, std::align_val_t(64)); }
-      bool operator==(const Aligned &) const { return true; }
+      void deallocate(Number *pointer, const std::size_t)
+      {
+        ::operator delete(pointer, std::align_val_t(64));
+      }
+      bool operator==(const Aligned &) const
+      {
+        return true;
+      }
     };
     using Spectrum = std::vector<std::complex<double>, Aligned<std::complex<double>>>;
 
@@ -78,26 +104,38 @@ namespace tread::reference
 
     const Grid grid;
 
-    unsigned int padded_x() const { return padded[0]; }
-    unsigned int padded_y() const { return padded[1]; }
+    unsigned int padded_x() const
+    {
+      return padded[0];
+    }
+    unsigned int padded_y() const
+    {
+      return padded[1];
+    }
 
     /// Elements of the grid that carry values in transform() and back(); default: all.
     void select(const std::vector<unsigned int> &elements);
 
-    std::size_t n_selected() const { return positions.size(); }
+    std::size_t n_selected() const
+    {
+      return positions.size();
+    }
 
     /// Spectrum of values on the selected elements.
     void transform(const double *values, Spectrum &spectrum) const;
     /// Values on the selected elements of a spectrum, which is destroyed.
     void back(Spectrum &spectrum, double *values) const;
 
-    /// Spectrum of the kernel sum_k weight_k C(x + offset_k, y) of influence coefficients, already divided by the
-    /// number of padded elements, so that back(spectrum * transform(p)) is the convolution.
-    Spectrum kernel(Influence                                    kind,
-                    const ElasticPair                           &pair,
+    /// Spectrum of the kernel sum_k weight_k C(x + offset_k, y) of influence coefficients, already divided by
+    /// the number of padded elements, so that back(spectrum * transform(p)) is the convolution.
+    Spectrum kernel(Influence                                 kind,
+                    const ElasticPair                        &pair,
                     const std::vector<std::array<double, 2>> &weights_and_offsets) const;
 
-    std::size_t spectrum_size() const { return static_cast<std::size_t>(padded[0] / 2 + 1) * padded[1]; }
+    std::size_t spectrum_size() const
+    {
+      return static_cast<std::size_t>(padded[0] / 2 + 1) * padded[1];
+    }
 
   private:
     struct Plans;
@@ -114,13 +152,17 @@ namespace tread::reference
     /// u_z [m] on the selected elements of pressures on them [Pa].
     void apply(const double *pressure, double *displacement) const;
 
+    /// Displacement of an element by its own unit pressure [m/Pa].
+    const double self_influence;
+
   private:
     const FourierGrid            &fourier;
     const FourierGrid::Spectrum   kernel;
     mutable FourierGrid::Spectrum work;
   };
 
-  /// Tangential displacement differences by tangential tractions: a combination sum_k weight_k u(x + offset_k, y).
+  /// Tangential displacement differences by tangential tractions: a combination sum_k weight_k u(x +
+  /// offset_k, y).
   class TangentialOperator
   {
   public:
@@ -129,8 +171,8 @@ namespace tread::reference
                        const std::vector<std::array<double, 2>> &weights_and_offsets);
     /// Arrays of two blocks (x, then y), one entry per selected element.
     void apply(const double *traction, double *displacement) const;
-    /// Replace the spectrum by its pointwise inverse: the inverse operator if the padded grid were periodic and all of it selected,
-    /// and a preconditioner as it is. No frequency may be singular.
+    /// Replace the spectrum by its pointwise inverse: the inverse operator if the padded grid were periodic
+    /// and all of it selected, and a preconditioner as it is. No frequency may be singular.
     void invert();
 
   private:

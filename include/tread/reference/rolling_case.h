@@ -12,13 +12,15 @@ namespace tread::reference
   /// A wheel that rolls steadily over a rail, as the half-space solver sees it.
   ///
   /// Axes: origin at the centre of contact, x in rolling direction (leading edge at +x), y lateral, z up into
-  /// the wheel. All forces and tractions are those ON THE WHEEL, exerted by the rail: Fx > 0 is a driving wheel.
-  /// Creepages have the signs of Kalker's CONTACT: rigid slip of the wheel relative to the rail over the speed,
+  /// the wheel. All forces and tractions are those ON THE WHEEL, exerted by the rail: Fx > 0 is a driving
+  /// wheel. Creepages have the signs of Kalker's CONTACT: rigid slip of the wheel relative to the rail over
+  /// the speed,
   ///   w_x = creepage - spin y,   w_y = lateral_creepage + spin x,
   /// so that `creepage` is NEGATIVE for a driving wheel.
   struct RollingCase
   {
-    double curvature_x = 0.; ///< A of the undeformed gap A x^2 + B y^2 [1/m], > 0 (A = 1/(2 R) for a wheel of radius R)
+    double curvature_x =
+      0.; ///< A of the undeformed gap A x^2 + B y^2 [1/m], > 0 (A = 1/(2 R) for a wheel of radius R)
     double curvature_y = 0.; ///< B of the undeformed gap A x^2 + B y^2 [1/m], > 0
 
     double normal_force = 0.; ///< Fn [N], > 0
@@ -52,10 +54,11 @@ namespace tread::reference
     unsigned int n_y          = 0;  ///< elements in y
     double       element_size = 0.; ///< [m]
 
-    std::vector<double>       x, y;             ///< element centres [m]; one lies at (0, 0)
-    std::vector<double>       pressure;         ///< [Pa], >= 0
-    std::vector<double>       shear_x, shear_y; ///< traction on the wheel [Pa]
-    std::vector<double>       slip_x, slip_y;   ///< velocity of the wheel's surface relative to the rail's [m/s]; opposite to the shear
+    std::vector<double> x, y;             ///< element centres [m]; one lies at (0, 0)
+    std::vector<double> pressure;         ///< [Pa], >= 0
+    std::vector<double> shear_x, shear_y; ///< traction on the wheel [Pa]
+    std::vector<double> slip_x,
+      slip_y; ///< velocity of the wheel's surface relative to the rail's [m/s]; opposite to the shear
     std::vector<ElementState> state;
 
     double normal_force         = 0.; ///< Fn [N]
@@ -68,18 +71,19 @@ namespace tread::reference
     double spin                 = 0.; ///< [rad/m]
     double approach             = 0.; ///< of distant points of the two bodies [m]
 
-    double max_pressure     = 0.; ///< largest element value [Pa]
-    double hertz_pressure   = 0.; ///< Hertz's exact maximum for the same case [Pa]
-    double area             = 0.; ///< number of elements in contact times their area [m^2]
-    double semi_axis_x      = 0.; ///< half the longest row of elements in contact [m]
-    double semi_axis_y      = 0.; ///< half the longest column [m]
-    double hertz_semi_x     = 0.; ///< Hertz's exact a [m]
-    double hertz_semi_y     = 0.; ///< Hertz's exact b [m]
-    double adhesion_share   = 0.; ///< elements in adhesion over elements in contact [-]
-    double max_shear        = 0.; ///< [Pa]
-    double max_slip         = 0.; ///< [m/s]
-    double frictional_power = 0.; ///< sum of |shear| |slip| over the patch [W], >= 0; first order in the element size
-    double power_balance    = 0.; ///< -(Fx xi + Fy eta + Mz phi) v [W]; converges faster, the better reference
+    double max_pressure   = 0.; ///< largest element value [Pa]
+    double hertz_pressure = 0.; ///< Hertz's exact maximum for the same case [Pa]
+    double area           = 0.; ///< number of elements in contact times their area [m^2]
+    double semi_axis_x    = 0.; ///< half the longest row of elements in contact [m]
+    double semi_axis_y    = 0.; ///< half the longest column [m]
+    double hertz_semi_x   = 0.; ///< Hertz's exact a [m]
+    double hertz_semi_y   = 0.; ///< Hertz's exact b [m]
+    double adhesion_share = 0.; ///< elements in adhesion over elements in contact [-]
+    double max_shear      = 0.; ///< [Pa]
+    double max_slip       = 0.; ///< [m/s]
+    double frictional_power =
+      0.; ///< sum of |shear| |slip| over the patch [W], >= 0; first order in the element size
+    double power_balance = 0.; ///< -(Fx xi + Fy eta + Mz phi) v [W]; converges faster, the better reference
 
     unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
     unsigned int tangential_iterations = 0;  ///< Newton steps
@@ -90,16 +94,17 @@ namespace tread::reference
     std::string  note;                       ///< not empty if the grid had to grow
   };
 
-  /// Solve a case with the half-space solver. Chooses the grid itself: Hertz's patch with a margin, the centre element at
-  /// (0, 0); if the patch reaches the border the grid grows and `note` says so.
+  /// Solve a case with the half-space solver. Chooses the grid itself: Hertz's patch with a margin, the
+  /// centre element at (0, 0); if the patch reaches the border the grid grows and `note` says so.
   ///
   /// Errors: std::invalid_argument for non-positive curvatures, force, friction, speed or element size,
   /// |Fx| >= f Fn, or an element size that gives fewer than 3 elements along a semi-axis
   /// or more than two million elements; std::runtime_error if the solver does not converge.
   RollingResult solve_rolling(const RollingCase &rolling_case);
 
-  /// The creepage at which a wheel transmits Fx = traction_coefficient Fn: magnitude with the sign of the force, POSITIVE FOR A
-  /// DRIVING WHEEL (circumferential speed over rolling speed, minus one), i.e. minus RollingResult::creepage.
+  /// The creepage at which a wheel transmits Fx = traction_coefficient Fn: magnitude with the sign of the
+  /// force, POSITIVE FOR A DRIVING WHEEL (circumferential speed over rolling speed, minus one), i.e. minus
+  /// RollingResult::creepage.
   double creepage_for_traction(const RollingCase &rolling_case);
 } // namespace tread::reference
 

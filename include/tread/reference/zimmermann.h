@@ -4,14 +4,15 @@
 
 namespace tread::reference
 {
-  /// An infinite Euler beam on an elastic (Winkler) foundation under one load (Winkler 1867, Zimmermann 1888).
+  /// An infinite Euler beam on an elastic (Winkler) foundation under one load (Winkler 1867, Zimmermann
+  /// 1888).
   struct Zimmermann
   {
-    double length;           ///< L = (4 E I/u)^(1/4) [m]
-    double force;            ///< F [N]
-    double foundation;       ///< u, force per length and deflection [N/m^2]
-    double max_deflection;   ///< F/(2 u L), downwards [m]
-    double max_moment;       ///< F L/4 [N m]
+    double length;         ///< L = (4 E I/u)^(1/4) [m]
+    double force;          ///< F [N]
+    double foundation;     ///< u, force per length and deflection [N/m^2]
+    double max_deflection; ///< F/(2 u L), downwards [m]
+    double max_moment;     ///< F L/4 [N m]
 
     /// w0 exp(-|x|/L)(cos |x|/L + sin |x|/L), downwards [m].
     double deflection(double x) const;

@@ -24,8 +24,8 @@ namespace tread
     explicit HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes);
   };
 
-  /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a cube the
-  /// stiffness of pure bending.
+  /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a box the
+  /// stiffness of a plate that bends along its longest edge: E/(1 - nu^2) V min_i(sum_a B_ai^2)/24.
   double hourglass_stiffness(const HexahedronIntegrals &cell, const ElasticMaterial &material, const double coefficient);
 
   /// Upper bound of the highest angular frequency of one free cell, rad/s, with the nodal masses

@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a user may get wrong: each ends with one line that names the parameter, a non-zero exit code,
+and the results of an earlier run untouched."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+from tread_runner import ROOT, Check, command, environment
+
+program = sys.argv[1]
+scene = os.path.join(ROOT, "prm", "smooth-rolling.prm")
+check = Check()
+
+# What is typed, and words that the answer must contain.
+SETTINGS = [
+    ("Contact/Friction coeficient=0.3", ["Contact/Friction coeficient", "did you mean", "Contact/Friction coefficient"]),
+    ("Wheel/Friction coefficient=0.3", ["Wheel/Friction coefficient", "Contact/Friction coefficient"]),
+    ("Contacts/Friction coefficient=0.3", ["Contacts", "Contact/Friction coefficient"]),
+    ("Mesh/Finest cell (mm)=-0.63", ["Mesh/Finest cell (mm)", "allowed", "0.02"]),
+    ("Mesh/Finest cell (mm)=fine", ["Mesh/Finest cell (mm)", "allowed"]),
+    ("Mesh/Finest cell (mm)=9", ["Mesh/Finest cell (mm)", "too large for a patch", "at most"]),
+    ("Mesh/Fine half width (mm)=4", ["Mesh/Fine half width (mm)", "at least"]),
+    ("Mesh/Fine half width (mm)=45", ["Mesh/Fine half width (mm)", "half width of the rail"]),
+    ("Contact/Friction coefficient=-0.1", ["Contact/Friction coefficient", "allowed", "0"]),
+    ("Contact/Friction coefficient=0.3", ["Motion/Traction coefficient", "below", "Contact/Friction coefficient"]),
+    ("Motion/Speed (km per h)=0", ["Motion/Speed (km per h)", "above 0"]),
+    ("Motion/Drive=rocket", ["Motion/Drive", "creepage", "torque"]),
+    ("Motion/Creepage=abc", ["Motion/Creepage", "predicted"]),
+    ("Motion/Creepage=0.9", ["Motion/Creepage", "0.2"]),
+    ("Rail/Margin (mm)=5", ["Rail/Margin (mm)", "leave the rail"]),
+    ("Wheel/Sector margin (mm)=2", ["Wheel/Sector margin (mm)", "leave the sector"]),
+    ("Wheel/Mass (kg)=0", ["Wheel/Mass (kg)", "allowed"]),
+    ("Wheel/Mass (kg)=1", ["Wheel/Mass (kg)", "too small"]),
+    ("Vehicle/Gravity (m per s2)=0", ["Vehicle/Gravity (m per s2)", "above 0"]),
+    ("Rail/Poisson's ratio=0.7", ["Rail/Poisson's ratio", "allowed", "0.49"]),
+    ("Rail/Profile=50E6", ["Rail/Profile", "54E1", "60E1"]),
+    ("Scene/Density scale=0.5", ["Scene/Density scale", "allowed"]),
+    ("Scene/Density scale=1000", ["Scene/Density scale", "allowed"]),
+    ("Motion/Rolled distance (mm)=0", ["Motion/Rolled distance (mm)", "allowed"]),
+    ("Friction coefficient", ["expected Section/Name=value"]),
+]
+PAIRS = [
+    (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
+    (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
+    (["Motion/Drive=torque", "Motion/Speed (km per h)=0"], ["Motion/Speed (km per h)", "torque"]),
+    (["Motion/Drive=torque", "Motion/Hold distance (mm)=80"], ["Motion/Hold distance (mm)", "Rolled distance"]),
+    (["Wheel/Shape=full", "Wheel/Bore radius (mm)=200"], ["Wheel/Bore radius (mm)", "Hub outer radius"]),
+    (["Solid/Element=fully-integrated", "Solid/Linear bulk viscosity=0.06"], ["Solid/Linear bulk viscosity", "fully-integrated"]),
+]
+
+with tempfile.TemporaryDirectory() as folder:
+    results = os.path.join(folder, "results")
+    os.mkdir(results)
+    with open(os.path.join(results, "summary.json"), "w", encoding="utf-8") as stream:
+        stream.write("kept")
+
+    def must_fail(what, arguments, words, ranks=1):
+        result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True,
+                                timeout=120)
+        lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
+        check.that(f"{what}: exit code not 0", result.returncode not in (0,) and result.returncode > 0)
+        if not check.that(f"{what}: one line", len(lines) == 1):
+            print(result.stdout[-500:], result.stderr[-2000:])
+        for word in words:
+            if not check.that(f"{what}: says '{word}'", any(word in line for line in lines)):
+                print("   ", lines)
+        with open(os.path.join(results, "summary.json"), encoding="utf-8") as kept:
+            check.that(f"{what}: earlier results kept", kept.read() == "kept" and len(os.listdir(results)) == 1)
+
+    base = [scene, "--output", results]
+    for setting, words in SETTINGS:
+        must_fail(setting, base + ["-s", setting], words)
+    for settings, words in PAIRS:
+        must_fail(" and ".join(settings), base + [a for s in settings for a in ("-s", s)], words)
+    must_fail("on 3 ranks", base + ["-s", "Motion/Drive=rocket"], ["Motion/Drive"], ranks=3)
+
+    must_fail("missing file", [os.path.join(folder, "nothing.prm"), "--output", results], ["nothing.prm"])
+    must_fail("no scene", ["--output", results], ["no scene"])
+    must_fail("unknown option", base + ["--fast"], ["--fast"])
+    must_fail("option without its value", [scene, "--output"], ["--output"])
+    must_fail("resume without checkpoint", base + ["--resume", "-s", "Mesh/Finest cell (mm)=1.3",
+                                                   "-s", "Mesh/Fine half width (mm)=9"], ["no checkpoint"])
+
+    for name, text, words in (("unknown entry", "subsection Contact\n  set Frictoin = 1\nend\n", ["Frictoin"]),
+                              ("unknown section", "subsection Contract\n  set Friction coefficient = 1\nend\n", ["Contract"]),
+                              ("no end", "subsection Contact\n  set Friction coefficient = 0.4\n", ["subsection", "end"]),
+                              ("value out of range", "subsection Contact\n  set Friction coefficient = -4\nend\n",
+                               ["Friction coefficient"])):
+        path = os.path.join(folder, "bad.prm")
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        must_fail(name, [path, "--output", results], words)
+
+    # Root may write anywhere but not below a file.
+    blocked = os.path.join(folder, "a-file")
+    with open(blocked, "w", encoding="utf-8") as stream:
+        stream.write("x")
+    must_fail("folder cannot be written", [scene, "--output", os.path.join(blocked, "results"), "-s", "Mesh/Finest cell (mm)=1.3",
+                                           "-s", "Mesh/Fine half width (mm)=9"], ["Output/Directory"])
+
+check.exit()

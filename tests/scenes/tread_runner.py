@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the program for the scene tests, and prints comparisons like tests/check.h does."""
+
+import json
+import os
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def command(program, arguments, ranks=1):
+    launcher = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
+    return launcher + [program] + arguments
+
+
+def environment():
+    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", DEAL_II_NUM_THREADS="1",
+                OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
+
+
+def run(program, scene, output, settings=(), ranks=1, more=()):
+    """Run a scene to its end and return its summary; anything else ends the test."""
+    arguments = [os.path.join(ROOT, "prm", scene), "--output", output, *more]
+    for setting in settings:
+        arguments += ["-s", setting]
+    result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(f"{scene} on {ranks} rank(s) ended with {result.returncode}: {result.stderr.strip()[-1000:]}")
+    with open(os.path.join(output, "summary.json"), encoding="utf-8") as stream:
+        return json.load(stream)
+
+
+class Check:
+    """Counts and prints comparisons: computed, reference, error, allowed, PASS or FAIL."""
+
+    def __init__(self):
+        self.lines = self.failed = 0
+
+    def _line(self, what, computed, reference, error, allowed):
+        passed = error <= allowed
+        self.lines += 1
+        self.failed += not passed
+        print(f"{what:<52} computed {computed:15.8g}  reference {reference:15.8g}  error {error:9.2e}  "
+              f"allowed {allowed:9.2e}  {'PASS' if passed else 'FAIL'}", flush=True)
+        return passed
+
+    def relative(self, what, computed, reference, allowed):
+        return self._line(what, computed, reference, abs(computed / reference - 1.), allowed)
+
+    def absolute(self, what, computed, reference, allowed):
+        return self._line(what, computed, reference, abs(computed - reference), allowed)
+
+    def below(self, what, computed, allowed):
+        return self._line(what, computed, 0., abs(computed), allowed)
+
+    def that(self, what, holds):
+        return self._line(what, float(bool(holds)), 1., 0. if holds else 1., 0.)
+
+    def exit(self):
+        print(f"{self.lines} comparisons, {self.failed} failed")
+        sys.exit(0 if self.lines and not self.failed else 1)

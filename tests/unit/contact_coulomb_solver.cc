@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The solver for impulses alone, on random problems: do the results satisfy Signorini's conditions and Coulomb's law?
+#include <tread/contact/coulomb_solver.h>
+
+#include "check.h"
+
+#include <algorithm>
+#include <random>
+
+using namespace tread;
+using tests::Check;
+
+namespace
+{
+  double size(const Row a)
+  {
+    return std::sqrt(dot(a, a));
+  }
+
+  struct RandomProblem
+  {
+    ContactProblem      problem;
+    std::vector<double> gap_rate;
+    std::vector<Row>    velocity;
+  };
+
+  /// n constraints, each between one slave node and four of n master nodes, as a mortar coupling has them;
+  /// normals about z, masses over a decade, part of the pairs open.
+  RandomProblem make_problem(const unsigned int n, std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> from_0_to_1(0., 1.);
+    const auto between = [&](const double a, const double b) { return a + (b - a) * from_0_to_1(random); };
+
+    RandomProblem       r;
+    std::vector<double> mass(2 * n);
+    for (double &m : mass)
+      m = std::pow(10., between(-4., -3.)); // kg
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        const Row                  direction{between(-0.3, 0.3), between(-0.3, 0.3), 1., 0.};
+        ContactProblem::Constraint c{direction * (1. / size(direction)), 1e-6, 0., (unsigned int)r.problem.entries.size(), 0, j};
+        double                     weight[4], total = 0.;
+        for (double &w : weight)
+          total += w = between(-0.1, 1.); // dual functions make some coefficients negative
+        r.problem.entries.push_back({j, -1., -1. / mass[j]});
+        for (unsigned int i = 0; i < 4; ++i)
+          r.problem.entries.push_back({n + (j + i) % n, weight[i] / total, weight[i] / total / mass[n + (j + i) % n]});
+        c.end = r.problem.entries.size();
+        for (unsigned int i = c.begin; i < c.end; ++i)
+          c.compliance += r.problem.entries[i].coefficient * r.problem.entries[i].over_mass;
+        r.problem.constraints.push_back(c);
+        r.gap_rate.push_back(between(-0.1, 1.)); // m/s
+      }
+    for (unsigned int i = 0; i < 2 * n; ++i)
+      {
+        const double closing = i < n ? 1. : -1.;
+        r.velocity.push_back(Row{between(-1., 1.), between(-1., 1.), closing * between(-0.2, 1.), 0.}); // m/s
+      }
+    return r;
+  }
+
+  /// Violations, as shares of 1 m/s and of the largest impulse.
+  struct Violation
+  {
+    double penetration = 0., tension = 0., complementarity = 0., cone = 0., stick = 0., direction = 0.;
+    unsigned int n_open = 0, n_stick = 0, n_slip = 0;
+
+    double largest() const
+    {
+      return std::max({penetration, tension, complementarity, cone, stick, direction});
+    }
+  };
+
+  /// Everything is computed anew from the impulses.
+  Violation violation(const RandomProblem &r, const std::vector<Row> &impulse, const FrictionLaw &friction)
+  {
+    std::vector<Row> velocity = r.velocity;
+    double           largest  = 0.;
+    for (unsigned int j = 0; j < impulse.size(); ++j)
+      {
+        r.problem.apply(r.problem.constraints[j], impulse[j], velocity);
+        largest = std::max(largest, size(impulse[j]));
+      }
+    Violation violation;
+    for (unsigned int j = 0; j < impulse.size(); ++j)
+      {
+        const auto  &c          = r.problem.constraints[j];
+        const Row    u          = r.problem.combine(c, velocity);
+        const double rate       = dot(u, c.normal) + r.gap_rate[j];
+        const Row    slip       = u - dot(u, c.normal) * c.normal;
+        const double normal     = dot(impulse[j], c.normal);
+        const Row    tangential = impulse[j] - normal * c.normal;
+        const double limit      = friction.coefficient(size(slip)) * normal;
+        violation.penetration     = std::max(violation.penetration, -rate);
+        violation.tension         = std::max(violation.tension, -normal / largest);
+        violation.complementarity = std::max(violation.complementarity, std::abs(rate) * normal / largest);
+        violation.cone            = std::max(violation.cone, (size(tangential) - limit) / largest);
+        if (normal <= 0.)
+          ++violation.n_open;
+        else if (size(tangential) < limit * (1. - 1e-6))
+          {
+            ++violation.n_stick;
+            violation.stick = std::max(violation.stick, size(slip));
+          }
+        else
+          {
+            ++violation.n_slip; // the impulse on the master side is against the slip of the master over the slave
+            violation.direction = std::max(violation.direction, size(size(slip) * tangential + limit * slip) / largest);
+          }
+      }
+    return violation;
+  }
+} // namespace
+
+int main()
+{
+  Check        check;
+  std::mt19937 random(1);
+  CoulombSolverParameters parameters;
+  parameters.tolerance  = 1e-10;
+  parameters.max_sweeps = 2000;
+  // The sweeps stop at changes of 1e-10; what is left is that over (1 - rate of convergence), at worst a hundredfold.
+  // A change of an impulse by one share of the largest changes velocities by some m/s here.
+  constexpr double allowed = 1e-7;
+
+  for (const double mu : {0., 0.3, 0.8})
+    {
+      const CoulombFriction friction(mu);
+      Violation             worst;
+      unsigned int          cold = 0, warm = 0, most = 0;
+      for (unsigned int k = 0; k < 20; ++k)
+        {
+          const RandomProblem r        = make_problem(200, random);
+          std::vector<Row>    velocity = r.velocity, impulse(200, Row{});
+          const auto          first    = solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
+          const Violation     now      = violation(r, impulse, friction);
+          worst.penetration            = std::max(worst.penetration, now.penetration);
+          worst.tension                = std::max(worst.tension, now.tension);
+          worst.complementarity        = std::max(worst.complementarity, now.complementarity);
+          worst.cone                   = std::max(worst.cone, now.cone);
+          worst.stick                  = std::max(worst.stick, now.stick);
+          worst.direction              = std::max(worst.direction, now.direction);
+          worst.n_open += now.n_open;
+          worst.n_stick += now.n_stick;
+          worst.n_slip += now.n_slip;
+          cold += first.sweeps;
+          most = std::max(most, first.sweeps);
+
+          // The velocities that came back hold the impulses' effect.
+          std::vector<Row> expected = r.velocity;
+          for (unsigned int j = 0; j < impulse.size(); ++j)
+            r.problem.apply(r.problem.constraints[j], impulse[j], expected);
+          double difference = 0.;
+          for (unsigned int i = 0; i < expected.size(); ++i)
+            difference = std::max(difference, size(expected[i] - velocity[i]));
+          worst.penetration = std::max(worst.penetration, difference > 1e-11 ? 1. : 0.);
+
+          // The next step's problem is nearly the same.
+          RandomProblem next = r;
+          for (Row &v : next.velocity)
+            v *= 1.001;
+          velocity = next.velocity;
+          warm += solve_coulomb(next.problem, friction, parameters, next.gap_rate, velocity, impulse).sweeps;
+
+          if (k == 0)
+            {
+              velocity = r.velocity;
+              impulse.assign(200, Row{});
+              solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
+              const unsigned int active =
+                std::max_element(impulse.begin(), impulse.end(), [](const Row a, const Row b) { return size(a) < size(b); }) -
+                impulse.begin();
+              impulse[active] *= 1.0001;
+              check.that("friction " + std::to_string(mu) + ": an impulse wrong by 1e-4 is noticed",
+                         violation(r, impulse, friction).largest() > allowed);
+            }
+        }
+      const std::string name = "friction " + std::to_string(mu).substr(0, 3) + ": ";
+      std::printf("%s%u open, %u stick, %u slip; sweeps: %.1f cold (most %u), %.1f warm\n", name.c_str(), worst.n_open,
+                  worst.n_stick, worst.n_slip, cold / 20., most, warm / 20.);
+      check.below(name + "penetration, m/s", worst.penetration, allowed);
+      check.below(name + "tension, share of largest impulse", worst.tension, 0.);
+      check.below(name + "rate x normal impulse, share", worst.complementarity, allowed);
+      check.below(name + "beyond the cone, share", worst.cone, allowed);
+      check.below(name + "slip where it sticks, m/s", worst.stick, allowed);
+      check.below(name + "impulse not against slip, share", worst.direction, allowed);
+      check.that(name + "all states occur", worst.n_open > 0 && (mu == 0. || worst.n_stick > 0) && worst.n_slip > 0);
+      check.that(name + "sweeps end by the tolerance", most <= parameters.max_sweeps);
+      check.that(name + "a warm start takes fewer sweeps", warm < cold);
+    }
+  return check.exit_code();
+}

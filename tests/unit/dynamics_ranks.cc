@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The same history on any number of ranks: what all ranks compute together against what each computes alone.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "boxes.h"
+#include "check.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  /// Reference position in nm: the numbers of nodes differ between ranks, their places do not.
+  std::array<long long, 3> place(const Point<3> &p)
+  {
+    return {{std::llround(p[0] * 1e9), std::llround(p[1] * 1e9), std::llround(p[2] * 1e9)}};
+  }
+
+  struct History
+  {
+    std::map<std::array<long long, 3>, std::array<double, 6>> nodes; ///< displacement (m) and velocity (m/s)
+    std::vector<double>                                       tip; ///< kinetic + strain energy (J) on the way
+    WheelHub::Motion                                          hub;
+    unsigned int                                              n_cells = 0, n_hanging = 0;
+  };
+
+  History run(const MPI_Comm comm, const bool with_hub, const ElementType type, const unsigned int n_steps)
+  {
+    Body body;
+    if (with_hub)
+      {
+        body = tests::make_ring(.46, .40, .06, {{36, 2, 2}});
+        tests::refine_near(body, Point<3>(0., 0., -.46), .05, .02);
+      }
+    else
+      {
+        body = tests::make_box("block", Point<3>(), Point<3>(.06, .03, .03), {{6, 3, 3}},
+                               {{Boundary::support, Boundary::free, Boundary::free, Boundary::free,
+                                 Boundary::free, Boundary::free}});
+        tests::refine_near(body, Point<3>(.06, .03, .03), .012, .005);
+      }
+    const Mesh      mesh(comm, {body});
+    SolidParameters solid_parameters;
+    solid_parameters.element_type = type;
+    if (type == ElementType::one_point)
+      {
+        solid_parameters.linear_bulk_viscosity    = .06;
+        solid_parameters.quadratic_bulk_viscosity = 1.2;
+      }
+    const Solid        solid(mesh, {ElasticMaterial()}, solid_parameters);
+    DynamicsParameters parameters;
+    parameters.courant_number = 0.7;
+    ExplicitDynamics dynamics(mesh, solid, parameters);
+
+    WheelHubParameters hub_parameters;
+    hub_parameters.mass                 = 400.;
+    hub_parameters.moment_of_inertia    = 40.;
+    hub_parameters.sprung_mass          = 5000.;
+    hub_parameters.suspension_stiffness = 1e6;
+    hub_parameters.suspension_damping   = 2e4;
+    WheelHub hub(hub_parameters);
+    if (with_hub)
+      {
+        hub.motion.velocity_x       = 30.;
+        hub.motion.angular_velocity = 60.;
+        hub.drive                   = Drive::torque;
+        hub.drive_torque            = 5000.;
+        dynamics.attach_hub(hub, 0, 60.);
+        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+          dynamics.v[i] = hub.velocity_at(dynamics.x[i]);
+      }
+    else
+      dynamics.fix_nodes(dynamics.support_nodes(0));
+
+    std::vector<char> hanging(mesh.nodes.size(), false);
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      hanging[h.node] = true;
+    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    const double extreme = with_hub ? -.46 + 1e-3 : .03 - 1e-9;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (!hanging[i] && (with_hub ? mesh.nodes[i][2] < extreme : mesh.nodes[i][2] > extreme))
+        dynamics.external_force[i] = Row{300., -200., 1000., 0.};
+
+    dynamics.start();
+    History history;
+    for (unsigned int n = 1; n <= n_steps; ++n)
+      {
+        dynamics.step();
+        if (n % (n_steps / 20) == 0)
+          {
+            const EnergyLedger ledger = dynamics.ledger();
+            history.tip.push_back(ledger.kinetic + ledger.strain + ledger.hourglass);
+            history.tip.push_back(ledger.external_work);
+            history.tip.push_back(ledger.damping);
+          }
+      }
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      history.nodes[place(mesh.nodes[i])] = {
+        {dynamics.x[i][0] - mesh.nodes[i][0], dynamics.x[i][1] - mesh.nodes[i][1],
+         dynamics.x[i][2] - mesh.nodes[i][2], dynamics.v[i][0], dynamics.v[i][1], dynamics.v[i][2]}};
+    history.hub       = hub.motion;
+    history.n_cells   = mesh.n_global_cells;
+    history.n_hanging = mesh.n_global_hanging_nodes;
+    return history;
+  }
+} // namespace
+
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0 &&
+      !std::freopen("/dev/null", "w", stdout))
+    return 1;
+  using dealii::Utilities::MPI::max;
+  tests::Check check;
+
+  struct Case
+  {
+    const char *name;
+    bool        with_hub;
+    ElementType type;
+  };
+  for (const Case &c : {Case{"block", false, ElementType::one_point},
+                        Case{"block, fully integrated", false, ElementType::fully_integrated},
+                        Case{"ring on a hub", true, ElementType::one_point}})
+    {
+      const History together = run(MPI_COMM_WORLD, c.with_hub, c.type, 2000);
+      const History alone    = run(MPI_COMM_SELF, c.with_hub, c.type, 2000);
+      // Scales: the largest displacement and velocity anywhere.
+      double scale[2] = {0., 0.}, error[2] = {0., 0.}, missing = 0.;
+      for (const auto &[p, value] : alone.nodes)
+        for (unsigned int d = 0; d < 6; ++d)
+          scale[d / 3] = std::max(scale[d / 3], std::abs(value[d]));
+      for (const auto &[p, value] : together.nodes)
+        {
+          const auto same = alone.nodes.find(p);
+          if (same == alone.nodes.end())
+            ++missing;
+          else
+            for (unsigned int d = 0; d < 6; ++d)
+              error[d / 3] = std::max(error[d / 3], std::abs(value[d] - same->second[d]) / scale[d / 3]);
+        }
+      double energy = 0., energy_scale = 0.;
+      for (unsigned int i = 0; i < alone.tip.size(); ++i)
+        {
+          energy       = std::max(energy, std::abs(together.tip[i] - alone.tip[i]));
+          energy_scale = std::max(energy_scale, std::abs(alone.tip[i]));
+        }
+      const std::string name = std::string(c.name) + ": ";
+      std::printf("%s%u cells, %u hanging nodes, largest displacement %.4g um, velocity %.4g m/s\n",
+                  name.c_str(), alone.n_cells, alone.n_hanging, 1e6 * scale[0], scale[1]);
+      check.that(name + "has hanging nodes", alone.n_hanging > 0);
+      check.absolute(name + "cells", together.n_cells, alone.n_cells, 0.);
+      check.absolute(name + "hanging nodes", together.n_hanging, alone.n_hanging, 0.);
+      check.absolute(name + "nodes in other places", max(missing, MPI_COMM_WORLD), 0., 0.);
+      // Sums over ranks differ in order: 1e-16 a step, and rounding of positions (1e-17 m) over displacements
+      // of um.
+      check.below(name + "displacement", max(error[0], MPI_COMM_WORLD), 1e-10);
+      check.below(name + "velocity", max(error[1], MPI_COMM_WORLD), 1e-10);
+      check.below(name + "energies", max(energy / energy_scale, MPI_COMM_WORLD), 1e-10);
+      if (c.with_hub)
+        {
+          check.relative(name + "hub height (um)", 1e6 * together.hub.z, 1e6 * alone.hub.z, 1e-10);
+          check.relative(name + "angular velocity (rad/s)", together.hub.angular_velocity,
+                         alone.hub.angular_velocity, 1e-12);
+        }
+    }
+  return check.exit_code();
+}

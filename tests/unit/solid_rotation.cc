@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A wheel turns through any angle: rigid motion must cost nothing, and a deformed state must keep its
+// energy and forces when it turns.
+#include <tread/solid/solid.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/tensor.h>
+
+#include "boxes.h"
+#include "check.h"
+
+#include <algorithm>
+#include <random>
+
+using namespace tread;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  /// Rodrigues' formula about the skew axis (1, 2, 3).
+  Tensor<2, 3> rotation(const double angle)
+  {
+    const double n[3]    = {1. / std::sqrt(14.), 2. / std::sqrt(14.), 3. / std::sqrt(14.)};
+    const double W[3][3] = {{0., -n[2], n[1]}, {n[2], 0., -n[0]}, {-n[1], n[0], 0.}};
+    Tensor<2, 3> R;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        R[i][j] =
+          (i == j ? std::cos(angle) : 0.) + std::sin(angle) * W[i][j] + (1. - std::cos(angle)) * n[i] * n[j];
+    return R;
+  }
+
+  NodalField turned(const NodalField &x, const double angle, const Row translation)
+  {
+    const Tensor<2, 3> R = rotation(angle);
+    NodalField         y(x.size());
+    for (unsigned int i = 0; i < x.size(); ++i)
+      {
+        const Tensor<1, 3> p = R * Tensor<1, 3>({x[i][0], x[i][1], x[i][2]});
+        y[i]                 = Row{p[0], p[1], p[2], 0.} + translation;
+      }
+    return y;
+  }
+
+  NodalField forces(const Mesh &mesh, const Solid &solid, const NodalField &x)
+  {
+    NodalField f(x.size(), Row{});
+    solid.add_internal_forces(x.data(), x.data(), f.data());
+    mesh.condense_hanging_nodes(f.data());
+    return f;
+  }
+
+  double largest(const NodalField &f)
+  {
+    double square = 0.;
+    for (const Row &row : f)
+      square = std::max(square, dot(row, row));
+    return std::sqrt(square);
+  }
+} // namespace
+
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  tests::Check                             check;
+
+  constexpr double      edge = 0.1; // m
+  const ElasticMaterial material;
+  Body                  body = tests::make_patch_cube(edge);
+  tests::refine_near(body, Point<3>(edge, edge, edge), 0.2 * edge, 0.2 * edge);
+  const Mesh mesh(MPI_COMM_WORLD, {body});
+  NodalField reference(mesh.nodes.size());
+  for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+    reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+
+  NodalField                       deformed = reference;
+  std::mt19937                     random(1);
+  std::uniform_real_distribution<> offset(-0.02 * edge, 0.02 * edge);
+  for (Row &row : deformed)
+    row += Row{offset(random), offset(random), offset(random), 0.};
+  mesh.distribute_hanging_nodes(deformed.data());
+
+  for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
+    {
+      SolidParameters parameters;
+      parameters.element_type = type;
+      const Solid       solid(mesh, {material}, parameters);
+      const std::string name         = type == ElementType::one_point ? "one point: " : "fully integrated: ";
+      const double      energy_scale = material.young_modulus * edge * edge * edge; // J, that of strain 1
+      const double      force_scale  = material.young_modulus * edge * edge;        // N
+
+      const StrainEnergy energy_0     = solid.strain_energy(deformed.data());
+      const NodalField   force_0      = forces(mesh, solid, deformed);
+      double             rigid_energy = 0., rigid_force = 0., energy_change = 0., force_change = 0.,
+             direction_change = 0.;
+      for (unsigned int degrees = 0; degrees <= 360; degrees += 15)
+        {
+          const double       angle = degrees * dealii::numbers::PI / 180.;
+          const NodalField   rigid = turned(reference, angle, Row{30., -20., 10., 0.});
+          const StrainEnergy e     = solid.strain_energy(rigid.data());
+          rigid_energy             = std::max(rigid_energy, (e.strain + e.hourglass) / energy_scale);
+          rigid_force              = std::max(rigid_force, largest(forces(mesh, solid, rigid)) / force_scale);
+
+          const NodalField   x      = turned(deformed, angle, Row{});
+          const StrainEnergy energy = solid.strain_energy(x.data());
+          energy_change =
+            std::max({energy_change, std::abs(energy.strain / energy_0.strain - 1.),
+                      energy_0.hourglass > 0. ? std::abs(energy.hourglass / energy_0.hourglass - 1.) : 0.});
+          const NodalField f        = forces(mesh, solid, x);
+          const NodalField expected = turned(force_0, angle, Row{});
+          const double     scale    = largest(force_0);
+          for (unsigned int i = 0; i < f.size(); ++i)
+            {
+              force_change = std::max(
+                force_change,
+                std::abs(std::sqrt(dot(f[i], f[i])) - std::sqrt(dot(force_0[i], force_0[i]))) / scale);
+              const Row d      = f[i] - expected[i];
+              direction_change = std::max(direction_change, std::sqrt(dot(d, d)) / scale);
+            }
+        }
+      // 37 m away rounding moves a node by 4e-15 m, which is a strain of 4e-13 in cells of 0.01 m: energy
+      // 1e-25, force 1e-13 times the share of a face in edge^2. A linear strain measure would give 1.
+      check.below(name + "rigid motion, energy/(E V)", rigid_energy, 1e-20);
+      check.below(name + "rigid motion, force/(E edge^2)", rigid_force, 1e-12);
+      // Strains of some 10 %: rounding of positions (1e-17 m) over cells of 0.01 m is 1e-14 of them.
+      check.below(name + "deformed and turned, energy", energy_change, 1e-12);
+      check.below(name + "deformed and turned, |force|", force_change, 1e-12);
+      check.below(name + "deformed and turned, force turns with it", direction_change, 1e-12);
+
+      // The comparison must notice a stretch of 1e-9 that comes with the rotation.
+      NodalField stretched = turned(reference, 1., Row{30., -20., 10., 0.});
+      for (Row &row : stretched)
+        row[0] *= 1. + 1e-9;
+      const StrainEnergy e = solid.strain_energy(stretched.data());
+      std::printf("stretched by 1e-9: energy/(E V) %.1e\n", (e.strain + e.hourglass) / energy_scale);
+      check.that(name + "a stretch of 1e-9 is noticed", (e.strain + e.hourglass) / energy_scale > 1e-20);
+    }
+  return check.exit_code();
+}
