@@ -76,12 +76,13 @@ namespace tread
     surfaces.replicate(x, all_x);
     surfaces.replicate(v, all_v);
 
-    const double         reach    = 0.7 * face_size;
-    const MortarCoupling coupling = couple(surfaces, all_x, parameters.slave_body, parameters.master_body, reach);
+    const double         search_reach = 0.7 * face_size, reach = 0.1 * face_size;
+    const MortarCoupling coupling =
+      couple(surfaces, all_x, all_v, parameters.slave_body, parameters.master_body, search_reach, reach);
 
-    // Until the next refresh no node may come to touch that is not a candidate now: neither one
-    // beyond reach (bounded by the largest speeds) nor one within reach (bounded by its own
-    // closing speed); and no pair may slide by more than the given share of a face.
+    // Until the next refresh no node may come to touch that is not a candidate now: neither one beyond
+    // the search (bounded by the largest speeds) nor one within it (bounded by the closing speeds); no
+    // pair may slide by more than a share of a face, nor may the loaded faces turn by more than an angle.
     double largest_speed[2] = {0., 0.};
     for (unsigned int i = 0; i < all_v.size(); ++i)
       {
@@ -89,8 +90,11 @@ namespace tread
         if (surfaces.nodes[i].body == parameters.master_body || surfaces.nodes[i].body == parameters.slave_body)
           largest = std::max(largest, norm(all_v[i]));
       }
-    time_to_refresh =
-      0.5 * reach / std::max(largest_speed[0] + largest_speed[1], std::numeric_limits<double>::min());
+    constexpr double still = std::numeric_limits<double>::min();
+    time_to_refresh = std::min(0.5 * search_reach / std::max(largest_speed[0] + largest_speed[1], still),
+                               0.25 * reach / std::max(coupling.closing_speed, still));
+    Row          turning{};
+    unsigned int n_loaded = 0;
     std::vector<double> gap(coupling.rows.size()), closing(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
@@ -108,17 +112,18 @@ namespace tread
             const double sliding = norm(u - dot(u, row.normal) * row.normal);
             if (sliding * time_to_refresh > parameters.sliding_share * face_size)
               time_to_refresh = parameters.sliding_share * face_size / sliding;
+            ++n_loaded;
             for (const unsigned int f : slave_faces[row.slave])
               {
-                const auto  &corners = surfaces.faces[f].nodes;
-                const double turning =
-                  std::max(std::abs(dot(all_v[corners[2]] - all_v[corners[0]], row.normal)),
-                           std::abs(dot(all_v[corners[3]] - all_v[corners[1]], row.normal))) / face_size;
-                if (turning * time_to_refresh > parameters.turning)
-                  time_to_refresh = parameters.turning / turning;
+                const auto &corners = surfaces.faces[f].nodes;
+                const double share  = 1. / (slave_faces[row.slave].size() * face_size);
+                turning += share * Row{dot(all_v[corners[2]] - all_v[corners[0]], row.normal),
+                                       dot(all_v[corners[3]] - all_v[corners[1]], row.normal), 0., 0.};
               }
           }
       }
+    if (const double rate = n_loaded > 0 ? norm(turning) / n_loaded : 0.; rate * time_to_refresh > parameters.turning)
+      time_to_refresh = parameters.turning / rate;
     time_to_refresh    = std::clamp(time_to_refresh, time_step, 1000. * time_step);
     time_since_refresh = 0.;
 
@@ -186,6 +191,7 @@ namespace tread
         position[i] = x[involved[i]];
       }
     gap_rate.resize(problem.constraints.size());
+    slid.assign(problem.constraints.size(), 0.);
   }
 
 
@@ -268,8 +274,11 @@ namespace tread
         impulse_of_node[constraint.slave]            = p;
         if (p[0] == 0. && p[1] == 0. && p[2] == 0.)
           continue;
-        const Row u =
-          0.5 * (problem.combine(constraint, velocity) + problem.combine(constraint, velocity_before));
+        const Row after = problem.combine(constraint, velocity);
+        const Row u     = 0.5 * (after + problem.combine(constraint, velocity_before));
+        slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
+        if (slid[j] > parameters.sliding_share * face_size)
+          time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
         const double normal_work = dot(p, constraint.normal) * dot(u, constraint.normal);
         work.normal -= normal_work;
         work.friction -= dot(p, u) - normal_work;

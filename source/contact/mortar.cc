@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -39,6 +40,7 @@ namespace tread
     struct Quadrilateral
     {
       std::array<Plane2, 4> corners;
+      std::array<double, 4> inverse;
 
       static std::array<double, 4> shape(const double xi, const double eta)
       {
@@ -48,33 +50,38 @@ namespace tread
                 0.25 * (1. - xi) * (1. + eta)};
       }
 
-      /// Shape functions at a point of the plane, by Newton's method on the bilinear map.
+      /// Inverse of the bilinear map's derivative at the centre; call after the corners are set.
+      void prepare()
+      {
+        const auto &c = corners;
+        const double a = 0.25 * (-c[0].s + c[1].s + c[2].s - c[3].s), b = 0.25 * (-c[0].s - c[1].s + c[2].s + c[3].s);
+        const double d = 0.25 * (-c[0].t + c[1].t + c[2].t - c[3].t), e = 0.25 * (-c[0].t - c[1].t + c[2].t + c[3].t);
+        const double det = a * e - b * d;
+        inverse          = {e / det, -b / det, -d / det, a / det};
+      }
+
+      /// Shape functions at a point of the plane, by Newton's method with the derivative at the centre:
+      /// faces are nearly parallelograms, for which one step is exact.
       std::array<double, 4> shape_at(const Plane2 p) const
       {
-        double xi = 0., eta = 0.;
-        for (unsigned int iteration = 0; iteration < 8; ++iteration)
+        double                xi = 0., eta = 0.;
+        std::array<double, 4> N = shape(xi, eta);
+        for (unsigned int iteration = 0; iteration < 60; ++iteration)
           {
-            const auto   N = shape(xi, eta);
-            const double dxi[4]  = {-0.25 * (1. - eta), 0.25 * (1. - eta), 0.25 * (1. + eta), -0.25 * (1. + eta)};
-            const double deta[4] = {-0.25 * (1. - xi), -0.25 * (1. + xi), 0.25 * (1. + xi), 0.25 * (1. - xi)};
-            double       rs = -p.s, rt = -p.t, a = 0., b = 0., c = 0., d = 0.;
+            double rs = -p.s, rt = -p.t;
             for (unsigned int i = 0; i < 4; ++i)
               {
                 rs += N[i] * corners[i].s;
                 rt += N[i] * corners[i].t;
-                a += dxi[i] * corners[i].s;
-                b += deta[i] * corners[i].s;
-                c += dxi[i] * corners[i].t;
-                d += deta[i] * corners[i].t;
               }
-            const double det = a * d - b * c;
-            const double step_xi = (d * rs - b * rt) / det, step_eta = (a * rt - c * rs) / det;
+            const double step_xi = inverse[0] * rs + inverse[1] * rt, step_eta = inverse[2] * rs + inverse[3] * rt;
             xi -= step_xi;
             eta -= step_eta;
-            if (std::abs(step_xi) + std::abs(step_eta) < 1e-13)
+            N = shape(xi, eta);
+            if (std::abs(step_xi) + std::abs(step_eta) < 1e-9) // the next step would be smaller than 1e-10
               break;
           }
-        return shape(xi, eta);
+        return N;
       }
 
       /// Coefficients A of the dual functions psi_j = sum_k A_jk N_k, and the integrals of N_j.
@@ -161,8 +168,10 @@ namespace tread
 
   MortarCoupling couple(const ContactSurfaces  &surfaces,
                         const std::vector<Row> &x,
+                        const std::vector<Row> &v,
                         const unsigned int      slave_body,
                         const unsigned int      master_body,
+                        const double            search_reach,
                         const double            reach)
   {
     namespace bg  = boost::geometry;
@@ -186,7 +195,7 @@ namespace tread
     bg::assign_inverse(master_extent);
     for (const ContactSurfaces::Face &face : surfaces.faces)
       if (face.body == slave_body)
-        bg::expand(slave_extent, box_of(face, reach));
+        bg::expand(slave_extent, box_of(face, search_reach));
     std::vector<Entry> boxes;
     for (unsigned int f = 0; f < surfaces.faces.size(); ++f)
       if (surfaces.faces[f].body == master_body)
@@ -196,15 +205,80 @@ namespace tread
             bg::expand(master_extent, box);
           }
     MortarCoupling coupling;
+    coupling.closing_speed = 0.;
     if (boxes.empty())
       return coupling;
     const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(boxes);
 
+    // First pass: the slave faces that have a master face opposite, and how near it is.
+    struct SlaveFace
+    {
+      const ContactSurfaces::Face *face;
+      Row                          origin, normal, along_s, along_t, area_vector;
+      std::vector<unsigned int>    opposite; ///< master faces
+      bool                         is_near;
+
+      Plane2 project(const Row x) const
+      {
+        return {dot(x - origin, along_s), dot(x - origin, along_t)};
+      }
+    };
+    std::vector<SlaveFace> slave_faces;
+    std::vector<char>      near_node(surfaces.nodes.size(), false);
+    std::vector<Entry>     found;
+    for (const ContactSurfaces::Face &face : surfaces.faces)
+      {
+        if (face.body != slave_body)
+          continue;
+        const Box box = box_of(face, search_reach);
+        found.clear();
+        if (bg::intersects(box, master_extent))
+          tree.query(bg::index::intersects(box), std::back_inserter(found));
+        if (found.empty())
+          continue;
+
+        const auto &n = face.nodes;
+        SlaveFace   slave;
+        slave.face        = &face;
+        slave.origin      = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
+        slave.area_vector = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
+        slave.normal      = normalised(slave.area_vector);
+        const Row edge    = x[n[1]] - x[n[0]];
+        slave.along_s     = normalised(edge - dot(edge, slave.normal) * slave.normal);
+        slave.along_t     = cross(slave.normal, slave.along_s);
+        slave.is_near     = false;
+        const Row slave_velocity = 0.25 * (v[n[0]] + v[n[1]] + v[n[2]] + v[n[3]]);
+        for (const auto &[master_box, f] : found)
+          {
+            const auto &m = surfaces.faces[f].nodes;
+            double      nearest = std::numeric_limits<double>::max(), closing = 0.;
+            for (const unsigned int node : m)
+              {
+                nearest = std::min(nearest, std::abs(dot(x[node] - slave.origin, slave.normal)));
+                closing = std::max(closing, -dot(v[node] - slave_velocity, slave.normal));
+              }
+            if (nearest > search_reach || dot(cross(x[m[2]] - x[m[0]], x[m[3]] - x[m[1]]), slave.normal) >= 0.)
+              continue; // too far, or not facing each other
+            coupling.closing_speed = std::max(coupling.closing_speed, closing);
+            slave.is_near          = slave.is_near || nearest <= reach;
+            slave.opposite.push_back(f);
+          }
+        if (slave.opposite.empty())
+          continue;
+        std::sort(slave.opposite.begin(), slave.opposite.end());
+        if (slave.is_near)
+          for (const unsigned int i : n)
+            near_node[i] = true;
+        slave_faces.push_back(std::move(slave));
+      }
+
+    // Second pass: integrate all faces around the nodes that are near.
     struct NodeSum
     {
-      Row                            normal{};
-      double                         area = 0., covered = 0., whole = 0.;
-      std::vector<MortarEntry>       entries;
+      Row                      normal{};
+      double                   area = 0., covered = 0., whole = 0.;
+      std::vector<MortarEntry> entries;
+
       void add(const unsigned int node, const double value)
       {
         for (MortarEntry &entry : entries)
@@ -216,60 +290,62 @@ namespace tread
         entries.push_back({node, value});
       }
     };
+    /// What one pair of faces shares: the master's corners in the slave's plane, and the common polygon.
+    struct Piece
+    {
+      const ContactSurfaces::Face *master;
+      Quadrilateral                corners;
+      std::vector<Plane2>          polygon;
+    };
     std::map<unsigned int, NodeSum> sums;
-    std::vector<Entry>              near;
-    for (const ContactSurfaces::Face &face : surfaces.faces)
+    std::vector<Piece>              pieces;
+    for (const SlaveFace &slave : slave_faces)
       {
-        if (face.body != slave_body)
+        const auto &n = slave.face->nodes;
+        if (std::none_of(n.begin(), n.end(), [&](const unsigned int i) { return near_node[i]; }))
           continue;
-        const Box box = box_of(face, reach);
-        near.clear();
-        if (bg::intersects(box, master_extent))
-          tree.query(bg::index::intersects(box), std::back_inserter(near));
-        if (near.empty())
-          continue;
-        std::sort(near.begin(), near.end(), [](const Entry &a, const Entry &b) { return a.second < b.second; });
-
-        const Row origin = 0.25 * (x[face.nodes[0]] + x[face.nodes[1]] + x[face.nodes[2]] + x[face.nodes[3]]);
-        const Row area_vector =
-          0.5 * cross(x[face.nodes[2]] - x[face.nodes[0]], x[face.nodes[3]] - x[face.nodes[1]]);
-        const Row normal  = normalised(area_vector);
-        const Row along_s = normalised(x[face.nodes[1]] - x[face.nodes[0]] -
-                                       dot(x[face.nodes[1]] - x[face.nodes[0]], normal) * normal);
-        const Row along_t = cross(normal, along_s);
-        const auto project = [&](const unsigned int node) {
-          const Row r = x[node] - origin;
-          return Plane2{dot(r, along_s), dot(r, along_t)};
-        };
-        Quadrilateral slave;
-        for (unsigned int v = 0; v < 4; ++v)
-          slave.corners[v] = project(face.nodes[v]);
-        std::array<std::array<double, 4>, 4> dual;
+        Quadrilateral corners;
+        for (unsigned int k = 0; k < 4; ++k)
+          corners.corners[k] = slave.project(x[n[k]]);
+        corners.prepare();
+        std::array<std::array<double, 4>, 4> weighting; // psi_j = sum_k weighting_jk N_k
         std::array<double, 4>                integral;
-        slave.dual_functions(dual, integral);
-        for (unsigned int v = 0; v < 4; ++v)
+        corners.dual_functions(weighting, integral);
+        for (unsigned int k = 0; k < 4; ++k)
           {
-            NodeSum &sum = sums[face.nodes[v]];
-            sum.normal += area_vector;
-            sum.whole += integral[v];
+            NodeSum &sum = sums[n[k]];
+            sum.normal += slave.area_vector;
+            sum.whole += integral[k];
           }
 
-        for (const auto &[master_box, f] : near)
+        pieces.clear();
+        double covered_area = 0.;
+        for (const unsigned int f : slave.opposite)
           {
-            const ContactSurfaces::Face &master_face = surfaces.faces[f];
-            Quadrilateral                master; // reversed: counter-clockwise seen from the slave's outside
-            double                       distance = 0.;
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                master.corners[v] = project(master_face.nodes[3 - v]);
-                distance += 0.25 * dot(x[master_face.nodes[v]] - origin, normal);
-              }
-            if (std::abs(distance) > reach || cross(master.corners[0], master.corners[1], master.corners[2]) <= 0.)
+            Piece piece;
+            piece.master = &surfaces.faces[f];
+            for (unsigned int k = 0; k < 4; ++k) // reversed: counter-clockwise seen from the slave's outside
+              piece.corners.corners[k] = slave.project(x[piece.master->nodes[3 - k]]);
+            piece.polygon = intersection(corners, piece.corners);
+            if (piece.polygon.size() < 3)
               continue;
-            const std::vector<Plane2> polygon = intersection(slave, master);
-            if (polygon.size() < 3)
-              continue;
-            double D[4][4] = {}, M[4][4] = {}, area[4] = {}, covered[4] = {};
+            piece.corners.prepare();
+            for (unsigned int i = 1; i + 1 < piece.polygon.size(); ++i)
+              covered_area += 0.5 * cross(piece.polygon[0], piece.polygon[i], piece.polygon[i + 1]);
+            pieces.push_back(std::move(piece));
+          }
+        // Dual functions are negative in places. Over a whole face that cancels for linear gaps; over a part of
+        // it a gap that is open everywhere could come out negative: there the shape functions are the weights.
+        if (covered_area < (1. - 1e-6) * std::sqrt(dot(slave.area_vector, slave.area_vector)))
+          for (unsigned int j = 0; j < 4; ++j)
+            for (unsigned int k = 0; k < 4; ++k)
+              weighting[j][k] = j == k ? 1. : 0.;
+
+        for (const Piece &piece : pieces)
+          {
+            // Integrals of N_j N_k and N_j N_l^master; the weights follow by their coefficients.
+            double slave_slave[4][4] = {}, slave_master[4][4] = {}, covered[4] = {};
+            const std::vector<Plane2> &polygon = piece.polygon;
             for (unsigned int i = 1; i + 1 < polygon.size(); ++i)
               {
                 const double triangle_area = 0.5 * cross(polygon[0], polygon[i], polygon[i + 1]);
@@ -280,31 +356,33 @@ namespace tread
                     const Plane2 p{q[0] * polygon[0].s + q[1] * polygon[i].s + q[2] * polygon[i + 1].s,
                                    q[0] * polygon[0].t + q[1] * polygon[i].t + q[2] * polygon[i + 1].t};
                     const double w = q[3] * triangle_area;
-                    const auto   N = slave.shape_at(p), N_master = master.shape_at(p);
+                    const auto   N = corners.shape_at(p), N_master = piece.corners.shape_at(p);
                     for (unsigned int j = 0; j < 4; ++j)
                       {
-                        double psi = 0.;
-                        for (unsigned int k = 0; k < 4; ++k)
-                          psi += dual[j][k] * N[k];
-                        area[j] += w * psi;
                         covered[j] += w * N[j];
                         for (unsigned int k = 0; k < 4; ++k)
                           {
-                            D[j][k] += w * psi * N[k];
-                            M[j][k] += w * psi * N_master[k];
+                            slave_slave[j][k] += w * N[j] * N[k];
+                            slave_master[j][k] += w * N[j] * N_master[k];
                           }
                       }
                   }
               }
             for (unsigned int j = 0; j < 4; ++j)
               {
-                NodeSum &sum = sums[face.nodes[j]];
-                sum.area += area[j];
+                NodeSum &sum = sums[n[j]];
                 sum.covered += covered[j];
                 for (unsigned int k = 0; k < 4; ++k)
                   {
-                    sum.add(face.nodes[k], -D[j][k]);
-                    sum.add(master_face.nodes[3 - k], M[j][k]);
+                    double D = 0., M = 0.;
+                    for (unsigned int l = 0; l < 4; ++l)
+                      {
+                        D += weighting[j][l] * slave_slave[l][k];
+                        M += weighting[j][l] * slave_master[l][k];
+                      }
+                    sum.area += weighting[j][k] * covered[k];
+                    sum.add(n[k], -D);
+                    sum.add(piece.master->nodes[3 - k], M);
                   }
               }
           }
@@ -312,7 +390,7 @@ namespace tread
 
     for (auto &[node, sum] : sums)
       {
-        if (sum.covered < 0.5 * sum.whole || sum.area < 0.25 * sum.whole)
+        if (!near_node[node] || sum.covered < 0.5 * sum.whole || sum.area < 0.25 * sum.whole)
           continue;
         MortarRow row;
         row.slave  = node;

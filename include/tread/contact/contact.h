@@ -124,6 +124,7 @@ namespace tread
     std::vector<Row>          position, velocity, velocity_before; ///< by compact number
     std::vector<Row>          impulse;                ///< by constraint
     std::vector<double>       gap_rate;
+    std::vector<double>       slid;                   ///< since the last refresh, m
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
