@@ -36,6 +36,15 @@ namespace tread
     , face_size(0.)
   {
     // The smallest slave face sets the scale of search distances.
+    const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    for (const ContactSurfaces::Node &node : surfaces.nodes)
+      if (node.owner == this_rank)
+        {
+          if (node.body == parameters.slave_body)
+            own_nodes[0].push_back(node.local);
+          else if (node.body == parameters.master_body)
+            own_nodes[1].push_back(node.local);
+        }
     face_size = std::numeric_limits<double>::max();
     slave_faces.resize(surfaces.nodes.size());
     for (unsigned int f = 0; f < surfaces.faces.size(); ++f)
@@ -80,22 +89,18 @@ namespace tread
     const MortarCoupling coupling =
       couple(surfaces, all_x, all_v, parameters.slave_body, parameters.master_body, search_reach, reach);
 
-    // Until the next refresh no node may come to touch that is not a candidate now: neither one beyond
-    // the search (bounded by the largest speeds) nor one within it (bounded by the closing speeds); no
-    // pair may slide by more than a share of a face, nor may the loaded faces turn by more than an angle.
-    double largest_speed[2] = {0., 0.};
-    for (unsigned int i = 0; i < all_v.size(); ++i)
-      {
-        double &largest = largest_speed[surfaces.nodes[i].body == parameters.master_body];
-        if (surfaces.nodes[i].body == parameters.master_body || surfaces.nodes[i].body == parameters.slave_body)
-          largest = std::max(largest, norm(all_v[i]));
-      }
-    constexpr double still = std::numeric_limits<double>::min();
-    time_to_refresh = std::min(0.5 * search_reach / std::max(largest_speed[0] + largest_speed[1], still),
-                               0.25 * reach / std::max(coupling.closing_speed, still));
+    // Until the next refresh no node may come to touch that is not a candidate now. The way that the surfaces
+    // can have gone towards each other is bounded by the sum of their largest speeds since; where only part of
+    // that is closing speed now, it is taken to stay that part.
+    const auto   largest = largest_speeds(v);
+    const double closing = coupling.closing_speed, speed = dealii::Utilities::MPI::max(largest[0], comm) +
+                                                           dealii::Utilities::MPI::max(largest[1], comm);
+    travelled = 0.;
+    allowed_travel = std::min(0.5 * search_reach, 0.25 * reach * (closing > 0. ? std::max(1., speed / closing) : 1.));
+    time_to_refresh = std::numeric_limits<double>::max();
     Row          turning{};
     unsigned int n_loaded = 0;
-    std::vector<double> gap(coupling.rows.size()), closing(coupling.rows.size());
+    std::vector<double> gap(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
         const MortarRow &row = coupling.rows[j];
@@ -105,8 +110,7 @@ namespace tread
             distance += coupling.entries[i].coefficient * all_x[coupling.entries[i].node];
             u += coupling.entries[i].coefficient * all_v[coupling.entries[i].node];
           }
-        gap[j]     = dot(distance, row.normal);
-        closing[j] = std::max(0., -dot(u, row.normal));
+        gap[j] = dot(distance, row.normal);
         if (norm(impulse_of_node[row.slave]) > 0.)
           {
             const double sliding = norm(u - dot(u, row.normal) * row.normal);
@@ -124,19 +128,32 @@ namespace tread
       }
     if (const double rate = n_loaded > 0 ? norm(turning) / n_loaded : 0.; rate * time_to_refresh > parameters.turning)
       time_to_refresh = parameters.turning / rate;
-    time_to_refresh    = std::clamp(time_to_refresh, time_step, 1000. * time_step);
+    time_to_refresh    = std::max(time_to_refresh, time_step);
     time_since_refresh = 0.;
 
     std::vector<unsigned int> chosen;
     std::vector<Row>          kept(impulse_of_node.size(), Row{});
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
-      if (gap[j] <= 2. * closing[j] * time_to_refresh + 0.01 * face_size || norm(impulse_of_node[coupling.rows[j].slave]) > 0.)
+      if (gap[j] <= 0.5 * reach || norm(impulse_of_node[coupling.rows[j].slave]) > 0.)
         {
           chosen.push_back(j);
           kept[coupling.rows[j].slave] = impulse_of_node[coupling.rows[j].slave];
         }
     impulse_of_node.swap(kept);
     compact(coupling, chosen, all_x);
+  }
+
+
+  std::array<double, 2> Contact::largest_speeds(const Row *v) const
+  {
+    std::array<double, 2> squares{{0., 0.}};
+    for (const unsigned int side : {0u, 1u})
+      {
+        for (const unsigned int i : own_nodes[side])
+          squares[side] = std::max(squares[side], dot(v[i], v[i]));
+        squares[side] = std::sqrt(squares[side]);
+      }
+    return squares;
   }
 
 
@@ -199,7 +216,9 @@ namespace tread
   {
     const unsigned int n_ranks = involved_of_rank.size(), this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
     const unsigned int n_extra = extra.size();
-    send_buffer.assign(extra.begin(), extra.end());
+    const auto speeds = largest_speeds(v);
+    send_buffer.assign(speeds.begin(), speeds.end());
+    send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
     for (const unsigned int i : involved_of_rank[this_rank])
       {
         const unsigned int node     = surfaces.nodes[involved[i]].local;
@@ -214,7 +233,7 @@ namespace tread
     unsigned int     total = 0;
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       {
-        counts[rank]  = n_extra + 6 * involved_of_rank[rank].size();
+        counts[rank]  = 2 + n_extra + 6 * involved_of_rank[rank].size();
         offsets[rank] = total;
         total += counts[rank];
       }
@@ -227,8 +246,11 @@ namespace tread
         received = receive_buffer.data();
       }
     std::fill(extra.begin(), extra.end(), 0.);
+    double largest[2] = {0., 0.};
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       {
+        for (const unsigned int side : {0u, 1u})
+          largest[side] = std::max(largest[side], *received++);
         for (unsigned int i = 0; i < n_extra; ++i)
           extra[i] += *received++;
         for (const unsigned int i : involved_of_rank[rank])
@@ -238,6 +260,7 @@ namespace tread
             received += 6;
           }
       }
+    travelled += time_step * (largest[0] + largest[1]);
   }
 
 

@@ -63,7 +63,7 @@ namespace tread
 
     bool refresh_due() const
     {
-      return time_since_refresh >= time_to_refresh;
+      return time_since_refresh >= time_to_refresh || travelled >= allowed_travel;
     }
 
     /// Sum extra (n numbers) over the ranks in their order, and gather the predicted velocities of the nodes that
@@ -108,6 +108,8 @@ namespace tread
     std::vector<Row> impulse_of_node;
 
   private:
+    /// Of this rank's own slave and master nodes, m/s.
+    std::array<double, 2> largest_speeds(const Row *v) const;
     /// Normals follow the turning of the slave faces between two refreshes.
     void update_normals();
     void compact(const MortarCoupling &coupling, const std::vector<unsigned int> &chosen, const std::vector<Row> &x);
@@ -131,6 +133,8 @@ namespace tread
     unsigned int              steps_since_normals = 0;
     std::vector<double>       send_buffer, receive_buffer;
     double                    time_since_refresh = 0., time_to_refresh = 0.;
+    double                    travelled = 0., allowed_travel = 0.; ///< sums of largest speeds, m
+    std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
   };
 } // namespace tread
