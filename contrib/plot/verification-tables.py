@@ -25,7 +25,7 @@ MEASURES = (("max_pressure_relative_difference", "largest pressure", 100, "%", 1
             ("adhesion_share_difference_points", "adhesion share", 1, "points", 1.0, 0.6),
             ("creepage_at_this_traction_relative_difference", "creepage at this traction", 100, "%", 2.0, 1.0),
             ("micro_slip_rms_over_max", "micro-slip, RMS", 100, "%", 4.0, 2.0),
-            ("max_slip_in_adhesion_m_per_s", "largest slip in adhesion", 1, "m/s", 0.0, 0.0),
+            ("max_slip_in_adhesion_m_per_s", "largest slip in adhesion", 1, "m/s", 1e-6, 1e-6),
             ("normal_force_ripple_last_10_mm", "normal force, ripple over 10 mm", 100, "%", 0.3, 0.3),
             ("isolated_adhesion_nodes", "isolated adhesion nodes", 1, "", 0, 0))
 

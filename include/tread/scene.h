@@ -58,7 +58,7 @@ namespace tread
     std::string element = "one-point";
     double      hourglass_coefficient = 1., damping_steps = 0.1, linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
     // Contact
-    double       friction = 0.5, contact_tolerance = 1e-5;
+    double       friction = 0.5, contact_tolerance = 1e-7;
     unsigned int max_sweeps = 200;
     // Vehicle
     double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500., gravity = 9.81;

@@ -76,6 +76,7 @@ namespace tread
       p *= factor;
     for (Row &p : impulse)
       p *= factor;
+    previous_impulse = impulse;
   }
 
 
@@ -93,10 +94,9 @@ namespace tread
     // can have gone towards each other is bounded by the sum of their largest speeds since; where only part of
     // that is closing speed now, it is taken to stay that part.
     const auto   largest = largest_speeds(v);
-    const double closing = coupling.closing_speed, speed = dealii::Utilities::MPI::max(largest[0], comm) +
-                                                           dealii::Utilities::MPI::max(largest[1], comm);
-    travelled = 0.;
-    allowed_travel = std::min(0.5 * search_reach, 0.25 * reach * (closing > 0. ? std::max(1., speed / closing) : 1.));
+    const double speed = dealii::Utilities::MPI::max(largest[0], comm) + dealii::Utilities::MPI::max(largest[1], comm);
+    travelled          = 0.;
+    allowed_travel     = std::min(0.5 * search_reach, std::max(0.25 * reach, 0.5 * speed * coupling.time_to_touch));
     time_to_refresh = std::numeric_limits<double>::max();
     Row          turning{};
     unsigned int n_loaded = 0;
@@ -208,6 +208,8 @@ namespace tread
         position[i] = x[involved[i]];
       }
     gap_rate.resize(problem.constraints.size());
+    nodal_impulse.assign(involved.size(), Row{});
+    previous_impulse = impulse;
     slid.assign(problem.constraints.size(), 0.);
   }
 
@@ -286,33 +288,58 @@ namespace tread
       update_normals();
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       gap_rate[j] = dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
+    // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
+    for (unsigned int j = 0; j < impulse.size(); ++j)
+      {
+        const Row guess = 2. * impulse[j] - previous_impulse[j];
+        previous_impulse[j] = impulse[j];
+        if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
+          impulse[j] = guess;
+      }
     const CoulombSolverResult result =
       solve_coulomb(problem, *friction, parameters.solver, gap_rate, velocity, impulse);
 
+    // Nodal impulses give forces and the whole work; only pairs that slip lose work by friction.
     work = ContactWork();
+    std::fill(nodal_impulse.begin(), nodal_impulse.end(), Row{});
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         const Row                         p          = impulse[j];
         impulse_of_node[constraint.slave]            = p;
-        if (p[0] == 0. && p[1] == 0. && p[2] == 0.)
+        const double normal = dot(p, constraint.normal);
+        if (normal <= 0.)
+          continue;
+        for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+          nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * p;
+        if (adheres(p, normal, constraint.normal))
           continue;
         const Row after = problem.combine(constraint, velocity);
         const Row u     = 0.5 * (after + problem.combine(constraint, velocity_before));
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
         if (slid[j] > parameters.sliding_share * face_size)
           time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
-        const double normal_work = dot(p, constraint.normal) * dot(u, constraint.normal);
-        work.normal -= normal_work;
-        work.friction -= dot(p, u) - normal_work;
-        for (unsigned int i = constraint.begin; i < constraint.end; ++i)
-          if (const int node = surfaces.nodes[involved[problem.entries[i].node]].local; node >= 0)
-            force[node] += (problem.entries[i].coefficient / time_step) * p;
+        work.friction -= dot(p - normal * constraint.normal, u);
+      }
+    work.normal = -work.friction;
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      {
+        work.normal -= 0.5 * dot(nodal_impulse[i], velocity[i] + velocity_before[i]);
+        if (const int node = surfaces.nodes[involved[i]].local; node >= 0)
+          force[node] += (1. / time_step) * nodal_impulse[i];
       }
     for (unsigned int i = 0; i < involved.size(); ++i)
       position[i] += time_step * velocity[i];
     time_since_refresh += time_step;
     return result;
+  }
+
+
+  bool Contact::adheres(const Row p, const double normal_impulse, const Row normal) const
+  {
+    const Row    tangential = p - normal_impulse * normal;
+    const double limit      = friction->coefficient(0.) * normal_impulse * (1. - 1e-9);
+    return dot(tangential, tangential) < limit * limit;
   }
 
 
@@ -394,9 +421,7 @@ namespace tread
         state.slip     = u - dot(u, constraint.normal) * constraint.normal;
         state.area     = constraint.area;
         state.gap      = dot(problem.combine(constraint, position), constraint.normal);
-        const Row tangential = impulse[j] - normal * constraint.normal;
-        const double limit   = friction->coefficient(norm(state.slip)) * normal;
-        state.adhesion       = norm(tangential) < limit * (1. - 1e-9);
+        state.adhesion = adheres(impulse[j], normal, constraint.normal);
         states.push_back(state);
       }
     return states;

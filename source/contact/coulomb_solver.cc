@@ -18,19 +18,25 @@ namespace tread
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
         problem.apply(problem.constraints[j], impulse[j], velocity);
 
+    // Open constraints wait: they are looked at in the first sweep, and again before the end.
+    std::vector<char>   waits(n, false);
+    bool                all = true;
     CoulombSolverResult result{0, 0.};
     for (result.sweeps = 1; result.sweeps <= parameters.max_sweeps; ++result.sweeps)
       {
         double largest_change = 0., largest_impulse = 0.;
         for (unsigned int j = 0; j < n; ++j)
           {
+            if (!all && waits[j])
+              continue;
             const ContactProblem::Constraint &constraint = problem.constraints[j];
             const Row                         u          = problem.combine(constraint, velocity);
             const Row                         old        = impulse[j];
             const double                      old_normal = dot(old, constraint.normal);
             const double                      normal_rate = dot(u, constraint.normal) + gap_rate[j];
             const double new_normal = std::max(0., old_normal - normal_rate / constraint.compliance);
-            if (new_normal == 0. && old_normal == 0.)
+            waits[j] = new_normal == 0. && old_normal == 0.;
+            if (waits[j])
               continue;
 
             const Row    slip       = u - dot(u, constraint.normal) * constraint.normal;
@@ -48,7 +54,13 @@ namespace tread
           }
         result.change = largest_impulse > 0. ? std::sqrt(largest_change) / largest_impulse : 0.;
         if (result.change <= parameters.tolerance)
-          break;
+          {
+            if (all)
+              break;
+            all = true;
+          }
+        else
+          all = false;
       }
     return result;
   }

@@ -205,7 +205,7 @@ namespace tread
             bg::expand(master_extent, box);
           }
     MortarCoupling coupling;
-    coupling.closing_speed = 0.;
+    coupling.time_to_touch = 1e9;
     if (boxes.empty())
       return coupling;
     const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(boxes);
@@ -259,7 +259,8 @@ namespace tread
               }
             if (nearest > search_reach || dot(cross(x[m[2]] - x[m[0]], x[m[3]] - x[m[1]]), slave.normal) >= 0.)
               continue; // too far, or not facing each other
-            coupling.closing_speed = std::max(coupling.closing_speed, closing);
+            if (nearest > 0.5 * reach)
+              coupling.time_to_touch = std::min(coupling.time_to_touch, nearest / std::max(closing, 1e-30));
             slave.is_near          = slave.is_near || nearest <= reach;
             slave.opposite.push_back(f);
           }

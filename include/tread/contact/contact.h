@@ -108,6 +108,8 @@ namespace tread
     std::vector<Row> impulse_of_node;
 
   private:
+    /// Whether an impulse is below the bound of friction.
+    bool adheres(const Row impulse, const double normal_impulse, const Row normal) const;
     /// Of this rank's own slave and master nodes, m/s.
     std::array<double, 2> largest_speeds(const Row *v) const;
     /// Normals follow the turning of the slave faces between two refreshes.
@@ -124,7 +126,8 @@ namespace tread
     std::vector<unsigned int> involved;               ///< surface nodes, by compact number
     std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
     std::vector<Row>          position, velocity, velocity_before; ///< by compact number
-    std::vector<Row>          impulse;                ///< by constraint
+    std::vector<Row>          nodal_impulse;          ///< of the last step, by compact number
+    std::vector<Row>          impulse, previous_impulse; ///< by constraint
     std::vector<double>       gap_rate;
     std::vector<double>       slid;                   ///< since the last refresh, m
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces

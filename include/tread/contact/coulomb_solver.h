@@ -48,7 +48,7 @@ namespace tread
   struct CoulombSolverParameters
   {
     /// Sweeps end when no impulse changes by more than this share of the largest one.
-    double       tolerance = 1e-5;
+    double       tolerance = 1e-7;
     unsigned int max_sweeps = 200;
   };
 

@@ -35,7 +35,7 @@ namespace tread
   {
     std::vector<MortarRow>   rows;
     std::vector<MortarEntry> entries;
-    double                   closing_speed; ///< largest speed at which faces within the search reach approach, m/s
+    double                   time_to_touch; ///< shortest gap over closing speed of faces beyond half the reach, s
   };
 
   /// Couple slave_body's surface to master_body's.
