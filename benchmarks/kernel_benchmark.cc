@@ -5,8 +5,9 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <boxes.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <vector>
@@ -58,7 +59,8 @@ int main(int argc, char **argv)
   using namespace tread;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::printf("%u lanes of double precision, one core\n\n", n_lanes);
-  std::printf("| element | cells | updates per second | bytes a cell | stream, GB/s | triad, GB/s | share |\n");
+  std::printf(
+    "| element | cells | updates per second | bytes a cell | stream, GB/s | triad, GB/s | share |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
   for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
     for (const unsigned int n : {10u, 20u, 40u, 60u, 100u})
@@ -67,9 +69,11 @@ int main(int argc, char **argv)
           continue;
         std::array<Boundary, 6> free;
         free.fill(Boundary::free);
-        Body body = tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {n, n, n}, free);
+        Body body =
+          tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {n, n, n}, free);
         for (dealii::Point<3> &p : body.vertices) // general cells: no two alike
-          p += 1e-2 * 0.1 / n * dealii::Point<3>(std::sin(1e4 * p[1]), std::sin(1e4 * p[2]), std::sin(1e4 * p[0]));
+          p += 1e-2 * 0.1 / n *
+               dealii::Point<3>(std::sin(1e4 * p[1]), std::sin(1e4 * p[2]), std::sin(1e4 * p[0]));
         const Mesh      mesh(MPI_COMM_SELF, {body});
         SolidParameters parameters;
         parameters.element_type = type;
@@ -81,8 +85,9 @@ int main(int argc, char **argv)
         const double cells = mesh.cells.size(), bytes = solid.memory_consumption() + 96. * mesh.nodes.size();
         const double triad = triad_bandwidth(bytes);
         std::printf("| %s | %.0f | %.1f million | %.0f | %.1f | %.1f | %.0f %% |\n",
-                    type == ElementType::one_point ? "one-point" : "fully integrated", cells, 1e-6 * cells / time,
-                    solid.memory_consumption() / cells, 1e-9 * bytes / time, 1e-9 * triad, 100. * bytes / time / triad);
+                    type == ElementType::one_point ? "one-point" : "fully integrated", cells,
+                    1e-6 * cells / time, solid.memory_consumption() / cells, 1e-9 * bytes / time,
+                    1e-9 * triad, 100. * bytes / time / triad);
       }
   return 0;
 }

@@ -82,7 +82,8 @@ namespace tread
   Checkpoint::Checkpoint(const RunFolder &folder, const MPI_Comm comm)
     : folder(folder)
     , comm(comm)
-  {}
+  {
+  }
 
 
   std::string Checkpoint::fingerprint(const Simulation &simulation)
@@ -130,7 +131,8 @@ namespace tread
     bytes(archive, s.average.measure_sums);
     bytes(archive, s.average.centre_sum);
     bytes(archive, s.average.steps);
-    std::vector<std::pair<unsigned int, PatchAverage::Sum>> sums(s.average.sums.begin(), s.average.sums.end());
+    std::vector<std::pair<unsigned int, PatchAverage::Sum>> sums(s.average.sums.begin(),
+                                                                 s.average.sums.end());
     std::size_t                                             n = sums.size();
     archive                                                &n;
     sums.resize(n);
@@ -145,17 +147,17 @@ namespace tread
 
   void Checkpoint::write(Simulation &simulation)
   {
-    ExplicitDynamics &d = simulation.dynamics;
+    ExplicitDynamics &d    = simulation.dynamics;
     const Mesh       &mesh = simulation.mesh;
     simulation.contact.refresh(d.x.data(), d.v.data(), d.time_step);
 
     // Sums that ranks keep apart are stored as one.
-    const EnergyLedger kept = d.totals;
+    const EnergyLedger kept       = d.totals;
     const double       kept_power = d.last_damping_power;
-    d.totals.damping        = dealii::Utilities::MPI::sum(kept.damping, comm);
-    d.totals.external_work  = dealii::Utilities::MPI::sum(kept.external_work, comm);
-    d.totals.gross_work     = dealii::Utilities::MPI::sum(kept.gross_work, comm);
-    d.last_damping_power    = dealii::Utilities::MPI::sum(kept_power, comm);
+    d.totals.damping              = dealii::Utilities::MPI::sum(kept.damping, comm);
+    d.totals.external_work        = dealii::Utilities::MPI::sum(kept.external_work, comm);
+    d.totals.gross_work           = dealii::Utilities::MPI::sum(kept.gross_work, comm);
+    d.last_damping_power          = dealii::Utilities::MPI::sum(kept_power, comm);
 
     const std::vector<unsigned int> body = body_of_nodes(mesh);
     std::vector<StoredNode>         own;
@@ -163,7 +165,10 @@ namespace tread
       if (mesh.shared_nodes.is_owned(i))
         {
           const auto key = key_of(mesh.nodes[i]);
-          own.push_back({body[i], {key[0], key[1], key[2]}, {d.x[i][0], d.x[i][1], d.x[i][2]}, {d.v[i][0], d.v[i][1], d.v[i][2]}});
+          own.push_back({body[i],
+                         {key[0], key[1], key[2]},
+                         {d.x[i][0], d.x[i][1], d.x[i][2]},
+                         {d.v[i][0], d.v[i][1], d.v[i][2]}});
         }
     std::vector<std::vector<StoredNode>> nodes = dealii::Utilities::MPI::gather(comm, own, 0);
 
@@ -221,11 +226,13 @@ namespace tread
           {
             std::istringstream old_lines(text), new_lines(fingerprint(simulation));
             std::string        old_line, new_line;
-            while (std::getline(old_lines, old_line) && std::getline(new_lines, new_line) && old_line == new_line)
+            while (std::getline(old_lines, old_line) && std::getline(new_lines, new_line) &&
+                   old_line == new_line)
               ;
-            throw SceneError("--resume: the checkpoint was made with other parameters: '" +
-                             old_line.substr(std::min(old_line.size(), old_line.find_first_not_of(' '))) + "', now '" +
-                             new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
+            throw SceneError(
+              "--resume: the checkpoint was made with other parameters: '" +
+              old_line.substr(std::min(old_line.size(), old_line.find_first_not_of(' '))) + "', now '" +
+              new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
           }
         state(archive, simulation);
         archive >> nodes;

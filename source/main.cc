@@ -66,10 +66,12 @@ namespace
   {
     const bool speaks = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     for (int i = 1; i < argc; ++i)
-      if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 || std::strcmp(argv[i], "--version") == 0)
+      if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 ||
+          std::strcmp(argv[i], "--version") == 0)
         {
           if (speaks)
-            std::cout << (std::strcmp(argv[i], "--version") == 0 ? "tread " + tread::version() + "\n" : std::string(usage));
+            std::cout << (std::strcmp(argv[i], "--version") == 0 ? "tread " + tread::version() + "\n"
+                                                                 : std::string(usage));
           return 0;
         }
     const CommandLine line = parse(argc, argv);
@@ -117,7 +119,9 @@ int main(int argc, char **argv)
       for (char &c : text)
         if (c == '\n')
           c = ' ';
-      std::cerr << "tread: " << (dealii::Utilities::MPI::n_mpi_processes(comm) > 1 ? "rank " + std::to_string(rank) + ": " : "")
+      std::cerr << "tread: "
+                << (dealii::Utilities::MPI::n_mpi_processes(comm) > 1 ? "rank " + std::to_string(rank) + ": "
+                                                                      : "")
                 << text << std::endl;
       if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
         MPI_Abort(comm, 2);

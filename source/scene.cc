@@ -44,7 +44,8 @@ namespace tread
           for (std::size_t j = 1; j <= b.size(); ++j)
             {
               const std::size_t above = row[j];
-              row[j] = std::min({row[j - 1] + 1, above + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))});
+              row[j]                  = std::min(
+                                 {row[j - 1] + 1, above + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))});
               diagonal = above;
             }
         }
@@ -57,7 +58,9 @@ namespace tread
     };
 
     /// All declared entries, by walking the handler's own description.
-    void list_entries(const boost::property_tree::ptree &tree, const std::string &section, std::vector<Entry> &entries)
+    void list_entries(const boost::property_tree::ptree &tree,
+                      const std::string                 &section,
+                      std::vector<Entry>                &entries)
     {
       for (const auto &[mangled, child] : tree)
         {
@@ -93,13 +96,16 @@ namespace tread
     std::string did_you_mean(const dealii::ParameterHandler &handler, const std::string &path)
     {
       const std::vector<Entry> entries = all_entries(handler);
-      const auto name_of = [](const std::string &p) { return p.substr(p.rfind('/') + 1); };
+      const auto               name_of = [](const std::string &p) {
+        return p.substr(p.rfind('/') + 1);
+      };
       std::string best;
       std::size_t least = std::numeric_limits<std::size_t>::max();
       for (const Entry &entry : entries)
         {
           // The right name in another section is the likeliest slip.
-          const std::size_t distance = std::min(edit_distance(path, entry.path), edit_distance(name_of(path), entry.name) + 1);
+          const std::size_t distance =
+            std::min(edit_distance(path, entry.path), edit_distance(name_of(path), entry.name) + 1);
           if (distance < least)
             {
               least = distance;
@@ -124,16 +130,18 @@ namespace tread
     prm.add_parameter("Title", title, "What the scene shows; printed and kept in the summary.");
     prm.add_parameter("Quasi-static", quasi_static,
                       "Whether inertia is no part of the answer. Only then may the density be scaled.");
-    prm.add_parameter("Density scale", density_scale,
-                      "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
-                      "inertia like (speed / wave speed)^2. 1 to 100; above 1 only for quasi-static scenes.",
-                      Double(1., 100.));
+    prm.add_parameter(
+      "Density scale", density_scale,
+      "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
+      "inertia like (speed / wave speed)^2. 1 to 100; above 1 only for quasi-static scenes.",
+      Double(1., 100.));
     prm.leave_subsection();
 
     const auto declare_material = [&](Material &material) {
       prm.add_parameter("Young's modulus (GPa)", material.young_modulus_GPa, "Above 0.", Double(1e-3, 1e4));
       prm.add_parameter("Poisson's ratio", material.poisson_ratio, "From 0 to 0.49.", Double(0., 0.49));
-      prm.add_parameter("Density (kg per m3)", material.density, "Above 0. Inertia of the cells.", Double(1., 1e5));
+      prm.add_parameter("Density (kg per m3)", material.density, "Above 0. Inertia of the cells.",
+                        Double(1., 1e5));
     };
 
     prm.enter_subsection("Wheel");
@@ -141,9 +149,12 @@ namespace tread
                       "sector: a piece of the rim on a rigid hub that has the rest of mass and inertia. "
                       "full: rim, web and hub deform; what the bore holds is rigid.",
                       Selection("sector|full"));
-    prm.add_parameter("Radius (mm)", radius_mm, "Rolling radius. Sets the curvature along the rail.", Double(10., 2000.));
-    prm.add_parameter("Mass (kg)", wheel_mass,
-                      "Of all that is unsprung, meshed or not: wheel, half axle, axle box. It loads the contact.", Double(tiny));
+    prm.add_parameter("Radius (mm)", radius_mm, "Rolling radius. Sets the curvature along the rail.",
+                      Double(10., 2000.));
+    prm.add_parameter(
+      "Mass (kg)", wheel_mass,
+      "Of all that is unsprung, meshed or not: wheel, half axle, axle box. It loads the contact.",
+      Double(tiny));
     prm.add_parameter("Moment of inertia (kg m2)", wheel_inertia,
                       "About the axle, of the same. Matters when a torque drives.", Double(tiny));
     prm.add_parameter("Sector thickness (mm)", sector_thickness_mm,
@@ -156,111 +167,141 @@ namespace tread
     prm.add_parameter("Web thickness (mm)", web_thickness_mm, "Full wheel.", Double(1., 1000.));
     prm.add_parameter("Hub outer radius (mm)", hub_outer_radius_mm, "Full wheel.", Double(1., 2000.));
     prm.add_parameter("Hub length (mm)", hub_length_mm, "Full wheel.", Double(1., 1000.));
-    prm.add_parameter("Bore radius (mm)", bore_radius_mm, "Full wheel: the rigid axle begins here.", Double(1., 2000.));
+    prm.add_parameter("Bore radius (mm)", bore_radius_mm, "Full wheel: the rigid axle begins here.",
+                      Double(1., 2000.));
     declare_material(wheel_material);
     prm.leave_subsection();
 
     prm.enter_subsection("Rail");
-    prm.add_parameter("Shape", rail_shape,
-                      "head: the head of a rail profile on a rigid foundation. block: a box with a cylindrical crown, "
-                      "to compare with half-space theory.",
-                      Selection("head|block"));
+    prm.add_parameter(
+      "Shape", rail_shape,
+      "head: the head of a rail profile on a rigid foundation. block: a box with a cylindrical crown, "
+      "to compare with half-space theory.",
+      Selection("head|block"));
     prm.add_parameter("Profile", profile, "Of a head.", Selection("54E1|60E1"));
-    prm.add_parameter("Crown radius (mm)", crown_radius_mm, "Of a block. Sets the lateral curvature.", Double(10., 1e6));
+    prm.add_parameter("Crown radius (mm)", crown_radius_mm, "Of a block. Sets the lateral curvature.",
+                      Double(10., 1e6));
     prm.add_parameter("Block width (mm)", block_width_mm, "Lateral.", Double(1., 1000.));
-    prm.add_parameter("Block height (mm)", block_height_mm, "At the crown; the bottom is held.", Double(1., 1000.));
+    prm.add_parameter("Block height (mm)", block_height_mm, "At the crown; the bottom is held.",
+                      Double(1., 1000.));
     prm.add_parameter("Margin (mm)", rail_margin_mm,
-                      "Rail beyond the rolled distance, at each end. At least three contact semi-axes.", Double(0., 2000.));
+                      "Rail beyond the rolled distance, at each end. At least three contact semi-axes.",
+                      Double(0., 2000.));
     declare_material(rail_material);
     prm.leave_subsection();
 
     prm.enter_subsection("Mesh");
-    prm.add_parameter("Finest cell (mm)", finest_mm,
-                      "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
-                      "pressure's error shrinks like its square.",
-                      Double(0.02, 20.));
+    prm.add_parameter(
+      "Finest cell (mm)", finest_mm,
+      "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
+      "pressure's error shrinks like its square.",
+      Double(0.02, 20.));
     prm.add_parameter("Fine half width (mm)", fine_half_width_mm,
-                      "Finest cells reach from the rail's middle to here; contact must stay inside.", Double(0.1, 500.));
-    prm.add_parameter("Fine layers", fine_layers, "Layers of finest cells under the surface; even numbers fit the octree.",
+                      "Finest cells reach from the rail's middle to here; contact must stay inside.",
+                      Double(0.1, 500.));
+    prm.add_parameter("Fine layers", fine_layers,
+                      "Layers of finest cells under the surface; even numbers fit the octree.",
                       Integer(1, 64));
     prm.add_parameter("Cells per level", cells_per_level,
                       "How many cells of each larger size follow before the next doubling.", Double(1., 32.));
-    prm.add_parameter("Coarsest cell (mm)", coarsest_mm, "Upper bound of the coarse blocks' edges.", Double(0.1, 500.));
+    prm.add_parameter("Coarsest cell (mm)", coarsest_mm, "Upper bound of the coarse blocks' edges.",
+                      Double(0.1, 500.));
     prm.leave_subsection();
 
     prm.enter_subsection("Solid");
-    prm.add_parameter("Element", element,
-                      "one-point: uniform strain with hourglass stiffness, fast. fully-integrated: the cross-check.",
-                      Selection("one-point|fully-integrated"));
+    prm.add_parameter(
+      "Element", element,
+      "one-point: uniform strain with hourglass stiffness, fast. fully-integrated: the cross-check.",
+      Selection("one-point|fully-integrated"));
     prm.add_parameter("Hourglass coefficient", hourglass_coefficient,
-                      "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.", Double(0.01, 10.));
-    prm.add_parameter("Stiffness damping (time steps)", damping_steps,
-                      "Internal forces are taken at x + beta v, beta in time steps. 0.1 removes grid-frequency chatter of the "
-                      "micro-slip and nothing else that can be seen; larger values shorten the stable time step.",
-                      Double(0., 10.));
-    prm.add_parameter("Linear bulk viscosity", linear_bulk_viscosity, "Against ringing behind fronts; 0.06 is usual for impact.",
-                      Double(0., 10.));
-    prm.add_parameter("Quadratic bulk viscosity", quadratic_bulk_viscosity, "In compression only; 1.2 is usual for impact.",
-                      Double(0., 10.));
+                      "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
+                      Double(0.01, 10.));
+    prm.add_parameter(
+      "Stiffness damping (time steps)", damping_steps,
+      "Internal forces are taken at x + beta v, beta in time steps. 0.1 removes grid-frequency chatter of "
+      "the "
+      "micro-slip and nothing else that can be seen; larger values shorten the stable time step.",
+      Double(0., 10.));
+    prm.add_parameter("Linear bulk viscosity", linear_bulk_viscosity,
+                      "Against ringing behind fronts; 0.06 is usual for impact.", Double(0., 10.));
+    prm.add_parameter("Quadratic bulk viscosity", quadratic_bulk_viscosity,
+                      "In compression only; 1.2 is usual for impact.", Double(0., 10.));
     prm.leave_subsection();
 
     prm.enter_subsection("Contact");
-    prm.add_parameter("Friction coefficient", friction, "Coulomb's, for stick and slip. 0 is frictionless.", Double(0., 2.));
-    prm.add_parameter("Tolerance", contact_tolerance,
-                      "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
-                      Double(1e-15, 0.1));
+    prm.add_parameter("Friction coefficient", friction, "Coulomb's, for stick and slip. 0 is frictionless.",
+                      Double(0., 2.));
+    prm.add_parameter(
+      "Tolerance", contact_tolerance,
+      "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
+      Double(1e-15, 0.1));
     prm.add_parameter("Largest number of sweeps", max_sweeps, "In one time step.", Integer(1, 100000));
     prm.leave_subsection();
 
     prm.enter_subsection("Vehicle");
-    prm.add_parameter("Sprung mass (kg)", sprung_mass, "Rests on the primary suspension and loads the contact.", Double(0.));
+    prm.add_parameter("Sprung mass (kg)", sprung_mass,
+                      "Rests on the primary suspension and loads the contact.", Double(0.));
     prm.add_parameter("Suspension stiffness (kN per m)", suspension_stiffness_kN_m, "Vertical.", Double(0.));
     prm.add_parameter("Suspension damping (N s per m)", suspension_damping, "Vertical.", Double(0.));
-    prm.add_parameter("Gravity (m per s2)", gravity, "Weight of wheel and sprung mass: the load of the contact.", Double(0., 100.));
+    prm.add_parameter("Gravity (m per s2)", gravity,
+                      "Weight of wheel and sprung mass: the load of the contact.", Double(0., 100.));
     prm.leave_subsection();
 
     prm.enter_subsection("Motion");
-    prm.add_parameter("Speed (km per h)", speed_kmh, "Of the wheel's centre, kept along x.", Double(0., 1000.));
-    prm.add_parameter("Rolled distance (mm)", rolled_mm,
-                      "From the start to the solution instant, when the wheel stands over x = 0. The tangential solution "
-                      "needs three to four patch lengths to become steady.",
-                      Double(tiny, 10000.));
-    prm.add_parameter("Drive", drive,
-                      "creepage: the angular velocity is kept. torque: a torque of traction coefficient x load x radius acts "
-                      "on the axle, after Hold distance at the predicted creepage.",
-                      Selection("creepage|torque"));
-    prm.add_parameter("Traction coefficient", traction_coefficient,
-                      "Longitudinal over normal force, positive when driving. Below the friction coefficient.", Double(-2., 2.));
-    prm.add_parameter("Creepage", creepage,
-                      "(angular velocity x radius - speed) / speed, counted from free rolling, positive when driving; "
-                      "or 'predicted': what half-space theory gives for the traction coefficient.",
-                      dealii::Patterns::Anything());
-    prm.add_parameter("Hold distance (mm)", hold_mm,
-                      "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",
-                      Double(0., 10000.));
+    prm.add_parameter("Speed (km per h)", speed_kmh, "Of the wheel's centre, kept along x.",
+                      Double(0., 1000.));
+    prm.add_parameter(
+      "Rolled distance (mm)", rolled_mm,
+      "From the start to the solution instant, when the wheel stands over x = 0. The tangential solution "
+      "needs three to four patch lengths to become steady.",
+      Double(tiny, 10000.));
+    prm.add_parameter(
+      "Drive", drive,
+      "creepage: the angular velocity is kept. torque: a torque of traction coefficient x load x radius acts "
+      "on the axle, after Hold distance at the predicted creepage.",
+      Selection("creepage|torque"));
+    prm.add_parameter(
+      "Traction coefficient", traction_coefficient,
+      "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
+      Double(-2., 2.));
+    prm.add_parameter(
+      "Creepage", creepage,
+      "(angular velocity x radius - speed) / speed, counted from free rolling, positive when driving; "
+      "or 'predicted': what half-space theory gives for the traction coefficient.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Hold distance (mm)", hold_mm,
+      "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",
+      Double(0., 10000.));
     prm.leave_subsection();
 
     prm.enter_subsection("Time stepping");
     prm.add_parameter("Courant number", courant_number,
-                      "Time step over the critical one. Above 1 the run may become unstable and stops.", Double(0.01, 2.));
+                      "Time step over the critical one. Above 1 the run may become unstable and stops.",
+                      Double(0.01, 2.));
     prm.leave_subsection();
 
     prm.enter_subsection("Start");
-    prm.add_parameter("Tolerance", start_tolerance, "Of the force balance at the start, share of the largest force.",
-                      Double(1e-12, 0.1));
-    prm.add_parameter("Largest number of iterations", start_iterations, "Of the dynamic relaxation.", Integer(1, 100000000));
+    prm.add_parameter("Tolerance", start_tolerance,
+                      "Of the force balance at the start, share of the largest force.", Double(1e-12, 0.1));
+    prm.add_parameter("Largest number of iterations", start_iterations, "Of the dynamic relaxation.",
+                      Integer(1, 100000000));
     prm.leave_subsection();
 
     prm.enter_subsection("Output");
     prm.add_parameter("Directory", output, "Folder of the results; --output overrides it.");
-    prm.add_parameter("History interval (mm)", history_mm, "Rolled distance between rows of history.csv.", Double(1e-3));
-    prm.add_parameter("Surface interval (mm)", surface_mm,
-                      "Rolled distance between pictures of the contact surface; 0: the solution instant only.", Double(0.));
+    prm.add_parameter("History interval (mm)", history_mm, "Rolled distance between rows of history.csv.",
+                      Double(1e-3));
+    prm.add_parameter(
+      "Surface interval (mm)", surface_mm,
+      "Rolled distance between pictures of the contact surface; 0: the solution instant only.", Double(0.));
     prm.add_parameter("Volume interval (mm)", volume_mm,
-                      "Rolled distance between pictures of the bodies; 0: the solution instant only.", Double(0.));
+                      "Rolled distance between pictures of the bodies; 0: the solution instant only.",
+                      Double(0.));
     prm.add_parameter("Write volume", write_volume, "Whether pictures of the bodies are written at all.");
     prm.add_parameter("Checkpoint interval (minutes)", checkpoint_minutes,
-                      "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.", Double(0.));
+                      "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.",
+                      Double(0.));
     prm.leave_subsection();
   }
 
@@ -330,65 +371,78 @@ namespace tread
       text << value;
       return text.str();
     };
-    require(density_scale == 1. || quasi_static,
-            "'Scene/Density scale' must be 1 when 'Scene/Quasi-static' is false: inertia is part of the answer");
+    require(
+      density_scale == 1. || quasi_static,
+      "'Scene/Density scale' must be 1 when 'Scene/Quasi-static' is false: inertia is part of the answer");
     require(inertia_error_estimate() <= 0.02 || !quasi_static,
-            "'Scene/Density scale' " + number(density_scale) + " at " + number(speed_kmh) + " km/h makes an inertia error of about " +
-              number(100. * inertia_error_estimate()) + " %; at most 2 % is allowed");
+            "'Scene/Density scale' " + number(density_scale) + " at " + number(speed_kmh) +
+              " km/h makes an inertia error of about " + number(100. * inertia_error_estimate()) +
+              " %; at most 2 % is allowed");
     require(speed_kmh > 0., "'Motion/Speed (km per h)' must be above 0: a wheel that stands does not roll" +
                               std::string(drive == "torque" ? ", and a torque would only spin it" : ""));
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
-    require(std::abs(traction_coefficient) < friction || (traction_coefficient == 0.) || (drive == "creepage" && creepage != "predicted"),
-            "'Motion/Traction coefficient' " + number(traction_coefficient) + " must be below 'Contact/Friction coefficient' " +
-              number(friction) + " in size");
+    require(std::abs(traction_coefficient) < friction || (traction_coefficient == 0.) ||
+              (drive == "creepage" && creepage != "predicted"),
+            "'Motion/Traction coefficient' " + number(traction_coefficient) +
+              " must be below 'Contact/Friction coefficient' " + number(friction) + " in size");
     if (creepage != "predicted")
       {
-        double            value = 0.;
-        std::size_t       used  = 0;
+        double      value = 0.;
+        std::size_t used  = 0;
         try
           {
             value = std::stod(creepage, &used);
           }
         catch (const std::exception &)
-          {}
+          {
+          }
         require(used == creepage.size() && used > 0 && std::abs(value) <= 0.2,
-                "'Motion/Creepage' cannot be '" + creepage + "'; allowed: 'predicted' or a number from -0.2 to 0.2");
+                "'Motion/Creepage' cannot be '" + creepage +
+                  "'; allowed: 'predicted' or a number from -0.2 to 0.2");
       }
     require(drive != "torque" || hold_mm < rolled_mm,
             "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " + number(rolled_mm));
 
     const ElasticMaterial wheel = wheel_material.si(), rail = rail_material.si();
-    const auto pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio}, {rail.young_modulus, rail.poisson_ratio});
-    const double lateral_mm = rail_shape == "block" ? crown_radius_mm : 300.;
-    const auto   hertz = reference::hertz_ellipse(500. / radius_mm, 500. / lateral_mm, pair.hertz_modulus(), static_load());
+    const auto            pair       = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
+                                                          {rail.young_modulus, rail.poisson_ratio});
+    const double          lateral_mm = rail_shape == "block" ? crown_radius_mm : 300.;
+    const auto            hertz =
+      reference::hertz_ellipse(500. / radius_mm, 500. / lateral_mm, pair.hertz_modulus(), static_load());
     const double a_mm = 1e3 * hertz.semi_axis_x, b_mm = 1e3 * hertz.semi_axis_y;
     require(finest_mm <= 0.4 * std::min(a_mm, b_mm),
-            "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " + number(a_mm) + " and " +
-              number(b_mm) + " mm; at most " + number(0.4 * std::min(a_mm, b_mm)));
+            "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
+              number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.4 * std::min(a_mm, b_mm)));
     require(fine_half_width_mm >= 1.1 * b_mm + finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) + " must hold the patch of semi-axis " + number(b_mm) +
-              " mm; at least " + number(1.1 * b_mm + finest_mm));
-    require(rail_margin_mm >= 3. * a_mm,
-            "'Rail/Margin (mm)' " + number(rail_margin_mm) + " lets the wheel leave the rail; at least three semi-axes, " +
-              number(3. * a_mm));
+            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
+              " must hold the patch of semi-axis " + number(b_mm) + " mm; at least " +
+              number(1.1 * b_mm + finest_mm));
+    require(rail_margin_mm >= 3. * a_mm, "'Rail/Margin (mm)' " + number(rail_margin_mm) +
+                                           " lets the wheel leave the rail; at least three semi-axes, " +
+                                           number(3. * a_mm));
     require(wheel_shape == "full" || sector_margin_mm >= 3. * a_mm,
-            "'Wheel/Sector margin (mm)' " + number(sector_margin_mm) + " lets the contact leave the sector; at least three semi-axes, " +
-              number(3. * a_mm));
-    require(wheel_shape == "full" || rolled_mm + 2. * sector_margin_mm < 2. * 3.14159 * radius_mm,
-            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' exceeds the wheel's circumference");
+            "'Wheel/Sector margin (mm)' " + number(sector_margin_mm) +
+              " lets the contact leave the sector; at least three semi-axes, " + number(3. * a_mm));
+    require(
+      wheel_shape == "full" || rolled_mm + 2. * sector_margin_mm < 2. * 3.14159 * radius_mm,
+      "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' exceeds the wheel's circumference");
     require(wheel_shape == "full" || sector_thickness_mm < radius_mm,
             "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + number(radius_mm));
-    require(wheel_shape == "sector" || (bore_radius_mm < hub_outer_radius_mm && hub_outer_radius_mm < rim_inner_radius_mm &&
-                                        rim_inner_radius_mm < radius_mm),
-            "a full wheel needs 'Wheel/Bore radius (mm)' < 'Hub outer radius (mm)' < 'Rim inner radius (mm)' < 'Radius (mm)'");
+    require(wheel_shape == "sector" ||
+              (bore_radius_mm < hub_outer_radius_mm && hub_outer_radius_mm < rim_inner_radius_mm &&
+               rim_inner_radius_mm < radius_mm),
+            "a full wheel needs 'Wheel/Bore radius (mm)' < 'Hub outer radius (mm)' < 'Rim inner radius (mm)' "
+            "< 'Radius (mm)'");
     const double half_width_mm = rail_shape == "block" ? 0.5 * block_width_mm : 30.;
-    require(fine_half_width_mm < half_width_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) + " must be below the half width of the rail, " +
-              number(half_width_mm));
+    require(fine_half_width_mm < half_width_mm, "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
+                                                  " must be below the half width of the rail, " +
+                                                  number(half_width_mm));
     require(fine_half_width_mm < 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm),
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) + " must be below half of the wheel's width");
+            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
+              " must be below half of the wheel's width");
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
-            "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with 'Solid/Element' fully-integrated");
+            "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
+            "'Solid/Element' fully-integrated");
   }
 
 
@@ -404,7 +458,8 @@ namespace tread
 
   void Scene::print(std::ostream &out, const bool with_documentation) const
   {
-    handler.print_parameters(out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
-                                    dealii::ParameterHandler::KeepDeclarationOrder);
+    handler.print_parameters(
+      out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
+             dealii::ParameterHandler::KeepDeclarationOrder);
   }
 } // namespace tread

@@ -34,25 +34,28 @@ namespace tread
       return text;
     }
 
-    /// Half of the crown's relative curvature is B of the undeformed gap; the head's crown has its own radius.
+    /// Half of the crown's relative curvature is B of the undeformed gap; the head's crown has its own
+    /// radius.
     double lateral_radius(const Scene &scene)
     {
-      return scene.rail_shape == "block" ? 1e-3 * scene.crown_radius_mm :
-             scene.profile == "54E1"     ? RailProfile::rail_54e1().crown_radius() :
-                                           RailProfile::rail_60e1().crown_radius();
+      return scene.rail_shape == "block" ? 1e-3 * scene.crown_radius_mm
+             : scene.profile == "54E1"   ? RailProfile::rail_54e1().crown_radius()
+                                         : RailProfile::rail_60e1().crown_radius();
     }
 
-    reference::RollingCase half_space_case(const Scene &scene, const double normal_force, const double traction_coefficient)
+    reference::RollingCase half_space_case(const Scene &scene,
+                                           const double normal_force,
+                                           const double traction_coefficient)
     {
       reference::RollingCase c;
-      c.curvature_x          = 0.5 / (1e-3 * scene.radius_mm);
-      c.curvature_y          = 0.5 / lateral_radius(scene);
-      c.normal_force         = normal_force;
-      c.friction             = std::max(scene.friction, 1e-6);
-      c.speed                = scene.speed();
-      c.wheel                = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
-      c.rail                 = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
-      c.prescribe_force      = true;
+      c.curvature_x     = 0.5 / (1e-3 * scene.radius_mm);
+      c.curvature_y     = 0.5 / lateral_radius(scene);
+      c.normal_force    = normal_force;
+      c.friction        = std::max(scene.friction, 1e-6);
+      c.speed           = scene.speed();
+      c.wheel           = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
+      c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
+      c.prescribe_force = true;
       c.traction_coefficient = traction_coefficient;
       c.element_size         = std::min(1e-3 * scene.finest_mm, 0.15e-3);
       return c;
@@ -61,8 +64,8 @@ namespace tread
     reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
     {
       const reference::RollingCase c = half_space_case(scene, normal_force, 0.);
-      return reference::hertz_ellipse(c.curvature_x, c.curvature_y, reference::combine(c.wheel, c.rail).hertz_modulus(),
-                                      normal_force);
+      return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
+                                      reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
     }
 
     std::vector<Body> make_bodies(const Scene &scene)
@@ -100,8 +103,8 @@ namespace tread
           head.x_begin            = -rolled - margin;
           head.x_end              = margin;
           head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
-          bodies.push_back(
-            make_rail_head(scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1(), head, on_rail));
+          bodies.push_back(make_rail_head(
+            scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1(), head, on_rail));
         }
       bodies.back().name = "rail";
       if (scene.wheel_shape == "sector")
@@ -201,7 +204,8 @@ namespace tread
 
   std::uint64_t Simulation::remaining_steps() const
   {
-    const double step = dynamics.time_step > 0. ? dynamics.time_step : scene.courant_number * dynamics.critical_time_step();
+    const double step =
+      dynamics.time_step > 0. ? dynamics.time_step : scene.courant_number * dynamics.critical_time_step();
     return static_cast<std::uint64_t>(std::ceil((end_position - position()) / (scene.speed() * step)));
   }
 
@@ -217,26 +221,28 @@ namespace tread
     const double        step  = scene.courant_number * dynamics.critical_time_step();
     const std::uint64_t steps = remaining_steps();
     // A few force evaluations tell this machine's pace.
-    NodalField          force(mesh.nodes.size(), Row{});
-    const auto          start = MPI_Wtime();
-    unsigned int        n     = 0;
+    NodalField   force(mesh.nodes.size(), Row{});
+    const auto   start = MPI_Wtime();
+    unsigned int n     = 0;
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
       solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data());
     const double seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
     const double memory  = dealii::Utilities::MPI::sum(
-      static_cast<double>(solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.)), comm);
-    const double relaxation_steps = 3500.;
+       static_cast<double>(solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.)), comm);
+    const double relaxation_steps = 2000.;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
-        std::printf("unknowns             %12llu\n", 3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
+        std::printf("unknowns             %12llu\n",
+                    3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
         std::printf("time step            %12.4g s\n", step);
         std::printf("steps                %12llu\n", (unsigned long long)steps);
         std::printf("cells and nodes use  %12.0f MB\n", memory / 1e6);
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.density_scale);
-        std::printf("estimated time       %12.0f s on %u rank(s), about 1.7 times that of the internal forces\n",
-                    1.7 * seconds * (steps + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
+        std::printf(
+          "estimated time       %12.0f s on %u rank(s), about 1.7 times that of the internal forces\n",
+          1.7 * seconds * (steps + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
       }
   }
 
@@ -246,22 +252,24 @@ namespace tread
     const double radius = 1e-3 * scene.radius_mm;
     if (scene.creepage == "predicted")
       {
-        predicted       = reference::solve_rolling(half_space_case(scene, scene.static_load(), scene.traction_coefficient));
+        predicted =
+          reference::solve_rolling(half_space_case(scene, scene.static_load(), scene.traction_coefficient));
         target_creepage = -predicted.creepage;
       }
     else
       target_creepage = std::stod(scene.creepage);
 
-    const double began = progress.seconds();
-    relaxation_iterations =
-      dynamics.relax(scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
+    const double began    = progress.seconds();
+    relaxation_iterations = dynamics.relax(
+      scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
         if (progress.due())
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
     relaxation_seconds = progress.seconds() - began;
     free_creepage      = contact.free_rolling_creepage(dynamics.x.data());
-    progress.say(format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
-                        relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
+    progress.say(
+      format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
+             relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
 
     contact.set_friction(std::make_shared<CoulombFriction>(scene.friction));
     hub.drive                   = Drive::creepage;
@@ -275,7 +283,8 @@ namespace tread
 
   void Simulation::set_drive()
   {
-    if (scene.drive == "torque" && !torque_released && position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
+    if (scene.drive == "torque" && !torque_released &&
+        position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
       {
         hub.drive        = Drive::torque;
         hub.drive_torque = scene.traction_coefficient * scene.static_load() * hub.motion.z;
@@ -345,16 +354,18 @@ namespace tread
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
     progress.say("tread " + version() + (scene.title.empty() ? "" : ": " + scene.title));
-    progress.say(format("%llu cells, %llu unknowns, %u rank(s), %u lanes", (unsigned long long)mesh.n_global_cells,
+    progress.say(format("%llu cells, %llu unknowns, %u rank(s), %u lanes",
+                        (unsigned long long)mesh.n_global_cells,
                         3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes),
                         dealii::Utilities::MPI::n_mpi_processes(comm), n_lanes));
     if (scene.density_scale > 1.)
-      progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%", scene.density_scale,
-                          100. * scene.inertia_error_estimate()));
+      progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%",
+                          scene.density_scale, 100. * scene.inertia_error_estimate()));
 
     if (resume)
       {
-        progress.say(format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
+        progress.say(
+          format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
       }
     else
       prepare_start(progress);
@@ -363,10 +374,10 @@ namespace tread
     const std::uint64_t n_steps = dynamics.n_steps + remaining_steps(), first_step = dynamics.n_steps;
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - first_step), 1e3 * (end_position - position())));
-    const double loop_began   = progress.seconds();
-    double       last_written = loop_began;
+    const double           loop_began           = progress.seconds();
+    double                 last_written         = loop_began;
     constexpr unsigned int steps_between_checks = 100;
-    bool         stopped = false;
+    bool                   stopped              = false;
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
@@ -397,16 +408,18 @@ namespace tread
           {
             dynamics.check_stability();
             if (contact.touches_rim())
-              throw std::runtime_error(format("contact leaves the fine mesh at x = %.2f mm: raise 'Mesh/Fine half width (mm)'",
-                                              1e3 * position()));
+              throw std::runtime_error(
+                format("contact leaves the fine mesh at x = %.2f mm: raise 'Mesh/Fine half width (mm)'",
+                       1e3 * position()));
             if (interrupted())
               {
                 stopped = true;
                 break;
               }
-            const double now = progress.seconds();
-            const bool write_now = dealii::Utilities::MPI::max(
-              scene.checkpoint_minutes > 0. && now - last_written > 60. * scene.checkpoint_minutes ? 1 : 0, comm);
+            const double now       = progress.seconds();
+            const bool   write_now = dealii::Utilities::MPI::max(
+                scene.checkpoint_minutes > 0. && now - last_written > 60. * scene.checkpoint_minutes ? 1 : 0,
+              comm);
             if (write_now)
               {
                 checkpoint.write(*this);
@@ -416,8 +429,9 @@ namespace tread
               {
                 const Row    force = (1. / dynamics.time_step) * contact.total_impulse();
                 const double spent = now - loop_began, done = dynamics.n_steps - first_step;
-                progress.show(format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),
-                                     1e-3 * force[2], force[0] / force[2], 1e9 * spent / done / mesh.cells.size(),
+                progress.show(format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left",
+                                     1e3 * position(), 1e-3 * force[2], force[0] / force[2],
+                                     1e9 * spent / done / mesh.cells.size(),
                                      spent / done * (n_steps - dynamics.n_steps)));
               }
           }
@@ -432,14 +446,16 @@ namespace tread
   void Simulation::finish(RunFolder &folder, const bool completed, const double wall_seconds)
   {
     using dealii::Utilities::MPI::max;
-    const EnergyLedger  energy = dynamics.ledger();
+    const EnergyLedger  energy   = dynamics.ledger();
     const bool          averaged = average.n_steps() > 0;
-    const PatchMeasures instant =
-      measure(solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
-    const PatchMeasures mean = averaged ? average.measures() : instant;
-    const Row    force = last_steps > 0 ? (1. / last_steps) * last_force_sum : (1. / dynamics.time_step) * contact.total_impulse();
-    const double normal = force[2];
-    const double creepage = hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+    const PatchMeasures instant  = measure(
+       solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    const PatchMeasures mean   = averaged ? average.measures() : instant;
+    const Row           force  = last_steps > 0 ? (1. / last_steps) * last_force_sum
+                                                : (1. / dynamics.time_step) * contact.total_impulse();
+    const double        normal = force[2];
+    const double        creepage =
+      hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
     const double steps = std::max<double>(1., dynamics.n_steps);
 
     Summary summary;
@@ -452,17 +468,21 @@ namespace tread
     summary.set("normal_force_ripple_share",
                 last_steps > 0 ? std::max(last_force_high - normal, normal - last_force_low) / normal : 0.);
     summary.set("free_rolling_creepage", free_creepage);
+    summary.set("friction_coefficient", scene.friction);
 
-    const reference::HertzEllipse ellipse = hertz(scene, normal);
-    const auto compare_hertz = [&](const char *name, const char *label, const double scale, const double value, const double reference) {
+    const reference::HertzEllipse ellipse       = hertz(scene, normal);
+    const auto                    compare_hertz = [&](const char *name, const char *label, const double scale,
+                                   const double value, const double reference) {
       summary.compare(name, label, scale, value, "Hertz", reference);
     };
     compare_hertz("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure, ellipse.max_pressure);
     compare_hertz("patch_area_m2", "patch area, mm2", 1e6, mean.area, ellipse.area);
     compare_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, mean.semi_axis_x, ellipse.semi_axis_x);
     compare_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, mean.semi_axis_y, ellipse.semi_axis_y);
-    compare_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, mean.pressure_semi_axis_x, ellipse.semi_axis_x);
-    compare_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, mean.pressure_semi_axis_y, ellipse.semi_axis_y);
+    compare_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, mean.pressure_semi_axis_x,
+                  ellipse.semi_axis_x);
+    compare_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, mean.pressure_semi_axis_y,
+                  ellipse.semi_axis_y);
 
     // Kalker's answer for the forces that act.
     std::string note;
@@ -474,22 +494,29 @@ namespace tread
     if (std::abs(force[0]) < 0.999 * scene.friction * normal)
       try
         {
-          const reference::RollingResult half_space = reference::solve_rolling(half_space_case(scene, normal, force[0] / normal));
-          const auto compare = [&](const char *name, const char *label, const double scale, const double value, const double reference) {
+          const reference::RollingResult half_space =
+            reference::solve_rolling(half_space_case(scene, normal, force[0] / normal));
+          const auto compare = [&](const char *name, const char *label, const double scale,
+                                   const double value, const double reference) {
             summary.compare(name, label, scale, value, "half-space", reference);
           };
-          compare("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure, half_space.max_pressure);
+          compare("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure,
+                  half_space.max_pressure);
           compare("creepage", "creepage, 1e-3", 1e3, creepage, -half_space.creepage);
           compare("adhesion_share", "adhesion share, %", 1e2, mean.adhesion_share, half_space.adhesion_share);
           compare("max_shear_Pa", "maximum shear stress, MPa", 1e-6, mean.max_shear, half_space.max_shear);
           compare("max_slip_m_per_s", "maximum micro-slip, m/s", 1., mean.max_slip, half_space.max_slip);
-          compare("frictional_power_W", "frictional power, W", 1., mean.frictional_power, half_space.power_balance);
+          compare("frictional_power_W", "frictional power, W", 1., mean.frictional_power,
+                  half_space.power_balance);
           std::vector<PatchNode> nodes;
           for (std::size_t i = 0; i < half_space.x.size(); ++i)
             if (half_space.state[i] != reference::ElementState::exterior)
-              nodes.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.}, half_space.element_size * half_space.element_size,
-                               half_space.pressure[i], {half_space.shear_x[i], half_space.shear_y[i]},
-                               {half_space.slip_x[i], half_space.slip_y[i]}, half_space.state[i] == reference::ElementState::adhesion});
+              nodes.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.},
+                               half_space.element_size * half_space.element_size,
+                               half_space.pressure[i],
+                               {half_space.shear_x[i], half_space.shear_y[i]},
+                               {half_space.slip_x[i], half_space.slip_y[i]},
+                               half_space.state[i] == reference::ElementState::adhesion});
           folder.write_patch("reference_patch.csv", nodes);
         }
       catch (const std::exception &error)
@@ -499,12 +526,13 @@ namespace tread
         }
 
     summary.set("energy_residual_share", energy.residual_share());
-    for (const auto &[name, value] : std::vector<std::pair<const char *, double>>{{"external_work_J", energy.external_work},
-                                                                                  {"gross_work_J", energy.gross_work},
-                                                                                  {"frictional_work_J", energy.friction},
-                                                                                  {"damping_work_J", energy.damping},
-                                                                                  {"contact_loss_J", energy.contact},
-                                                                                  {"energy_residual_J", energy.residual()}})
+    for (const auto &[name, value] :
+         std::vector<std::pair<const char *, double>>{{"external_work_J", energy.external_work},
+                                                      {"gross_work_J", energy.gross_work},
+                                                      {"frictional_work_J", energy.friction},
+                                                      {"damping_work_J", energy.damping},
+                                                      {"contact_loss_J", energy.contact},
+                                                      {"energy_residual_J", energy.residual()}})
       summary.set(name, value);
     summary.set("cells", mesh.n_global_cells);
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
@@ -520,7 +548,8 @@ namespace tread
     summary.set("wall_s_contact", max(times.contact + times.search, comm));
     summary.set("wall_s_communication", max(times.communication, comm));
     summary.set("wall_s_nodes", max(times.nodes, comm));
-    summary.set("element_updates_per_s", mesh.n_global_cells * steps / std::max(1e-9, max(times.internal_forces, comm)));
+    summary.set("element_updates_per_s",
+                mesh.n_global_cells * steps / std::max(1e-9, max(times.internal_forces, comm)));
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
     folder.write("summary.json", summary.text());
@@ -529,13 +558,17 @@ namespace tread
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the work\n\n%s\n%s%s",
-                    1e-3 * normal,
-                    last_steps > 0 ? 100. * std::max(last_force_high - normal, normal - last_force_low) / normal : 0.,
-                    force[0] / normal, energy.residual_share(), summary.table().c_str(), note.c_str(), note.empty() ? "" : "\n");
-        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s\n", completed ? "finished" : "INTERRUPTED: stopped",
-                    wall_seconds, folder.path("").c_str(),
-                    solution_taken ? ", patch.csv; for ParaView: volume.pvd, surface.pvd" : "; go on with --resume");
+        std::printf(
+          "\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the "
+          "work\n\n%s\n%s%s",
+          1e-3 * normal,
+          last_steps > 0 ? 100. * std::max(last_force_high - normal, normal - last_force_low) / normal : 0.,
+          force[0] / normal, energy.residual_share(), summary.table().c_str(), note.c_str(),
+          note.empty() ? "" : "\n");
+        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s\n",
+                    completed ? "finished" : "INTERRUPTED: stopped", wall_seconds, folder.path("").c_str(),
+                    solution_taken ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
+                                   : "; go on with --resume");
       }
   }
 } // namespace tread

@@ -14,13 +14,19 @@ namespace tread::tests
   {
   public:
     /// |computed - reference| <= allowed * |reference|.
-    bool relative(const std::string &what, const double computed, const double reference, const double allowed)
+    bool relative(const std::string &what,
+                  const double       computed,
+                  const double       reference,
+                  const double       allowed)
     {
       return line(what, computed, reference, std::abs(computed - reference) / std::abs(reference), allowed);
     }
 
     /// |computed - reference| <= allowed, in the unit named in what.
-    bool absolute(const std::string &what, const double computed, const double reference, const double allowed)
+    bool absolute(const std::string &what,
+                  const double       computed,
+                  const double       reference,
+                  const double       allowed)
     {
       return line(what, computed, reference, std::abs(computed - reference), allowed);
     }
@@ -53,8 +59,8 @@ namespace tread::tests
       const bool pass = error <= allowed; // false for NaN
       ++n_lines;
       n_failed += pass ? 0 : 1;
-      std::printf("%-52s computed %15.8g  reference %15.8g  error %9.2e  allowed %9.2e  %s\n",
-                  what.c_str(), computed, reference, error, allowed, pass ? "PASS" : "FAIL");
+      std::printf("%-52s computed %15.8g  reference %15.8g  error %9.2e  allowed %9.2e  %s\n", what.c_str(),
+                  computed, reference, error, allowed, pass ? "PASS" : "FAIL");
       return pass;
     }
 

@@ -2,9 +2,9 @@
 #ifndef tread_scene_h
 #define tread_scene_h
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <tread/material/elastic.h>
+
+#include <deal.II/base/parameter_handler.h>
 
 #include <stdexcept>
 #include <string>
@@ -55,13 +55,15 @@ namespace tread
     double       finest_mm = 0.63, fine_half_width_mm = 8., cells_per_level = 2., coarsest_mm = 22.;
     unsigned int fine_layers = 2;
     // Solid
-    std::string element = "one-point";
-    double      hourglass_coefficient = 1., damping_steps = 0.1, linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
+    std::string element               = "one-point";
+    double      hourglass_coefficient = 1., damping_steps = 0.1, linear_bulk_viscosity = 0.,
+           quadratic_bulk_viscosity = 0.;
     // Contact
     double       friction = 0.5, contact_tolerance = 1e-7;
     unsigned int max_sweeps = 200;
     // Vehicle
-    double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500., gravity = 9.81;
+    double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500.,
+           gravity = 9.81;
     // Motion
     double      speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
     std::string drive = "creepage", creepage = "predicted";
@@ -69,12 +71,12 @@ namespace tread
     // Time stepping
     double courant_number = 0.9;
     // Start
-    double       start_tolerance = 1e-5;
+    double       start_tolerance  = 1e-5;
     unsigned int start_iterations = 20000;
     // Output
-    std::string  output = "results";
-    double       history_mm = 0.25, surface_mm = 0., volume_mm = 0., checkpoint_minutes = 10.;
-    bool         write_volume = true;
+    std::string output     = "results";
+    double      history_mm = 0.25, surface_mm = 0., volume_mm = 0., checkpoint_minutes = 10.;
+    bool        write_volume = true;
 
     /// Read a parameter file, then "Section/Name=value" settings in their order, and check that
     /// they make sense together. @throws SceneError

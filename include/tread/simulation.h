@@ -33,13 +33,13 @@ namespace tread
     bool run(const std::string &folder, const bool resume);
 
   private:
-    void prepare_start(Progress &progress);
-    void set_drive();
-    void add_to_interval();
-    void end_interval(RunFolder &folder);
-    void take_solution(RunFolder &folder);
-    void finish(RunFolder &folder, const bool completed, const double wall_seconds);
-    bool interrupted() const;
+    void   prepare_start(Progress &progress);
+    void   set_drive();
+    void   add_to_interval();
+    void   end_interval(RunFolder &folder);
+    void   take_solution(RunFolder &folder);
+    void   finish(RunFolder &folder, const bool completed, const double wall_seconds);
+    bool   interrupted() const;
     double position() const
     {
       return hub.motion.x;
@@ -48,29 +48,29 @@ namespace tread
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 
-    const Scene                &scene;
-    MPI_Comm                    comm;
-    reference::RollingResult    predicted; ///< half-space answer before the run
-    Mesh                        mesh;
-    Solid                       solid;
-    WheelHub                    hub;
-    ExplicitDynamics            dynamics;
-    Contact                     contact;
+    const Scene             &scene;
+    MPI_Comm                 comm;
+    reference::RollingResult predicted; ///< half-space answer before the run
+    Mesh                     mesh;
+    Solid                    solid;
+    WheelHub                 hub;
+    ExplicitDynamics         dynamics;
+    Contact                  contact;
 
-    double                      target_creepage = 0., free_creepage = 0., end_position;
-    bool                        torque_released = false, solution_taken = false;
+    double target_creepage = 0., free_creepage = 0., end_position;
+    bool   torque_released = false, solution_taken = false;
 
     // Sums since the last row of the history.
-    Row                         interval_force{};
-    unsigned int                interval_steps = 0;
-    double                      next_history, next_surface, next_volume;
+    Row          interval_force{};
+    unsigned int interval_steps = 0;
+    double       next_history, next_surface, next_volume;
 
-    PatchAverage                average;             ///< while rolling one cell about the solution instant
-    std::vector<PatchNode>      solution_patch;
-    Row                         last_force_sum{};    ///< over the last 10 mm before the solution instant
-    double                      last_force_low = 1e300, last_force_high = -1e300;
-    std::uint64_t               last_steps = 0, sweeps = 0;
-    double                      relaxation_seconds = 0., relaxation_iterations = 0.;
+    PatchAverage           average; ///< while rolling one cell about the solution instant
+    std::vector<PatchNode> solution_patch;
+    Row                    last_force_sum{}; ///< over the last 10 mm before the solution instant
+    double                 last_force_low = 1e300, last_force_high = -1e300;
+    std::uint64_t          last_steps = 0, sweeps = 0;
+    double                 relaxation_seconds = 0., relaxation_iterations = 0.;
 
     friend class Checkpoint;
   };

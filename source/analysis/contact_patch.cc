@@ -18,8 +18,9 @@ namespace tread
   }
 
 
-  std::vector<PatchNode>
-  patch_nodes(const std::vector<ContactNodeState> &states, const double centre_x, const double time_step)
+  std::vector<PatchNode> patch_nodes(const std::vector<ContactNodeState> &states,
+                                     const double                         centre_x,
+                                     const double                         time_step)
   {
     std::vector<PatchNode> patch;
     for (const ContactNodeState &state : states)
@@ -48,7 +49,8 @@ namespace tread
     PatchMeasures m;
     if (patch.empty())
       return m;
-    double force = 0., first[2] = {0., 0.}, second[2] = {0., 0.}, low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+    double force = 0., first[2] = {0., 0.}, second[2] = {0., 0.}, low[2] = {1e300, 1e300},
+           high[2] = {-1e300, -1e300};
     for (const PatchNode &node : patch)
       {
         m.area += node.area;
@@ -68,9 +70,9 @@ namespace tread
           }
       }
     m.adhesion_share /= m.area;
-    const double cell    = std::sqrt(m.area / patch.size());
-    m.semi_axis_x        = 0.5 * (high[0] - low[0] + cell);
-    m.semi_axis_y        = 0.5 * (high[1] - low[1] + cell);
+    const double cell       = std::sqrt(m.area / patch.size());
+    m.semi_axis_x           = 0.5 * (high[0] - low[0] + cell);
+    m.semi_axis_y           = 0.5 * (high[1] - low[1] + cell);
     const auto from_moments = [&](const unsigned int d) {
       const double mean = first[d] / force;
       return std::sqrt(5. * std::max(0., second[d] / force - mean * mean));
@@ -81,7 +83,9 @@ namespace tread
   }
 
 
-  void PatchAverage::add(const std::vector<ContactNodeState> &states, const double centre_x, const double time_step)
+  void PatchAverage::add(const std::vector<ContactNodeState> &states,
+                         const double                         centre_x,
+                         const double                         time_step)
   {
     const std::vector<PatchNode> patch = patch_nodes(states, 0., time_step);
     for (std::size_t i = 0; i < patch.size(); ++i)
@@ -100,9 +104,10 @@ namespace tread
       }
     const PatchMeasures m = measure(patch);
     for (double PatchMeasures::*member :
-         {&PatchMeasures::area, &PatchMeasures::max_pressure, &PatchMeasures::adhesion_share, &PatchMeasures::max_shear,
-          &PatchMeasures::max_slip, &PatchMeasures::frictional_power, &PatchMeasures::semi_axis_x, &PatchMeasures::semi_axis_y,
-          &PatchMeasures::pressure_semi_axis_x, &PatchMeasures::pressure_semi_axis_y})
+         {&PatchMeasures::area, &PatchMeasures::max_pressure, &PatchMeasures::adhesion_share,
+          &PatchMeasures::max_shear, &PatchMeasures::max_slip, &PatchMeasures::frictional_power,
+          &PatchMeasures::semi_axis_x, &PatchMeasures::semi_axis_y, &PatchMeasures::pressure_semi_axis_x,
+          &PatchMeasures::pressure_semi_axis_y})
       measure_sums.*member += m.*member;
     centre_sum += centre_x;
     ++steps;
@@ -135,9 +140,10 @@ namespace tread
     PatchMeasures m = measure_sums;
     if (steps > 0)
       for (double PatchMeasures::*member :
-           {&PatchMeasures::area, &PatchMeasures::max_pressure, &PatchMeasures::adhesion_share, &PatchMeasures::max_shear,
-            &PatchMeasures::max_slip, &PatchMeasures::frictional_power, &PatchMeasures::semi_axis_x,
-            &PatchMeasures::semi_axis_y, &PatchMeasures::pressure_semi_axis_x, &PatchMeasures::pressure_semi_axis_y})
+           {&PatchMeasures::area, &PatchMeasures::max_pressure, &PatchMeasures::adhesion_share,
+            &PatchMeasures::max_shear, &PatchMeasures::max_slip, &PatchMeasures::frictional_power,
+            &PatchMeasures::semi_axis_x, &PatchMeasures::semi_axis_y, &PatchMeasures::pressure_semi_axis_x,
+            &PatchMeasures::pressure_semi_axis_y})
         m.*member /= steps;
     return m;
   }

@@ -98,8 +98,8 @@ namespace tread
       }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
-    bool        own_added = false;
-    const auto  add_own   = [&]() {
+    bool       own_added = false;
+    const auto add_own   = [&]() {
       for (unsigned int i = 0; i < shared.size(); ++i)
         field[shared[i]] += own_values[i];
       own_added = true;

@@ -26,7 +26,9 @@ namespace tread
   } // namespace
 
 
-  Contact::Contact(const Mesh &mesh, const ContactParameters &parameters, std::shared_ptr<const FrictionLaw> friction)
+  Contact::Contact(const Mesh                        &mesh,
+                   const ContactParameters           &parameters,
+                   std::shared_ptr<const FrictionLaw> friction)
     : surfaces(mesh)
     , impulse_of_node(surfaces.nodes.size(), Row{})
     , comm(mesh.comm)
@@ -53,7 +55,8 @@ namespace tread
           slave_faces[i].push_back(f);
     for (const ContactSurfaces::Face &face : surfaces.faces)
       if (face.body == parameters.slave_body)
-        face_size = std::min(face_size, norm(surfaces.nodes[face.nodes[1]].reference - surfaces.nodes[face.nodes[0]].reference));
+        face_size = std::min(
+          face_size, norm(surfaces.nodes[face.nodes[1]].reference - surfaces.nodes[face.nodes[0]].reference));
   }
 
 
@@ -91,15 +94,17 @@ namespace tread
       couple(surfaces, all_x, all_v, parameters.slave_body, parameters.master_body, search_reach, reach);
 
     // Until the next refresh no node may come to touch that is not a candidate now. The way that the surfaces
-    // can have gone towards each other is bounded by the sum of their largest speeds since; where only part of
-    // that is closing speed now, it is taken to stay that part.
+    // can have gone towards each other is bounded by the sum of their largest speeds since; where only part
+    // of that is closing speed now, it is taken to stay that part.
     const auto   largest = largest_speeds(v);
-    const double speed = dealii::Utilities::MPI::max(largest[0], comm) + dealii::Utilities::MPI::max(largest[1], comm);
-    travelled          = 0.;
-    allowed_travel     = std::min(0.5 * search_reach, std::max(0.25 * reach, 0.5 * speed * coupling.time_to_touch));
+    const double speed =
+      dealii::Utilities::MPI::max(largest[0], comm) + dealii::Utilities::MPI::max(largest[1], comm);
+    travelled = 0.;
+    allowed_travel =
+      std::min(0.5 * search_reach, std::max(0.25 * reach, 0.5 * speed * coupling.time_to_touch));
     time_to_refresh = std::numeric_limits<double>::max();
-    Row          turning{};
-    unsigned int n_loaded = 0;
+    Row                 turning{};
+    unsigned int        n_loaded = 0;
     std::vector<double> gap(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
@@ -119,14 +124,15 @@ namespace tread
             ++n_loaded;
             for (const unsigned int f : slave_faces[row.slave])
               {
-                const auto &corners = surfaces.faces[f].nodes;
-                const double share  = 1. / (slave_faces[row.slave].size() * face_size);
+                const auto  &corners = surfaces.faces[f].nodes;
+                const double share   = 1. / (slave_faces[row.slave].size() * face_size);
                 turning += share * Row{dot(all_v[corners[2]] - all_v[corners[0]], row.normal),
                                        dot(all_v[corners[3]] - all_v[corners[1]], row.normal), 0., 0.};
               }
           }
       }
-    if (const double rate = n_loaded > 0 ? norm(turning) / n_loaded : 0.; rate * time_to_refresh > parameters.turning)
+    if (const double rate = n_loaded > 0 ? norm(turning) / n_loaded : 0.;
+        rate * time_to_refresh > parameters.turning)
       time_to_refresh = parameters.turning / rate;
     time_to_refresh    = std::max(time_to_refresh, time_step);
     time_since_refresh = 0.;
@@ -167,7 +173,7 @@ namespace tread
     problem.entries.clear();
     impulse.clear();
     corners_around.clear();
-    steps_since_normals = 0;
+    steps_since_normals       = 0;
     const auto compact_number = [&](const unsigned int node) -> unsigned int {
       if (number[node] < 0)
         {
@@ -179,13 +185,13 @@ namespace tread
     for (const unsigned int j : chosen)
       {
         const MortarRow           &row = coupling.rows[j];
-        ContactProblem::Constraint constraint{row.normal, row.area, 0., (unsigned int)problem.entries.size(), 0, row.slave};
+        ContactProblem::Constraint constraint{row.normal, row.area, 0., (unsigned int)problem.entries.size(),
+                                              0,          row.slave};
         for (std::size_t i = row.begin; i < row.end; ++i)
           {
             const MortarEntry &entry = coupling.entries[i];
-            problem.entries.push_back({compact_number(entry.node),
-                                       entry.coefficient,
-                                       entry.coefficient * inverse_mass[entry.node]});
+            problem.entries.push_back(
+              {compact_number(entry.node), entry.coefficient, entry.coefficient * inverse_mass[entry.node]});
             constraint.compliance += entry.coefficient * entry.coefficient * inverse_mass[entry.node];
           }
         constraint.end = problem.entries.size();
@@ -216,16 +222,17 @@ namespace tread
 
   void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
   {
-    const unsigned int n_ranks = involved_of_rank.size(), this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
-    const unsigned int n_extra = extra.size();
-    const auto speeds = largest_speeds(v);
+    const unsigned int n_ranks   = involved_of_rank.size(),
+                       this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    const unsigned int n_extra   = extra.size();
+    const auto         speeds    = largest_speeds(v);
     send_buffer.assign(speeds.begin(), speeds.end());
     send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
     for (const unsigned int i : involved_of_rank[this_rank])
       {
-        const unsigned int node     = surfaces.nodes[involved[i]].local;
-        const Row before    = v[node];
-        const Row predicted = before + time_step * inverse_mass[involved[i]] * force[node];
+        const unsigned int node      = surfaces.nodes[involved[i]].local;
+        const Row          before    = v[node];
+        const Row          predicted = before + time_step * inverse_mass[involved[i]] * force[node];
         for (unsigned int d = 0; d < 3; ++d)
           send_buffer.push_back(before[d]);
         for (unsigned int d = 0; d < 3; ++d)
@@ -243,8 +250,8 @@ namespace tread
     if (n_ranks > 1)
       {
         receive_buffer.resize(total);
-        MPI_Allgatherv(send_buffer.data(), send_buffer.size(), MPI_DOUBLE, receive_buffer.data(), counts.data(),
-                       offsets.data(), MPI_DOUBLE, comm);
+        MPI_Allgatherv(send_buffer.data(), send_buffer.size(), MPI_DOUBLE, receive_buffer.data(),
+                       counts.data(), offsets.data(), MPI_DOUBLE, comm);
         received = receive_buffer.data();
       }
     std::fill(extra.begin(), extra.end(), 0.);
@@ -287,11 +294,12 @@ namespace tread
     if (++steps_since_normals > steps_between_normals)
       update_normals();
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      gap_rate[j] = dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
+      gap_rate[j] =
+        dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
     // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
     for (unsigned int j = 0; j < impulse.size(); ++j)
       {
-        const Row guess = 2. * impulse[j] - previous_impulse[j];
+        const Row guess     = 2. * impulse[j] - previous_impulse[j];
         previous_impulse[j] = impulse[j];
         if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
           impulse[j] = guess;
@@ -307,7 +315,7 @@ namespace tread
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         const Row                         p          = impulse[j];
         impulse_of_node[constraint.slave]            = p;
-        const double normal = dot(p, constraint.normal);
+        const double normal                          = dot(p, constraint.normal);
         if (normal <= 0.)
           continue;
         for (unsigned int i = constraint.begin; i < constraint.end; ++i)
@@ -374,7 +382,8 @@ namespace tread
     std::vector<double> load(surfaces.nodes.size(), 0.);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
-        load[involved[problem.entries[i].node]] += std::abs(problem.entries[i].coefficient) * norm(impulse[j]);
+        load[involved[problem.entries[i].node]] +=
+          std::abs(problem.entries[i].coefficient) * norm(impulse[j]);
 
     double stretch[2] = {0., 0.}, weight[2] = {0., 0.};
     for (const ContactSurfaces::Face &face : surfaces.faces)
@@ -388,8 +397,8 @@ namespace tread
           const unsigned int i = face.nodes[a], j = face.nodes[b];
           return reference ? surfaces.nodes[j].reference - surfaces.nodes[i].reference : now[j] - now[i];
         };
-        const bool         along = std::abs(edge(0, 1, true)[1]) < std::abs(edge(1, 2, true)[1]);
-        const unsigned int a     = along ? 0 : 1;
+        const bool         along  = std::abs(edge(0, 1, true)[1]) < std::abs(edge(1, 2, true)[1]);
+        const unsigned int a      = along ? 0 : 1;
         const double       before = norm(edge(a, a + 1, true)) + norm(edge((a + 3) % 4, a + 2, true));
         const double       after  = norm(edge(a, a + 1, false)) + norm(edge((a + 3) % 4, a + 2, false));
         const bool         master = face.body == parameters.master_body;

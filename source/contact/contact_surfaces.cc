@@ -25,7 +25,7 @@ namespace tread
   ContactSurfaces::ContactSurfaces(const Mesh &mesh)
     : comm(mesh.comm)
   {
-    std::vector<char>  hanging(mesh.nodes.size(), false);
+    std::vector<char> hanging(mesh.nodes.size(), false);
     for (const Mesh::HangingNode &h : mesh.hanging_nodes)
       hanging[h.node] = true;
 
@@ -41,9 +41,9 @@ namespace tread
             {
               const auto [body, x, y, z] = key_of(face.body, mesh.nodes[face.nodes[v]]);
               entry[1] |= hanging[face.nodes[v]];
-              entry[2 + 3 * v]     = x;
-              entry[2 + 3 * v + 1] = y;
-              entry[2 + 3 * v + 2] = z;
+              entry[2 + 3 * v]           = x;
+              entry[2 + 3 * v + 1]       = y;
+              entry[2 + 3 * v + 2]       = z;
               own_nodes[{body, x, y, z}] = face.nodes[v];
             }
           own_faces.push_back(entry);
@@ -114,7 +114,8 @@ namespace tread
   void ContactSurfaces::replicate(const Row *field, std::vector<Row> &rows) const
   {
     rows.resize(nodes.size());
-    const unsigned int n_ranks = nodes_of_rank.size(), this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    const unsigned int n_ranks   = nodes_of_rank.size(),
+                       this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
     std::vector<double> send, receive(3 * nodes.size());
     std::vector<int>    counts(n_ranks), offsets(n_ranks);
     for (unsigned int rank = 0, offset = 0; rank < n_ranks; ++rank)
@@ -126,7 +127,8 @@ namespace tread
     for (const unsigned int i : nodes_of_rank[this_rank])
       for (unsigned int d = 0; d < 3; ++d)
         send.push_back(field[nodes[i].local][d]);
-    MPI_Allgatherv(send.data(), send.size(), MPI_DOUBLE, receive.data(), counts.data(), offsets.data(), MPI_DOUBLE, comm);
+    MPI_Allgatherv(send.data(), send.size(), MPI_DOUBLE, receive.data(), counts.data(), offsets.data(),
+                   MPI_DOUBLE, comm);
     const double *value = receive.data();
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       for (const unsigned int i : nodes_of_rank[rank])

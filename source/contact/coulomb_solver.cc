@@ -29,20 +29,20 @@ namespace tread
           {
             if (!all && waits[j])
               continue;
-            const ContactProblem::Constraint &constraint = problem.constraints[j];
-            const Row                         u          = problem.combine(constraint, velocity);
-            const Row                         old        = impulse[j];
-            const double                      old_normal = dot(old, constraint.normal);
+            const ContactProblem::Constraint &constraint  = problem.constraints[j];
+            const Row                         u           = problem.combine(constraint, velocity);
+            const Row                         old         = impulse[j];
+            const double                      old_normal  = dot(old, constraint.normal);
             const double                      normal_rate = dot(u, constraint.normal) + gap_rate[j];
             const double new_normal = std::max(0., old_normal - normal_rate / constraint.compliance);
-            waits[j] = new_normal == 0. && old_normal == 0.;
+            waits[j]                = new_normal == 0. && old_normal == 0.;
             if (waits[j])
               continue;
 
-            const Row    slip       = u - dot(u, constraint.normal) * constraint.normal;
-            Row          tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
-            const double limit = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
-            const double size2 = dot(tangential, tangential);
+            const Row slip       = u - dot(u, constraint.normal) * constraint.normal;
+            Row       tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
+            const double limit   = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
+            const double size2   = dot(tangential, tangential);
             if (size2 > limit * limit)
               tangential *= limit / std::sqrt(size2);
 

@@ -44,18 +44,18 @@ namespace tread
 
       static std::array<double, 4> shape(const double xi, const double eta)
       {
-        return {0.25 * (1. - xi) * (1. - eta),
-                0.25 * (1. + xi) * (1. - eta),
-                0.25 * (1. + xi) * (1. + eta),
+        return {0.25 * (1. - xi) * (1. - eta), 0.25 * (1. + xi) * (1. - eta), 0.25 * (1. + xi) * (1. + eta),
                 0.25 * (1. - xi) * (1. + eta)};
       }
 
       /// Inverse of the bilinear map's derivative at the centre; call after the corners are set.
       void prepare()
       {
-        const auto &c = corners;
-        const double a = 0.25 * (-c[0].s + c[1].s + c[2].s - c[3].s), b = 0.25 * (-c[0].s - c[1].s + c[2].s + c[3].s);
-        const double d = 0.25 * (-c[0].t + c[1].t + c[2].t - c[3].t), e = 0.25 * (-c[0].t - c[1].t + c[2].t + c[3].t);
+        const auto  &c   = corners;
+        const double a   = 0.25 * (-c[0].s + c[1].s + c[2].s - c[3].s),
+                     b   = 0.25 * (-c[0].s - c[1].s + c[2].s + c[3].s);
+        const double d   = 0.25 * (-c[0].t + c[1].t + c[2].t - c[3].t),
+                     e   = 0.25 * (-c[0].t - c[1].t + c[2].t + c[3].t);
         const double det = a * e - b * d;
         inverse          = {e / det, -b / det, -d / det, a / det};
       }
@@ -74,7 +74,8 @@ namespace tread
                 rs += N[i] * corners[i].s;
                 rt += N[i] * corners[i].t;
               }
-            const double step_xi = inverse[0] * rs + inverse[1] * rt, step_eta = inverse[2] * rs + inverse[3] * rt;
+            const double step_xi  = inverse[0] * rs + inverse[1] * rt,
+                         step_eta = inverse[2] * rs + inverse[3] * rt;
             xi -= step_xi;
             eta -= step_eta;
             N = shape(xi, eta);
@@ -87,13 +88,14 @@ namespace tread
       /// Coefficients A of the dual functions psi_j = sum_k A_jk N_k, and the integrals of N_j.
       void dual_functions(std::array<std::array<double, 4>, 4> &A, std::array<double, 4> &integral) const
       {
-        const double gauss = std::sqrt(0.6), weight[3] = {5. / 9., 8. / 9., 5. / 9.}, at[3] = {-gauss, 0., gauss};
-        double       m[4][8] = {}; // mass matrix, and the identity to invert it
+        const double gauss = std::sqrt(0.6), weight[3] = {5. / 9., 8. / 9., 5. / 9.},
+                     at[3] = {-gauss, 0., gauss};
+        double m[4][8]     = {}; // mass matrix, and the identity to invert it
         integral.fill(0.);
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
             {
-              const auto   N = shape(at[i], at[j]);
+              const auto   N       = shape(at[i], at[j]);
               const double dxi[4]  = {-(1. - at[j]), 1. - at[j], 1. + at[j], -(1. + at[j])};
               const double deta[4] = {-(1. - at[i]), -(1. + at[i]), 1. + at[i], 1. - at[i]};
               double       a = 0., b = 0., c = 0., d = 0.;
@@ -174,10 +176,10 @@ namespace tread
                         const double            search_reach,
                         const double            reach)
   {
-    namespace bg  = boost::geometry;
-    using BoxPoint = bg::model::point<double, 3, bg::cs::cartesian>;
-    using Box      = bg::model::box<BoxPoint>;
-    using Entry    = std::pair<Box, unsigned int>;
+    namespace bg      = boost::geometry;
+    using BoxPoint    = bg::model::point<double, 3, bg::cs::cartesian>;
+    using Box         = bg::model::box<BoxPoint>;
+    using Entry       = std::pair<Box, unsigned int>;
     const auto box_of = [&](const ContactSurfaces::Face &face, const double margin) {
       Row low = x[face.nodes[0]], high = low;
       for (const unsigned int i : face.nodes)
@@ -239,29 +241,30 @@ namespace tread
 
         const auto &n = face.nodes;
         SlaveFace   slave;
-        slave.face        = &face;
-        slave.origin      = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
-        slave.area_vector = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
-        slave.normal      = normalised(slave.area_vector);
-        const Row edge    = x[n[1]] - x[n[0]];
-        slave.along_s     = normalised(edge - dot(edge, slave.normal) * slave.normal);
-        slave.along_t     = cross(slave.normal, slave.along_s);
-        slave.is_near     = false;
+        slave.face               = &face;
+        slave.origin             = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
+        slave.area_vector        = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
+        slave.normal             = normalised(slave.area_vector);
+        const Row edge           = x[n[1]] - x[n[0]];
+        slave.along_s            = normalised(edge - dot(edge, slave.normal) * slave.normal);
+        slave.along_t            = cross(slave.normal, slave.along_s);
+        slave.is_near            = false;
         const Row slave_velocity = 0.25 * (v[n[0]] + v[n[1]] + v[n[2]] + v[n[3]]);
         for (const auto &[master_box, f] : found)
           {
-            const auto &m = surfaces.faces[f].nodes;
+            const auto &m       = surfaces.faces[f].nodes;
             double      nearest = std::numeric_limits<double>::max(), closing = 0.;
             for (const unsigned int node : m)
               {
                 nearest = std::min(nearest, std::abs(dot(x[node] - slave.origin, slave.normal)));
                 closing = std::max(closing, -dot(v[node] - slave_velocity, slave.normal));
               }
-            if (nearest > search_reach || dot(cross(x[m[2]] - x[m[0]], x[m[3]] - x[m[1]]), slave.normal) >= 0.)
+            if (nearest > search_reach ||
+                dot(cross(x[m[2]] - x[m[0]], x[m[3]] - x[m[1]]), slave.normal) >= 0.)
               continue; // too far, or not facing each other
             if (nearest > 0.5 * reach)
               coupling.time_to_touch = std::min(coupling.time_to_touch, nearest / std::max(closing, 1e-30));
-            slave.is_near          = slave.is_near || nearest <= reach;
+            slave.is_near = slave.is_near || nearest <= reach;
             slave.opposite.push_back(f);
           }
         if (slave.opposite.empty())
@@ -335,8 +338,9 @@ namespace tread
               covered_area += 0.5 * cross(piece.polygon[0], piece.polygon[i], piece.polygon[i + 1]);
             pieces.push_back(std::move(piece));
           }
-        // Dual functions are negative in places. Over a whole face that cancels for linear gaps; over a part of
-        // it a gap that is open everywhere could come out negative: there the shape functions are the weights.
+        // Dual functions are negative in places. Over a whole face that cancels for linear gaps; over a part
+        // of it a gap that is open everywhere could come out negative: there the shape functions are the
+        // weights.
         if (covered_area < (1. - 1e-6) * std::sqrt(dot(slave.area_vector, slave.area_vector)))
           for (unsigned int j = 0; j < 4; ++j)
             for (unsigned int k = 0; k < 4; ++k)
@@ -345,7 +349,7 @@ namespace tread
         for (const Piece &piece : pieces)
           {
             // Integrals of N_j N_k and N_j N_l^master; the weights follow by their coefficients.
-            double slave_slave[4][4] = {}, slave_master[4][4] = {}, covered[4] = {};
+            double                     slave_slave[4][4] = {}, slave_master[4][4] = {}, covered[4] = {};
             const std::vector<Plane2> &polygon = piece.polygon;
             for (unsigned int i = 1; i + 1 < polygon.size(); ++i)
               {

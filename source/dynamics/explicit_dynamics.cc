@@ -38,7 +38,9 @@ namespace tread
   }
 
 
-  ExplicitDynamics::ExplicitDynamics(const Mesh &mesh, const Solid &solid, const DynamicsParameters &parameters)
+  ExplicitDynamics::ExplicitDynamics(const Mesh               &mesh,
+                                     const Solid              &solid,
+                                     const DynamicsParameters &parameters)
     : x(mesh.nodes.size())
     , v(mesh.nodes.size(), Row{})
     , mesh(mesh)
@@ -90,7 +92,9 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::attach_hub(WheelHub &wheel_hub, const unsigned int body, const double angular_velocity)
+  void ExplicitDynamics::attach_hub(WheelHub          &wheel_hub,
+                                    const unsigned int body,
+                                    const double       angular_velocity)
   {
     hub                      = &wheel_hub;
     nominal_angular_velocity = angular_velocity;
@@ -153,11 +157,13 @@ namespace tread
     bound = max(bound, mesh.comm);
 
     // No cell can vibrate as fast in the mesh as it would alone: the power method on M^-1 K finds how fast
-    // the mesh does. Its Rayleigh quotient comes from below, hence the margin; the cells' bound stays the limit.
+    // the mesh does. Its Rayleigh quotient comes from below, hence the margin; the cells' bound stays the
+    // limit.
     constexpr unsigned int    iterations = 80;
     constexpr double          margin     = 1.03;
     const std::vector<double> inverse    = free_inverse_masses();
-    NodalField                mode(x.size(), Row{}), moved(x.size()), at_rest(x.size(), Row{}), f(x.size()), f0(x.size(), Row{});
+    NodalField                mode(x.size(), Row{}), moved(x.size()), at_rest(x.size(), Row{}), f(x.size()),
+      f0(x.size(), Row{});
     solid.add_internal_forces(x.data(), at_rest.data(), f0.data());
     mesh.condense_hanging_nodes(f0.data());
     mesh.shared_nodes.sum(f0.data());
@@ -165,8 +171,10 @@ namespace tread
       for (unsigned int d = 0; d < 3; ++d)
         {
           // Any numbers will do that depend on the place alone, not on the rank.
-          const double wave = 1e4 * std::sin(1e5 * (mesh.nodes[i][0] + 1.7 * mesh.nodes[i][1] + 2.3 * mesh.nodes[i][2]) + 2. * d);
-          mode[i][d]        = inverse[i] > 0. ? wave - std::floor(wave) - 0.5 : 0.;
+          const double wave =
+            1e4 *
+            std::sin(1e5 * (mesh.nodes[i][0] + 1.7 * mesh.nodes[i][1] + 2.3 * mesh.nodes[i][2]) + 2. * d);
+          mode[i][d] = inverse[i] > 0. ? wave - std::floor(wave) - 0.5 : 0.;
         }
     double highest = 0.;
     for (unsigned int k = 0; k < iterations; ++k)
@@ -238,17 +246,17 @@ namespace tread
   void ExplicitDynamics::start()
   {
     set_inertia();
-    totals              = EnergyLedger();
-    start_kinetic       = kinetic_energy();
+    totals                     = EnergyLedger();
+    start_kinetic              = kinetic_energy();
     const NodalField positions = positions_with_velocities();
-    start_potential     = body_potential(positions);
-    start_strain        = solid.strain_energy(positions.data());
-    start_strain.strain = dealii::Utilities::MPI::sum(start_strain.strain, mesh.comm);
-    start_strain.hourglass = dealii::Utilities::MPI::sum(start_strain.hourglass, mesh.comm);
-    start_hub_work      = hub ? hub->external_work() : 0.;
-    start_hub_gross     = hub ? hub->gross_work() : 0.;
-    last_damping_step   = n_steps;
-    last_damping_power  = 0.;
+    start_potential            = body_potential(positions);
+    start_strain               = solid.strain_energy(positions.data());
+    start_strain.strain        = dealii::Utilities::MPI::sum(start_strain.strain, mesh.comm);
+    start_strain.hourglass     = dealii::Utilities::MPI::sum(start_strain.hourglass, mesh.comm);
+    start_hub_work             = hub ? hub->external_work() : 0.;
+    start_hub_gross            = hub ? hub->gross_work() : 0.;
+    last_damping_step          = n_steps;
+    last_damping_power         = 0.;
     sample_damping();
   }
 
@@ -292,12 +300,13 @@ namespace tread
     // What acts on the nodes from outside. Weight and the compensation of the centrifugal force of
     // scaled density are accelerations: weight / inertia, and the share of inertia that is not there.
     const double weight_acceleration = -parameters.gravity / parameters.density_scale;
-    const double compensation        = (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
-    const Row    axle                = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
-    const Row    keep_xz             = {1., 0., 1., 0.};
-    Row          compensation_sum{};
-    const bool   loaded = !external_force.empty();
-    const bool   accelerated = parameters.gravity != 0. || compensation != 0.;
+    const double compensation =
+      (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
+    const Row  axle    = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
+    const Row  keep_xz = {1., 0., 1., 0.};
+    Row        compensation_sum{};
+    const bool loaded      = !external_force.empty();
+    const bool accelerated = parameters.gravity != 0. || compensation != 0.;
     if (loaded)
       for (unsigned int i = 0; i < force.size(); ++i)
         force[i] += external_force[i];
@@ -407,7 +416,7 @@ namespace tread
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
     energy = dealii::Utilities::MPI::sum(energy, mesh.comm);
-    return hub ? energy + hub->kinetic_energy() : energy;
+    return hub ? energy + hub->kinetic_energy(0.5 * time_step) : energy;
   }
 
 
@@ -422,11 +431,12 @@ namespace tread
 
   double ExplicitDynamics::body_potential(const NodalField &positions) const
   {
-    const Row axle = hub ? Row{hub->motion.x - 0.5 * time_step * hub->motion.velocity_x, 0.,
-                               hub->motion.z - 0.5 * time_step * hub->motion.velocity_z, 0.} :
-                           Row{};
-    const double compensation = (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
-    double       potential    = 0.;
+    const Row    axle = hub ? Row{hub->motion.x - 0.5 * time_step * hub->motion.velocity_x, 0.,
+                               hub->motion.z - 0.5 * time_step * hub->motion.velocity_z, 0.}
+                            : Row{};
+    const double compensation =
+      (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
+    double potential = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
@@ -445,12 +455,12 @@ namespace tread
   {
     using dealii::Utilities::MPI::sum;
     sample_damping();
-    EnergyLedger now = totals;
-    now.damping      = sum(totals.damping, mesh.comm);
-    now.external_work = sum(totals.external_work, mesh.comm);
-    now.gross_work    = sum(totals.gross_work, mesh.comm);
+    EnergyLedger now           = totals;
+    now.damping                = sum(totals.damping, mesh.comm);
+    now.external_work          = sum(totals.external_work, mesh.comm);
+    now.gross_work             = sum(totals.gross_work, mesh.comm);
     const NodalField positions = positions_with_velocities();
-    const double fall = start_potential - body_potential(positions);
+    const double     fall      = start_potential - body_potential(positions);
     now.external_work += fall;
     now.gross_work += std::abs(fall);
     if (hub)

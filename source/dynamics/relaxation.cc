@@ -10,8 +10,8 @@
 
 namespace tread
 {
-  unsigned int ExplicitDynamics::relax(const double                                      tolerance,
-                                       const unsigned int                                max_iterations,
+  unsigned int ExplicitDynamics::relax(const double                                     tolerance,
+                                       const unsigned int                               max_iterations,
                                        const std::function<void(unsigned int, double)> &progress)
   {
     using dealii::Utilities::MPI::sum;
@@ -23,7 +23,8 @@ namespace tread
       {
         const double ratio = solid.cell_frequencies()[c] / highest_frequency;
         for (unsigned int a = 0; a < 8; ++a)
-          mass[mesh.cells[c].nodes[a]][0] += ratio * ratio * parameters.density_scale * solid.cell_masses()[c][a];
+          mass[mesh.cells[c].nodes[a]][0] +=
+            ratio * ratio * parameters.density_scale * solid.cell_masses()[c][a];
       }
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());
@@ -58,11 +59,11 @@ namespace tread
         contact->set_friction(std::make_shared<CoulombFriction>(0.));
         contact->refresh(x.data(), v.data(), 1.);
       }
-    const NodalField     at_rest(x.size(), Row{});
-    NodalField           previous(x.size(), Row{});
-    double               keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
-    constexpr unsigned int interval = 20;
-    unsigned int         iteration = 1;
+    const NodalField       at_rest(x.size(), Row{});
+    NodalField             previous(x.size(), Row{});
+    double                 keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
+    constexpr unsigned int interval  = 20;
+    unsigned int           iteration = 1;
     for (; iteration <= max_iterations; ++iteration)
       {
         std::fill(force.begin(), force.end(), Row{});
@@ -81,11 +82,11 @@ namespace tread
                   change -= dot(v[i], force[i] - previous[i]);
                   inertia += dot(v[i], v[i]) / inverse[i];
                 }
-            change  = sum(change, mesh.comm);
-            inertia = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
+            change             = sum(change, mesh.comm);
+            inertia            = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
             const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
             // Stable for omega^2 < 2 (1 + keep): with highest_frequency 1.8 keep must exceed 0.62.
-            keep               = std::clamp(1. - 2. * omega, 0.75, 0.999);
+            keep = std::clamp(1. - 2. * omega, 0.75, 0.999);
           }
         if (remember)
           previous = force;
@@ -138,8 +139,8 @@ namespace tread
 
         if (measure)
           {
-            residual = std::max(residual, std::sqrt(sum(squares, mesh.comm)));
-            scale    = std::max(scale, std::sqrt(sum(load_squares, mesh.comm)));
+            residual           = std::max(residual, std::sqrt(sum(squares, mesh.comm)));
+            scale              = std::max(scale, std::sqrt(sum(load_squares, mesh.comm)));
             const double share = scale > 0. ? residual / scale : residual;
             if (progress)
               progress(iteration, share);
@@ -148,8 +149,9 @@ namespace tread
           }
       }
     if (iteration > max_iterations)
-      throw std::runtime_error("no equilibrium at the start within " + std::to_string(max_iterations) +
-                               " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
+      throw std::runtime_error(
+        "no equilibrium at the start within " + std::to_string(max_iterations) +
+        " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
     std::fill(force.begin(), force.end(), Row{});
     std::fill(v.begin(), v.end(), Row{});
     if (hub)

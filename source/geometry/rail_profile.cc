@@ -26,7 +26,10 @@ namespace tread
       return piece;
     }
 
-    OutlinePiece arc_piece(const Point &center, const double radius, const double angle_begin, const double angle_end)
+    OutlinePiece arc_piece(const Point &center,
+                           const double radius,
+                           const double angle_begin,
+                           const double angle_end)
     {
       OutlinePiece piece;
       piece.straight    = false;
@@ -39,8 +42,8 @@ namespace tread
       return piece;
     }
 
-    /// An unbounded curve that is walked along: a line, or a circle whose signed radius is positive when its centre is
-    /// on the left of the walker.
+    /// An unbounded curve that is walked along: a line, or a circle whose signed radius is positive when its
+    /// centre is on the left of the walker.
     struct Curve
     {
       bool   straight;
@@ -86,9 +89,9 @@ namespace tread
         return intersect(b, a, hint);
       if (b.straight)
         {
-          const dealii::Tensor<1, 2> d     = b.place - a.place;
-          const double               cross = a.direction[0] * b.direction[1] - a.direction[1] * b.direction[0];
-          const double               t     = (d[0] * b.direction[1] - d[1] * b.direction[0]) / cross;
+          const dealii::Tensor<1, 2> d = b.place - a.place;
+          const double cross           = a.direction[0] * b.direction[1] - a.direction[1] * b.direction[0];
+          const double t               = (d[0] * b.direction[1] - d[1] * b.direction[0]) / cross;
           return a.place + t * dealii::Tensor<1, 2>(a.direction);
         }
       const Point  middle = a.foot(b.place);
@@ -120,7 +123,8 @@ namespace tread
       Outline(const Point &begin, const Curve &first)
         : position(begin)
         , curve(first)
-      {}
+      {
+      }
 
       /// Goes on along `next` after a rounding that turns left (positive radius) or right (negative).
       void turn(const Curve &next, const double radius, const Point &hint)
@@ -145,7 +149,8 @@ namespace tread
       {
         if (position.distance(p) < 1e-12)
           return;
-        pieces.push_back(curve.straight ? line_piece(position, p) : arc_between(curve.place, curve.radius, position, p));
+        pieces.push_back(curve.straight ? line_piece(position, p)
+                                        : arc_between(curve.place, curve.radius, position, p));
         position = p;
       }
 
@@ -189,9 +194,9 @@ namespace tread
     return on_circle(center, radius, angle_begin + share * (angle_end - angle_begin));
   }
 
-  /// Dimensions in mm, heights above the foot's base, as in the drawings of EN 13674-1. Two values of 54E1 that are not
-  /// published are fitted to the standard's area, centroid and second moments, all met within 0.25 %; for 60E1 the R35
-  /// between R7 and the web is left out, and all are met within 0.12 %.
+  /// Dimensions in mm, heights above the foot's base, as in the drawings of EN 13674-1. Two values of 54E1
+  /// that are not published are fitted to the standard's area, centroid and second moments, all met within
+  /// 0.25 %; for 60E1 the R35 between R7 and the web is left out, and all are met within 0.12 %.
   struct RailProfile::Dimensions
   {
     const char *name;
@@ -200,9 +205,9 @@ namespace tread
     double      crown_half_width, shoulder_half_width; ///< where the arcs of the top meet
     double      flank_end_y, flank_end_z;              ///< corner of flank and head underside
     double      flank_end_radius;
-    double      underside_z;   ///< height of the head's underside (1:2.75), extended to y = 0
-    double      head_fillet;   ///< between underside and web
-    double      web_half;      ///< half of the smallest web thickness
+    double      underside_z; ///< height of the head's underside (1:2.75), extended to y = 0
+    double      head_fillet; ///< between underside and web
+    double      web_half;    ///< half of the smallest web thickness
     double      web_radius;
     double      web_top, web_bottom; ///< between them the web is straight
     double      foot_fillet;         ///< between web and foot
@@ -220,13 +225,15 @@ namespace tread
     , crown_radius_(1e-3 * d.crown_radius)
   {
     // in m, z from the rail top
-    const auto at = [&](const double y, const double z) { return Point(1e-3 * y, 1e-3 * (z - d.height)); };
+    const auto at = [&](const double y, const double z) {
+      return Point(1e-3 * y, 1e-3 * (z - d.height));
+    };
 
     // Top: each arc's centre lies on the line from the end of the arc before to that arc's centre.
     const double crown = crown_radius_, shoulder = 1e-3 * d.shoulder_radius, corner = 1e-3 * d.corner_radius;
     const double flank_angle = std::atan(1. / 20.); // of the outward normal, above the horizontal
     const Point  crown_center(0., -crown);
-    const double angle_1 = std::acos(1e-3 * d.crown_half_width / crown);
+    const double angle_1         = std::acos(1e-3 * d.crown_half_width / crown);
     const Point  shoulder_center = on_circle(crown_center, crown - shoulder, angle_1);
     const double angle_2         = std::acos((1e-3 * d.shoulder_half_width - shoulder_center[0]) / shoulder);
     const Point  corner_center   = on_circle(shoulder_center, shoulder - corner, angle_2);
@@ -235,24 +242,27 @@ namespace tread
     head_.push_back(arc_piece(shoulder_center, shoulder, angle_1, angle_2));
     head_.push_back(arc_piece(corner_center, corner, angle_2, flank_angle));
 
-    // Flank and underside meet at a corner that is rounded in the section, and sharp in the head cut off there.
+    // Flank and underside meet at a corner that is rounded in the section, and sharp in the head cut off
+    // there.
     const Point flank_begin = head_.back().end;
     const Point along_flank(flank_begin[0] + std::sin(flank_angle), flank_begin[1] - std::cos(flank_angle));
-    const Curve flank     = Curve::line(flank_begin, along_flank);
-    const Curve underside = Curve::line(at(d.flank_end_y, d.underside_z + d.flank_end_y / 2.75), at(0., d.underside_z));
+    const Curve flank = Curve::line(flank_begin, along_flank);
+    const Curve underside =
+      Curve::line(at(d.flank_end_y, d.underside_z + d.flank_end_y / 2.75), at(0., d.underside_z));
     const Point flank_end = intersect(flank, underside, flank_begin);
     head_.push_back(line_piece(flank_begin, flank_end));
 
     // Web: one circle, or a straight line between two.
-    const bool  one_circle   = d.web_top == d.web_bottom;
-    const Curve web_upper    = Curve::circle(at(d.web_half + d.web_radius, d.web_top), 1e-3 * d.web_radius);
-    const Curve web_lower    = Curve::circle(at(d.web_half + d.web_radius, d.web_bottom), 1e-3 * d.web_radius);
+    const bool  one_circle = d.web_top == d.web_bottom;
+    const Curve web_upper  = Curve::circle(at(d.web_half + d.web_radius, d.web_top), 1e-3 * d.web_radius);
+    const Curve web_lower  = Curve::circle(at(d.web_half + d.web_radius, d.web_bottom), 1e-3 * d.web_radius);
     const Curve web_straight = Curve::line(at(d.web_half, d.web_top), at(d.web_half, d.web_top - 1.));
 
     const Point slope_change = at(d.slope_change_y, d.foot_z - d.slope_change_y / 2.75);
     const Curve inner_slope  = Curve::line(at(0., d.foot_z), slope_change);
     const Curve outer_slope =
-      Curve::line(at(d.slope_change_y, d.foot_edge_z + (d.foot_half_width - d.slope_change_y) / 14.), at(d.foot_half_width, d.foot_edge_z));
+      Curve::line(at(d.slope_change_y, d.foot_edge_z + (d.foot_half_width - d.slope_change_y) / 14.),
+                  at(d.foot_half_width, d.foot_edge_z));
     const Curve edge = Curve::line(at(d.foot_half_width, d.foot_edge_z), at(d.foot_half_width, 0.));
     const Curve base = Curve::line(at(d.foot_half_width, 0.), at(0., 0.));
 
@@ -361,7 +371,8 @@ namespace tread
     const OutlinePiece &flank = head_[3];
     if (distance > flank.end[0] + 1e-12)
       throw std::domain_error("z_top: beside the rail head");
-    return flank.begin[1] + (distance - flank.begin[0]) / (flank.end[0] - flank.begin[0]) * (flank.end[1] - flank.begin[1]);
+    return flank.begin[1] +
+           (distance - flank.begin[0]) / (flank.end[0] - flank.begin[0]) * (flank.end[1] - flank.begin[1]);
   }
 
   dealii::Point<2> RailProfile::head_point(const double s) const

@@ -62,7 +62,10 @@ namespace tread
     return divide(length, size).n_regular * size;
   }
 
-  std::vector<double> coarse_lines(const double begin, const double end, const double anchor, const double size)
+  std::vector<double> coarse_lines(const double begin,
+                                   const double end,
+                                   const double anchor,
+                                   const double size)
   {
     if (!(begin <= anchor && anchor <= end && begin < end && size > 0.))
       throw std::invalid_argument("coarse_lines: needs begin <= anchor <= end and a positive size");
@@ -93,7 +96,8 @@ namespace tread
   double coarse_cell_size(const double finest, const double coarsest, const std::vector<CoarseSide> &sides)
   {
     if (!(finest > 0. && coarsest >= finest))
-      throw std::invalid_argument("the coarsest cell size must not be below the finest, and both must be positive");
+      throw std::invalid_argument(
+        "the coarsest cell size must not be below the finest, and both must be positive");
 
     const double tolerance = 1e-6 * finest;
     for (int k = static_cast<int>(std::floor(std::log2(coarsest / finest) + 1e-9)); k >= 0; --k)

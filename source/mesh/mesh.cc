@@ -56,7 +56,7 @@ namespace tread
     /// The octree halves a cell until its longest edge is near what its corners and centre ask for.
     void refine(Triangulation &triangulation, const std::vector<Body> &bodies)
     {
-      constexpr double     tolerance  = 1.2;
+      constexpr double       tolerance  = 1.2;
       constexpr unsigned int max_levels = 12;
       for (unsigned int level = 0; level < max_levels; ++level)
         {
@@ -81,7 +81,8 @@ namespace tread
             return;
           triangulation.execute_coarsening_and_refinement();
         }
-      throw std::runtime_error("mesh: a body asks for cells more than 2^12 times finer than its coarse blocks");
+      throw std::runtime_error(
+        "mesh: a body asks for cells more than 2^12 times finer than its coarse blocks");
     }
   } // namespace
 
@@ -93,8 +94,8 @@ namespace tread
     make_coarse_mesh(triangulation, bodies);
     refine(triangulation, bodies);
 
-    const dealii::FE_Q<3>   fe(1);
-    dealii::DoFHandler<3>   dof_handler(triangulation);
+    const dealii::FE_Q<3> fe(1);
+    dealii::DoFHandler<3> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     dealii::IndexSet relevant;
     dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
@@ -107,8 +108,8 @@ namespace tread
 
     // Positions of all nodes that this rank can see, ghost cells included: parents of
     // hanging nodes may belong to those only.
-    std::map<std::uint64_t, dealii::Point<3>>            position;
-    std::vector<dealii::types::global_dof_index>         dofs(nodes_per_cell);
+    std::map<std::uint64_t, dealii::Point<3>>    position;
+    std::vector<dealii::types::global_dof_index> dofs(nodes_per_cell);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
@@ -131,8 +132,8 @@ namespace tread
     };
 
     // Counter-clockwise from outside, for deal.II's faces 0 to 5.
-    static constexpr unsigned int face_nodes[6][4] = {
-      {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static constexpr unsigned int face_nodes[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -181,9 +182,9 @@ namespace tread
         nodes[h.node] = x;
       }
 
-    shared_nodes           = SharedNodes(comm, global_ids);
-    n_global_cells         = triangulation.n_global_active_cells();
-    n_global_nodes         = dof_handler.n_dofs();
+    shared_nodes            = SharedNodes(comm, global_ids);
+    n_global_cells          = triangulation.n_global_active_cells();
+    n_global_nodes          = dof_handler.n_dofs();
     std::uint64_t n_hanging = 0;
     for (const HangingNode &h : hanging_nodes)
       n_hanging += shared_nodes.is_owned(h.node);

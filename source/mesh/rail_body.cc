@@ -16,24 +16,26 @@ namespace tread
     };
 
     /// Fills everything of the body but to_space: a box with the chart (x, y, -depth), symmetric to y = 0.
-    Body make_flat_box(const FlatBox &box, const double coarsest, const double contact_half_width, const FineZone &zone)
+    Body make_flat_box(const FlatBox  &box,
+                       const double    coarsest,
+                       const double    contact_half_width,
+                       const FineZone &zone)
     {
       if (!(box.x_begin < box.x_end && box.half_width > 0. && box.depth > 0.))
         throw std::invalid_argument("a rail needs a positive length, width and height");
 
       // The coarse grid starts at x = 0 where it can, so that a symmetric zone gets a symmetric mesh.
       const double anchor = (box.x_begin <= 0. && 0. <= box.x_end) ? 0. : 0.5 * (box.x_begin + box.x_end);
-      const double size   = coarse_cell_size(zone.finest_cell_size,
-                                           coarsest,
-                                           {{anchor - box.x_begin, anchor - zone.x_begin},
+      const double size   = coarse_cell_size(zone.finest_cell_size, coarsest,
+                                             {{anchor - box.x_begin, anchor - zone.x_begin},
                                               {box.x_end - anchor, zone.x_end - anchor},
                                               {box.half_width, zone.half_width},
                                               {box.depth, zone.depth}});
 
-      const std::vector<double> x     = coarse_lines(box.x_begin, box.x_end, anchor, size);
-      const std::vector<double> y     = coarse_lines(-box.half_width, box.half_width, 0., size);
-      const std::vector<double> z     = coarse_lines(-box.depth, 0., 0., size);
-      const unsigned int        n_x   = x.size(), n_y = y.size(), n_z = z.size();
+      const std::vector<double> x   = coarse_lines(box.x_begin, box.x_end, anchor, size);
+      const std::vector<double> y   = coarse_lines(-box.half_width, box.half_width, 0., size);
+      const std::vector<double> z   = coarse_lines(-box.depth, 0., 0., size);
+      const unsigned int        n_x = x.size(), n_y = y.size(), n_z = z.size();
       const auto                index = [n_x, n_y](unsigned int i, unsigned int j, unsigned int k) {
         return i + n_x * (j + n_y * k);
       };
@@ -53,7 +55,9 @@ namespace tread
               body.cells.push_back(cell);
             }
 
-      body.wanted_cell_size = [zone](const dealii::Point<3> &p) { return zone.wanted_size(p[0], p[1], -p[2]); };
+      body.wanted_cell_size = [zone](const dealii::Point<3> &p) {
+        return zone.wanted_size(p[0], p[1], -p[2]);
+      };
 
       const double tolerance = 1e-3 * size;
       body.boundary_at       = [box, contact_half_width, tolerance](const dealii::Point<3> &p) {
@@ -76,10 +80,8 @@ namespace tread
     if (!(block.height > -crown_height(0.5 * block.width, block.crown_radius)))
       throw std::invalid_argument("the block is lower than its crown's rise");
 
-    Body body = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
-                              block.coarsest_cell_size,
-                              block.contact_half_width,
-                              zone);
+    Body body     = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
+                                  block.coarsest_cell_size, block.contact_half_width, zone);
     body.name     = "rail block";
     body.to_space = [radius = block.crown_radius, height = block.height](const dealii::Point<3> &p) {
       return dealii::Point<3>(p[0], p[1], p[2] + crown_height(p[1], radius) * (1. + p[2] / height));
@@ -93,15 +95,15 @@ namespace tread
     const double depth  = profile.head_depth();
     const double length = profile.head_length() - width; // of the chart's vertical sides
 
-    Body body = make_flat_box(
-      {head.x_begin, head.x_end, width, depth}, head.coarsest_cell_size, head.contact_half_width, zone);
+    Body body = make_flat_box({head.x_begin, head.x_end, width, depth}, head.coarsest_cell_size,
+                              head.contact_half_width, zone);
     body.name = "rail head " + profile.name();
 
-    // Straight lines from the top outline to points evenly spaced on the flat bottom, which at s = 0 is the vertical
-    // itself; near the sides the curved side's deviation from the straight line is added. The weight is zero with its
-    // slope up to the beginning of the ramp, beside the crown.
+    // Straight lines from the top outline to points evenly spaced on the flat bottom, which at s = 0 is the
+    // vertical itself; near the sides the curved side's deviation from the straight line is added. The weight
+    // is zero with its slope up to the beginning of the ramp, beside the crown.
     const double ramp_begin = 0.3 * width;
-    body.to_space = [profile, width, depth, length, ramp_begin](const dealii::Point<3> &p) {
+    body.to_space           = [profile, width, depth, length, ramp_begin](const dealii::Point<3> &p) {
       const double s = std::abs(p[1]);
       const double v = std::clamp(-p[2] / depth, 0., 1.);
 

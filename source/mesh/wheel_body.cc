@@ -49,9 +49,11 @@ namespace tread
       return std::remainder(angle, 2. * pi);
     }
 
-    /// wanted_cell_size around the axis. The box is moved to arc lengths symmetric to zero, so that the shorter way
-    /// around counts; distances along the arc are those at the point's own radius.
-    std::function<double(const dealii::Point<3> &)> cell_size_around(const WheelAxis &axis, const double radius, FineZone zone)
+    /// wanted_cell_size around the axis. The box is moved to arc lengths symmetric to zero, so that the
+    /// shorter way around counts; distances along the arc are those at the point's own radius.
+    std::function<double(const dealii::Point<3> &)> cell_size_around(const WheelAxis &axis,
+                                                                     const double     radius,
+                                                                     FineZone         zone)
     {
       const double center = 0.5 * (zone.x_begin + zone.x_end) / radius;
       const double half   = 0.5 * (zone.x_end - zone.x_begin) / radius;
@@ -64,9 +66,13 @@ namespace tread
       };
     }
 
-    /// Moves the points of the rim outwards by the tread's offset, fading to zero at the inner radius; null without an offset.
-    std::function<dealii::Point<3>(const dealii::Point<3> &)>
-    shape_tread(const WheelAxis &axis, const double radius, const double inner_radius, const std::function<double(double)> &offset)
+    /// Moves the points of the rim outwards by the tread's offset, fading to zero at the inner radius; null
+    /// without an offset.
+    std::function<dealii::Point<3>(const dealii::Point<3> &)> shape_tread(
+      const WheelAxis                     &axis,
+      const double                         radius,
+      const double                         inner_radius,
+      const std::function<double(double)> &offset)
     {
       if (!offset)
         return nullptr;
@@ -86,7 +92,7 @@ namespace tread
     public:
       unsigned int vertex(const double y, const double r)
       {
-        const auto key = std::make_pair(std::lround(y * 1e9), std::lround(r * 1e9));
+        const auto key             = std::make_pair(std::lround(y * 1e9), std::lround(r * 1e9));
         const auto [place, is_new] = numbers.try_emplace(key, vertices.size());
         if (is_new)
           vertices.push_back({{y, r}});
@@ -94,13 +100,14 @@ namespace tread
       }
 
       /// The cells between two rows of equally many points; the outer row has the larger radius.
-      void add_row(const std::vector<double> &outer_y, const double outer_r, const std::vector<double> &inner_y, const double inner_r)
+      void add_row(const std::vector<double> &outer_y,
+                   const double               outer_r,
+                   const std::vector<double> &inner_y,
+                   const double               inner_r)
       {
         for (unsigned int j = 0; j + 1 < outer_y.size(); ++j)
-          cells.push_back({{vertex(outer_y[j], outer_r),
-                            vertex(outer_y[j + 1], outer_r),
-                            vertex(inner_y[j], inner_r),
-                            vertex(inner_y[j + 1], inner_r)}});
+          cells.push_back({{vertex(outer_y[j], outer_r), vertex(outer_y[j + 1], outer_r),
+                            vertex(inner_y[j], inner_r), vertex(inner_y[j + 1], inner_r)}});
       }
 
       std::vector<std::array<double, 2>>       vertices;
@@ -111,7 +118,11 @@ namespace tread
     };
 
     /// Turns the section about the axis: one layer of cells between each two angles.
-    void revolve(const Section &section, const WheelAxis &axis, const std::vector<double> &angles, const bool closed, Body &body)
+    void revolve(const Section             &section,
+                 const WheelAxis           &axis,
+                 const std::vector<double> &angles,
+                 const bool                 closed,
+                 Body                      &body)
     {
       const unsigned int n_section = section.vertices.size();
       for (const double angle : angles)
@@ -143,8 +154,8 @@ namespace tread
       return std::max(1u, static_cast<unsigned int>(std::lround(length / size)));
     }
 
-    /// Integrals over y in |y| <= width/2 of (outer^n - inner^n)/n with outer = radius + offset(y) ; the shift of the tread
-    /// does not move the inner face. Also the same times y. Exact for a cylinder.
+    /// Integrals over y in |y| <= width/2 of (outer^n - inner^n)/n with outer = radius + offset(y) ; the
+    /// shift of the tread does not move the inner face. Also the same times y. Exact for a cylinder.
     struct RadialIntegral
     {
       double value  = 0.;
@@ -157,9 +168,9 @@ namespace tread
                                    const double                         width,
                                    const std::function<double(double)> &offset)
     {
-      const unsigned int        n_parts = offset ? 200 : 1;
-      const dealii::QGauss<1>   quadrature(4);
-      RadialIntegral            integral;
+      const unsigned int      n_parts = offset ? 200 : 1;
+      const dealii::QGauss<1> quadrature(4);
+      RadialIntegral          integral;
       for (unsigned int part = 0; part < n_parts; ++part)
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
@@ -177,17 +188,18 @@ namespace tread
   Body make_wheel_sector(const WheelSector &sector, const FineZone &zone)
   {
     if (!(sector.thickness > 0. && sector.thickness < sector.radius && sector.width > 0.))
-      throw std::invalid_argument("a wheel sector needs a positive width and a thickness between zero and its radius");
+      throw std::invalid_argument(
+        "a wheel sector needs a positive width and a thickness between zero and its radius");
     if (!(sector.arc_begin < sector.arc_end && sector.arc_end - sector.arc_begin <= 1.9 * pi * sector.radius))
       throw std::invalid_argument("a wheel sector needs a positive arc of less than a full turn");
 
-    const double anchor = (sector.arc_begin <= 0. && 0. <= sector.arc_end) ? 0. : 0.5 * (sector.arc_begin + sector.arc_end);
-    const double size   = coarse_cell_size(zone.finest_cell_size,
-                                         sector.coarsest_cell_size,
+    const double anchor =
+      (sector.arc_begin <= 0. && 0. <= sector.arc_end) ? 0. : 0.5 * (sector.arc_begin + sector.arc_end);
+    const double size = coarse_cell_size(zone.finest_cell_size, sector.coarsest_cell_size,
                                          {{anchor - sector.arc_begin, anchor - zone.x_begin},
-                                            {sector.arc_end - anchor, zone.x_end - anchor},
-                                            {0.5 * sector.width, zone.half_width},
-                                            {sector.thickness, zone.depth}});
+                                          {sector.arc_end - anchor, zone.x_end - anchor},
+                                          {0.5 * sector.width, zone.half_width},
+                                          {sector.thickness, zone.depth}});
 
     const WheelAxis     axis{sector.center_x, sector.radius};
     const double        inner_radius = sector.radius - sector.thickness;
@@ -212,14 +224,9 @@ namespace tread
     const double tread   = sector.radius - 0.25 * depth[1];
     const double bottom  = inner_radius + 0.25 * (depth.back() - depth[depth.size() - 2]);
     const double quarter = 0.25 * std::min(angles[1] - angles[0], angles.back() - angles[angles.size() - 2]);
-    body.boundary_at     = [axis,
-                        tread,
-                        bottom,
-                        quarter,
-                        first    = angles.front(),
-                        last     = angles.back(),
-                        half     = 0.5 * sector.width,
-                        reach    = sector.contact_half_width](const dealii::Point<3> &p) {
+    body.boundary_at     = [axis, tread, bottom, quarter, first = angles.front(), last = angles.back(),
+                        half  = 0.5 * sector.width,
+                        reach = sector.contact_half_width](const dealii::Point<3> &p) {
       if (std::abs(p[1]) > half * (1. - 1e-9))
         return Boundary::free;
       const double r      = axis.radius(p);
@@ -236,10 +243,12 @@ namespace tread
   }
   Body make_full_wheel(const FullWheel &wheel, const FineZone &zone)
   {
-    const double half_rim = 0.5 * wheel.rim_width, half_web = 0.5 * wheel.web_thickness, half_hub = 0.5 * wheel.hub_length;
+    const double half_rim = 0.5 * wheel.rim_width, half_web = 0.5 * wheel.web_thickness,
+                 half_hub = 0.5 * wheel.hub_length;
     if (!(0. < wheel.bore_radius && wheel.bore_radius < wheel.hub_outer_radius &&
           wheel.hub_outer_radius < wheel.rim_inner_radius && wheel.rim_inner_radius < wheel.radius))
-      throw std::invalid_argument("the wheel's radii must increase from the bore over hub and rim to the tread");
+      throw std::invalid_argument(
+        "the wheel's radii must increase from the bore over hub and rim to the tread");
     if (!(0. < half_web && half_web < half_rim && half_web < half_hub))
       throw std::invalid_argument("the wheel's web must be thinner than its rim and its hub");
 
@@ -249,9 +258,9 @@ namespace tread
     std::vector<double> rim_y, depth;
     while (true)
       {
-        size  = coarse_cell_size(zone.finest_cell_size,
-                                size,
-                                {{half_rim, zone.half_width}, {wheel.radius - wheel.rim_inner_radius, zone.depth}});
+        size = coarse_cell_size(
+          zone.finest_cell_size, size,
+          {{half_rim, zone.half_width}, {wheel.radius - wheel.rim_inner_radius, zone.depth}});
         rim_y = coarse_lines(-half_rim, half_rim, 0., size);
         depth = coarse_lines(0., wheel.radius - wheel.rim_inner_radius, 0., size);
         if (rim_y.size() >= 5 && depth.size() >= 3 && zone.depth <= depth[depth.size() - 2])
@@ -263,27 +272,29 @@ namespace tread
     const unsigned int n_half = (rim_y.size() - 1) / 2; // rows of the rim on one side of y = 0
     const unsigned int n_web  = std::min(n_half - 1, rows_of(half_web, size));
 
-    // Where the lines of the rim arrive at its inner radius: the n_web lines next to y = 0 on each side enter the web.
+    // Where the lines of the rim arrive at its inner radius: the n_web lines next to y = 0 on each side enter
+    // the web.
     std::vector<double> inner_y(rim_y.size(), 0.);
     for (unsigned int j = 1; j <= n_half; ++j)
       {
         const double web_line = rim_y[n_half + n_web];
-        const double y        = j <= n_web ?
-                                  half_web * j / n_web :
-                                  half_web + (rim_y[n_half + j] - web_line) / (half_rim - web_line) * (half_rim - half_web);
+        const double y        = j <= n_web ? half_web * j / n_web
+                                           : half_web + (rim_y[n_half + j] - web_line) / (half_rim - web_line) *
+                                                   (half_rim - half_web);
         inner_y[n_half + j]   = y;
         inner_y[n_half - j]   = -y;
       }
     for (unsigned int k = 0; k + 1 < depth.size(); ++k)
       {
         const bool to_web = k + 2 == depth.size();
-        section.add_row(rim_y, wheel.radius - depth[k], to_web ? inner_y : rim_y, wheel.radius - depth[k + 1]);
+        section.add_row(rim_y, wheel.radius - depth[k], to_web ? inner_y : rim_y,
+                        wheel.radius - depth[k + 1]);
       }
 
     const std::vector<double> web_y = even_lines(-half_web, half_web, 2 * n_web);
-    const std::vector<double> web_r = even_lines(wheel.rim_inner_radius,
-                                                 wheel.hub_outer_radius,
-                                                 rows_of(wheel.rim_inner_radius - wheel.hub_outer_radius, size));
+    const std::vector<double> web_r =
+      even_lines(wheel.rim_inner_radius, wheel.hub_outer_radius,
+                 rows_of(wheel.rim_inner_radius - wheel.hub_outer_radius, size));
     for (unsigned int k = 0; k + 1 < web_r.size(); ++k)
       section.add_row(web_y, web_r[k], web_y, web_r[k + 1]);
 
@@ -292,8 +303,8 @@ namespace tread
     hub_y.insert(hub_y.end(), web_y.begin() + 1, web_y.end());
     const std::vector<double> other_side = even_lines(half_web, half_hub, n_side);
     hub_y.insert(hub_y.end(), other_side.begin() + 1, other_side.end());
-    const std::vector<double> hub_r =
-      even_lines(wheel.hub_outer_radius, wheel.bore_radius, rows_of(wheel.hub_outer_radius - wheel.bore_radius, size));
+    const std::vector<double> hub_r = even_lines(wheel.hub_outer_radius, wheel.bore_radius,
+                                                 rows_of(wheel.hub_outer_radius - wheel.bore_radius, size));
     for (unsigned int k = 0; k + 1 < hub_r.size(); ++k)
       section.add_row(hub_y, hub_r[k], hub_y, hub_r[k + 1]);
 
@@ -310,22 +321,18 @@ namespace tread
     body.wanted_cell_size = cell_size_around(axis, wheel.radius, zone);
 
     // Centres of faces with straight edges lie a little inside the cylinder that the face is on.
-    const double tread     = wheel.radius - 0.25 * depth[1];
-    const double bore      = wheel.bore_radius + 0.25 * (hub_r[hub_r.size() - 2] - wheel.bore_radius);
-    const double center    = 0.5 * (zone.x_begin + zone.x_end) / wheel.radius;
-    const double half_path = (0.5 * (zone.x_end - zone.x_begin) + wheel.contact_margin) / wheel.radius + pi / n_around;
-    body.boundary_at       = [axis,
-                        tread,
-                        bore,
-                        center,
-                        half_path,
-                        half_rim,
-                        half_hub,
+    const double tread  = wheel.radius - 0.25 * depth[1];
+    const double bore   = wheel.bore_radius + 0.25 * (hub_r[hub_r.size() - 2] - wheel.bore_radius);
+    const double center = 0.5 * (zone.x_begin + zone.x_end) / wheel.radius;
+    const double half_path =
+      (0.5 * (zone.x_end - zone.x_begin) + wheel.contact_margin) / wheel.radius + pi / n_around;
+    body.boundary_at = [axis, tread, bore, center, half_path, half_rim, half_hub,
                         half_width = wheel.contact_half_width](const dealii::Point<3> &p) {
       const double r = axis.radius(p);
       if (r > tread && std::abs(p[1]) < half_rim * (1. - 1e-9))
         {
-          const bool in_reach = std::abs(p[1]) <= half_width && std::abs(wrap(axis.angle(p) - center)) <= half_path;
+          const bool in_reach =
+            std::abs(p[1]) <= half_width && std::abs(wrap(axis.angle(p) - center)) <= half_path;
           return in_reach ? Boundary::contact : Boundary::free;
         }
       if (r < bore && std::abs(p[1]) < half_hub * (1. - 1e-9))
@@ -357,7 +364,8 @@ namespace tread
   WheelInertia wheel_inertia(const FullWheel &wheel, const double density)
   {
     WheelInertia inertia;
-    const auto   add_ring = [&](const double outer, const double inner, const double width, const std::function<double(double)> &offset) {
+    const auto   add_ring = [&](const double outer, const double inner, const double width,
+                              const std::function<double(double)> &offset) {
       const RadialIntegral volume = radial_integral(2, outer, inner, width, offset);
       inertia.mass += density * 2. * pi * volume.value;
       inertia.axial_inertia += density * 2. * pi * radial_integral(4, outer, inner, width, offset).value;

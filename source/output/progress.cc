@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/output/progress.h>
 
-#include <cstdio>
 #include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
 
 namespace tread
 {
   Progress::Progress(const bool speaks)
     : speaks(speaks)
-    , terminal(isatty(fileno(stdout)))
+    , terminal(isatty(fileno(stdout)) &&
+               std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) // mpirun gives a terminal to log files, too
     , start(std::chrono::steady_clock::now())
     , last(start)
-  {}
+  {
+  }
 
 
   void Progress::say(const std::string &line)
@@ -26,7 +30,8 @@ namespace tread
 
   bool Progress::due() const
   {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last).count() > (terminal ? 0.5 : 5.);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last).count() >
+           (terminal ? 0.5 : 5.);
   }
 
 

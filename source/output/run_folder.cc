@@ -15,8 +15,10 @@ namespace tread
   {
     std::string history_header()
     {
-      return "time_s,position_m,normal_force_N,longitudinal_force_N,lateral_force_N,traction_coefficient,creepage,"
-             "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_energy_J,"
+      return "time_s,position_m,normal_force_N,longitudinal_force_N,lateral_force_N,traction_coefficient,"
+             "creepage,"
+             "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_"
+             "energy_J,"
              "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,energy_residual_J\n";
     }
   } // namespace
@@ -34,7 +36,8 @@ namespace tread
         std::filesystem::create_directories(folder, error);
         const std::string probe = folder + "/.probe";
         if (error || !(std::ofstream(probe) << "x" << std::flush))
-          problem = "'Output/Directory': cannot write into '" + folder + "'" + (error ? " (" + error.message() + ")" : "");
+          problem = "'Output/Directory': cannot write into '" + folder + "'" +
+                    (error ? " (" + error.message() + ")" : "");
         std::filesystem::remove(probe, error);
       }
     problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
@@ -47,12 +50,13 @@ namespace tread
   {
     if (!writes_tables)
       return;
-    std::error_code ignored;
+    std::error_code                    ignored;
     std::vector<std::filesystem::path> old;
     for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
       {
         const std::string name = entry.path().filename();
-        for (const char *begin : {"summary.json", "history.csv", "patch", "reference_patch.csv", "checkpoint", "volume", "surface"})
+        for (const char *begin : {"summary.json", "history.csv", "patch", "reference_patch.csv", "checkpoint",
+                                  "volume", "surface"})
           if (name.rfind(begin, 0) == 0 && entry.is_regular_file(ignored))
             {
               old.push_back(entry.path());
@@ -82,12 +86,14 @@ namespace tread
   void RunFolder::write_patch(const std::string &name, const std::vector<PatchNode> &patch) const
   {
     std::ostringstream text;
-    text << "x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state\n"
-         << std::setprecision(9);
+    text
+      << "x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state\n"
+      << std::setprecision(9);
     for (const PatchNode &node : patch)
       text << 1e3 * node.position[0] << ',' << 1e3 * node.position[1] << ',' << 1e3 * node.position[2] << ','
-           << 1e6 * node.area << ',' << 1e-6 * node.pressure << ',' << 1e-6 * node.shear[0] << ',' << 1e-6 * node.shear[1]
-           << ',' << node.slip[0] << ',' << node.slip[1] << ',' << (node.adhesion ? "adhesion" : "slip") << '\n';
+           << 1e6 * node.area << ',' << 1e-6 * node.pressure << ',' << 1e-6 * node.shear[0] << ','
+           << 1e-6 * node.shear[1] << ',' << node.slip[0] << ',' << node.slip[1] << ','
+           << (node.adhesion ? "adhesion" : "slip") << '\n';
     write(name, text.str());
   }
 
@@ -117,11 +123,12 @@ namespace tread
     if (!writes_tables)
       return;
     const EnergyLedger &e = row.energy;
-    history << row.time << ',' << row.position << ',' << row.force[2] << ',' << row.force[0] << ',' << row.force[1] << ','
-            << (row.force[2] > 0. ? row.force[0] / row.force[2] : 0.) << ',' << row.creepage << ',' << row.patch.area << ','
-            << row.patch.adhesion_share << ',' << row.patch.max_pressure << ',' << e.external_work << ',' << e.kinetic << ','
-            << e.strain << ',' << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ','
-            << e.residual() << '\n'
+    history << row.time << ',' << row.position << ',' << row.force[2] << ',' << row.force[0] << ','
+            << row.force[1] << ',' << (row.force[2] > 0. ? row.force[0] / row.force[2] : 0.) << ','
+            << row.creepage << ',' << row.patch.area << ',' << row.patch.adhesion_share << ','
+            << row.patch.max_pressure << ',' << e.external_work << ',' << e.kinetic << ',' << e.strain << ','
+            << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.residual()
+            << '\n'
             << std::flush;
     if (!history)
       throw std::runtime_error("cannot write '" + path("history.csv") + "': is the disk full?");

@@ -13,10 +13,11 @@ namespace tread
                         const std::string &source,
                         const double       reference_value)
   {
-    json[name] = value;
-    json["reference"][name][source] = {{"value", reference_value},
-                                       {"source", source},
-                                       {"relative_difference", reference_value != 0. ? value / reference_value - 1. : 0.}};
+    json[name]                      = value;
+    json["reference"][name][source] = {
+      {"value", reference_value},
+      {"source", source},
+      {"relative_difference", reference_value != 0. ? value / reference_value - 1. : 0.}};
     lines.push_back({label, source, scale * value, scale * reference_value});
   }
 
@@ -24,7 +25,7 @@ namespace tread
   std::string Summary::table() const
   {
     // One row a label; Hertz and the half-space solver are columns.
-    std::vector<std::string>                          labels;
+    std::vector<std::string>                           labels;
     std::map<std::string, std::map<std::string, Line>> rows;
     for (const Line &line : lines)
       {
@@ -34,8 +35,8 @@ namespace tread
       }
     std::string text;
     char        buffer[256];
-    std::snprintf(buffer, sizeof buffer, "%-32s %12s %12s %8s %12s %8s\n", "", "computed", "Hertz", "diff.", "half-space",
-                  "diff.");
+    std::snprintf(buffer, sizeof buffer, "%-32s %12s %12s %8s %12s %8s\n", "", "computed", "Hertz", "diff.",
+                  "half-space", "diff.");
     text += buffer;
     for (const std::string &label : labels)
       {

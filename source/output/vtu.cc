@@ -3,6 +3,7 @@
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/grid/reference_cell.h>
 
 #include <cmath>
 #include <cstdio>
@@ -23,7 +24,10 @@ namespace tread
       std::vector<Patch>       patches;
       std::vector<std::string> names;
       /// First and last component of vectors, and their name.
-      std::vector<std::tuple<unsigned int, unsigned int, std::string, dealii::DataComponentInterpretation::DataComponentInterpretation>>
+      std::vector<std::tuple<unsigned int,
+                             unsigned int,
+                             std::string,
+                             dealii::DataComponentInterpretation::DataComponentInterpretation>>
         ranges;
 
       void add_vector(const std::string &name)
@@ -43,7 +47,10 @@ namespace tread
       {
         return names;
       }
-      std::vector<std::tuple<unsigned int, unsigned int, std::string, dealii::DataComponentInterpretation::DataComponentInterpretation>>
+      std::vector<std::tuple<unsigned int,
+                             unsigned int,
+                             std::string,
+                             dealii::DataComponentInterpretation::DataComponentInterpretation>>
       get_nonscalar_data_ranges() const override
       {
         return ranges;
@@ -51,7 +58,10 @@ namespace tread
     };
 
     template <int dim>
-    void set_vector(typename ArrayOutput<dim>::Patch &patch, const unsigned int first, const unsigned int vertex, const Row value)
+    void set_vector(typename ArrayOutput<dim>::Patch &patch,
+                    const unsigned int                first,
+                    const unsigned int                vertex,
+                    const Row                         value)
     {
       for (unsigned int d = 0; d < 3; ++d)
         patch.data(first + d, vertex) = value[d];
@@ -81,7 +91,9 @@ namespace tread
   }
 
 
-  void RunFolder::write_volume(const ExplicitDynamics &dynamics, const WheelHub &hub, const unsigned int wheel_body)
+  void RunFolder::write_volume(const ExplicitDynamics &dynamics,
+                               const WheelHub         &hub,
+                               const unsigned int      wheel_body)
   {
     const Mesh    &mesh = dynamics.mesh;
     ArrayOutput<3> output;
@@ -90,10 +102,11 @@ namespace tread
     for (const char *name : {"von_mises_MPa", "mean_stress_MPa", "body"})
       output.names.emplace_back(name);
     const std::vector<std::array<double, 6>> stress = dynamics.solid.cauchy_stress(dynamics.x.data());
-    const Row axle_at_start{hub.start_x(), 0., hub.start_z(), 0.};
+    const Row                                axle_at_start{hub.start_x(), 0., hub.start_z(), 0.};
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         ArrayOutput<3>::Patch patch;
+        patch.reference_cell = dealii::ReferenceCells::Hexahedron;
         patch.patch_index    = c;
         patch.n_subdivisions = 1;
         patch.data.reinit(output.names.size(), 8);
@@ -101,8 +114,9 @@ namespace tread
           {
             const unsigned int i = mesh.cells[c].nodes[v];
             const Row          x = dynamics.x[i];
-            const Row reference{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
-            const Row rigid = mesh.cells[c].body == wheel_body ? hub.position_of(reference - axle_at_start) : reference;
+            const Row          reference{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+            const Row          rigid =
+              mesh.cells[c].body == wheel_body ? hub.position_of(reference - axle_at_start) : reference;
             patch.vertices[v] = dealii::Point<3>(x[0], x[1], x[2]);
             set_vector<3>(patch, 0, v, 1e6 * (x - rigid));
             set_vector<3>(patch, 3, v, dynamics.v[i]);
@@ -144,12 +158,14 @@ namespace tread
     for (const ContactNodeState &state : contact.active_nodes())
       {
         const double normal = dot(state.impulse, state.normal), scale = 1e-6 / (state.area * time_step);
-        values[state.node]  = {scale * normal, state.adhesion ? 1. : 2., scale * (state.impulse - normal * state.normal), state.slip};
+        values[state.node] = {scale * normal, state.adhesion ? 1. : 2.,
+                              scale * (state.impulse - normal * state.normal), state.slip};
       }
     for (const ContactSurfaces::Face &face : contact.surfaces.faces)
       if (face.body == body)
         {
           ArrayOutput<2>::Patch patch;
+          patch.reference_cell = dealii::ReferenceCells::Quadrilateral;
           patch.patch_index    = output.patches.size();
           patch.n_subdivisions = 1;
           patch.data.reinit(output.names.size(), 4);

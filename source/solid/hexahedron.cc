@@ -58,7 +58,7 @@ namespace tread
         {
           const auto &g = gradient[a];
           // Rows of C^(1/2) b_a, engineering shear.
-          double rows[6][3] = {{g[0], 0., 0.}, {0., g[1], 0.}, {0., 0., g[2]},
+          double rows[6][3] = {{g[0], 0., 0.},   {0., g[1], 0.},   {0., 0., g[2]},
                                {g[1], g[0], 0.}, {0., g[2], g[1]}, {g[2], 0., g[0]}};
           double scaled[6][3];
           for (unsigned int d = 0; d < 3; ++d)
@@ -92,11 +92,12 @@ namespace tread
         dealii::Tensor<2, 3> jacobian;
         for (unsigned int a = 0; a < 8; ++a)
           {
-            const double f[3] = {1. + corner(a, 0) * xi[0], 1. + corner(a, 1) * xi[1], 1. + corner(a, 2) * xi[2]};
-            N[a]     = f[0] * f[1] * f[2] / 8.;
-            dN[a][0] = corner(a, 0) * f[1] * f[2] / 8.;
-            dN[a][1] = corner(a, 1) * f[0] * f[2] / 8.;
-            dN[a][2] = corner(a, 2) * f[0] * f[1] / 8.;
+            const double f[3] = {1. + corner(a, 0) * xi[0], 1. + corner(a, 1) * xi[1],
+                                 1. + corner(a, 2) * xi[2]};
+            N[a]              = f[0] * f[1] * f[2] / 8.;
+            dN[a][0]          = corner(a, 0) * f[1] * f[2] / 8.;
+            dN[a][1]          = corner(a, 1) * f[0] * f[2] / 8.;
+            dN[a][2]          = corner(a, 2) * f[0] * f[1] / 8.;
             for (unsigned int i = 0; i < 3; ++i)
               for (unsigned int j = 0; j < 3; ++j)
                 jacobian[i][j] += nodes[a][i] * dN[a][j];
@@ -132,17 +133,20 @@ namespace tread
         for (unsigned int a = 0; a < 8; ++a)
           {
             const double s[3] = {corner(a, 0), corner(a, 1), corner(a, 2)};
-            h[a]              = m == 0 ? s[1] * s[2] : m == 1 ? s[2] * s[0] : m == 2 ? s[0] * s[1] : s[0] * s[1] * s[2];
+            h[a] = m == 0 ? s[1] * s[2] : m == 1 ? s[2] * s[0] : m == 2 ? s[0] * s[1] : s[0] * s[1] * s[2];
             for (unsigned int i = 0; i < 3; ++i)
               moment[i] += h[a] * nodes[a][i];
           }
         for (unsigned int a = 0; a < 8; ++a)
-          hourglass[m][a] = h[a] - moment[0] * gradient[a][0] - moment[1] * gradient[a][1] - moment[2] * gradient[a][2];
+          hourglass[m][a] =
+            h[a] - moment[0] * gradient[a][0] - moment[1] * gradient[a][1] - moment[2] * gradient[a][2];
       }
   }
 
 
-  double hourglass_stiffness(const HexahedronIntegrals &cell, const ElasticMaterial &material, const double coefficient)
+  double hourglass_stiffness(const HexahedronIntegrals &cell,
+                             const ElasticMaterial     &material,
+                             const double               coefficient)
   {
     // The direction with the smallest gradients is the longest edge: bending along it is what the
     // modes must not stiffen.
@@ -150,7 +154,8 @@ namespace tread
     for (const auto &g : cell.gradient)
       for (unsigned int i = 0; i < 3; ++i)
         squares[i] += g[i] * g[i];
-    const double plate_modulus = material.young_modulus / (1. - material.poisson_ratio * material.poisson_ratio);
+    const double plate_modulus =
+      material.young_modulus / (1. - material.poisson_ratio * material.poisson_ratio);
     return coefficient * plate_modulus * cell.volume * std::min({squares[0], squares[1], squares[2]}) / 24.;
   }
 
@@ -190,12 +195,13 @@ namespace tread
     add_strain_gram(strain_gram, cell.gradient, cell.volume, mass, material);
     std::array<std::array<double, 4>, 4> hourglass_gram{};
     double                               coupling = 0.;
-    const double modulus = 2. * material.shear_modulus() + 3. * material.lame();
+    const double                         modulus  = 2. * material.shear_modulus() + 3. * material.lame();
     for (unsigned int m = 0; m < 4; ++m)
       {
         for (unsigned int n = 0; n < 4; ++n)
           for (unsigned int a = 0; a < 8; ++a)
-            hourglass_gram[m][n] += hourglass_stiffness * cell.hourglass[m][a] * cell.hourglass[n][a] / mass[a];
+            hourglass_gram[m][n] +=
+              hourglass_stiffness * cell.hourglass[m][a] * cell.hourglass[n][a] / mass[a];
         for (unsigned int i = 0; i < 3; ++i)
           {
             double product = 0.;
@@ -205,7 +211,8 @@ namespace tread
           }
       }
     // Largest eigenvalue of [[A, C], [C^T, D]] from those of A and D and the norm of C.
-    const double a = largest_eigenvalue_bound<6>(strain_gram), d = largest_eigenvalue_bound<4>(hourglass_gram);
+    const double a = largest_eigenvalue_bound<6>(strain_gram),
+                 d = largest_eigenvalue_bound<4>(hourglass_gram);
     return std::sqrt(0.5 * (a + d) + std::sqrt(0.25 * (a - d) * (a - d) + coupling));
   }
 } // namespace tread

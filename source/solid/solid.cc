@@ -74,11 +74,11 @@ namespace tread
       {
         const ElasticMaterial &material = materials[body];
         BodyRange              range;
-        range.begin      = cell_of_lane.size();
-        range.lambda     = material.lame();
-        range.mu         = material.shear_modulus();
-        range.density    = material.density;
-        range.wave_speed = material.pressure_wave_speed();
+        range.begin       = cell_of_lane.size();
+        range.lambda      = material.lame();
+        range.mu          = material.shear_modulus();
+        range.density     = material.density;
+        range.wave_speed  = material.pressure_wave_speed();
         unsigned int lane = n_lanes;
         for (unsigned int c = 0; c < n_cells; ++c)
           if (mesh.cells[c].body == body)
@@ -87,9 +87,11 @@ namespace tread
               for (unsigned int a = 0; a < 8; ++a)
                 corners[a] = mesh.nodes[mesh.cells[c].nodes[a]];
               const HexahedronIntegrals integrals(corners);
-              const double stiffness = hourglass_stiffness(integrals, material, parameters.hourglass_coefficient);
-              frequencies[c] = highest_frequency_bound(integrals, material, stiffness, full, parameters.density_scale);
-              volumes[c]     = integrals.volume;
+              const double              stiffness =
+                hourglass_stiffness(integrals, material, parameters.hourglass_coefficient);
+              frequencies[c] =
+                highest_frequency_bound(integrals, material, stiffness, full, parameters.density_scale);
+              volumes[c] = integrals.volume;
               for (unsigned int a = 0; a < 8; ++a)
                 masses[c][a] = material.density * integrals.node_volume[a];
 
@@ -117,8 +119,8 @@ namespace tread
                 {
                   if (full)
                     {
-                      BatchOfPoints &batch = point_batches.back();
-                      batch.node[a][lane]  = mesh.cells[c].nodes[a];
+                      BatchOfPoints &batch  = point_batches.back();
+                      batch.node[a][lane]   = mesh.cells[c].nodes[a];
                       batch.weight[a][lane] = integrals.point_volume[a];
                       for (unsigned int q = 0; q < 8; ++q)
                         for (unsigned int i = 0; i < 3; ++i)
@@ -182,7 +184,7 @@ namespace tread
                   for (unsigned int j = 0; j < 3; ++j)
                     trace += deformation.F[i][j][l] * rate.F[i][j][l];
                 const double size = std::cbrt(batch.volume[l]);
-                double q = parameters.linear_bulk_viscosity * density * range.wave_speed * size * trace;
+                double       q = parameters.linear_bulk_viscosity * density * range.wave_speed * size * trace;
                 if (trace < 0.)
                   q -= parameters.quadratic_bulk_viscosity * density * size * size * trace * trace;
                 for (unsigned int i = 0; i < 3; ++i)
@@ -198,7 +200,8 @@ namespace tread
             Lanes f[3];
             for (unsigned int i = 0; i < 3; ++i)
               {
-                f[i] = P[i][0] * batch.gradient[a][0] + P[i][1] * batch.gradient[a][1] + P[i][2] * batch.gradient[a][2];
+                f[i] = P[i][0] * batch.gradient[a][0] + P[i][1] * batch.gradient[a][1] +
+                       P[i][2] * batch.gradient[a][2];
                 for (unsigned int m = 0; m < 4; ++m)
                   f[i] -= amplitude[m][i] * batch.hourglass[m][a];
               }
@@ -227,8 +230,9 @@ namespace tread
             deformation.first_piola(S, P);
             for (unsigned int a = 0; a < 8; ++a)
               for (unsigned int i = 0; i < 3; ++i)
-                f[a][i] -= batch.weight[q] * (P[i][0] * batch.gradient[q][a][0] + P[i][1] * batch.gradient[q][a][1] +
-                                              P[i][2] * batch.gradient[q][a][2]);
+                f[a][i] -=
+                  batch.weight[q] * (P[i][0] * batch.gradient[q][a][0] + P[i][1] * batch.gradient[q][a][1] +
+                                     P[i][2] * batch.gradient[q][a][2]);
           }
         for (unsigned int a = 0; a < 8; ++a)
           scatter_add(force, batch.node[a], f[a][0], f[a][1], f[a][2]);
@@ -254,9 +258,9 @@ namespace tread
     for (const BodyRange &range : ranges)
       for (std::size_t b = range.begin; b < range.end; ++b)
         {
-          const bool          full      = parameters.element_type == ElementType::fully_integrated;
+          const bool full                    = parameters.element_type == ElementType::fully_integrated;
           const unsigned int(*node)[n_lanes] = full ? point_batches[b].node : batches[b].node;
-          Lanes               position[8][3];
+          Lanes position[8][3];
           for (unsigned int a = 0; a < 8; ++a)
             gather(x, node[a], position[a][0], position[a][1], position[a][2]);
           const auto add_point = [&](const Lanes(*gradient)[3], const Lanes weight) {
@@ -302,9 +306,9 @@ namespace tread
     for (const BodyRange &range : ranges)
       for (std::size_t b = range.begin; b < range.end; ++b)
         {
-          const bool          full      = parameters.element_type == ElementType::fully_integrated;
+          const bool full                    = parameters.element_type == ElementType::fully_integrated;
           const unsigned int(*node)[n_lanes] = full ? point_batches[b].node : batches[b].node;
-          Deformation         deformation{};
+          Deformation deformation{};
           for (unsigned int a = 0; a < 8; ++a)
             {
               Lanes position[3], gradient[3];

@@ -25,15 +25,16 @@ namespace tread
     reference_first_moment[0] = -first_moment_x;
     reference_first_moment[1] = -first_moment_z;
     if (!(parameters.mass > 0. && parameters.moment_of_inertia > 0.))
-      throw std::invalid_argument("'Wheel/Mass (kg)' or 'Wheel/Moment of inertia (kg m2)' is too small: the meshed part "
-                                  "alone has " + std::to_string(mass) + " kg and " + std::to_string(moment_of_inertia) +
-                                  " kg m2");
+      throw std::invalid_argument(
+        "'Wheel/Mass (kg)' or 'Wheel/Moment of inertia (kg m2)' is too small: the meshed part "
+        "alone has " +
+        std::to_string(mass) + " kg and " + std::to_string(moment_of_inertia) + " kg m2");
   }
 
 
-  void WheelHub::first_moment(double &x, double &z) const
+  void WheelHub::first_moment(double &x, double &z, const double angle) const
   {
-    const double c = std::cos(motion.angle), s = std::sin(motion.angle);
+    const double c = std::cos(angle), s = std::sin(angle);
     x = c * reference_first_moment[0] + s * reference_first_moment[1];
     z = -s * reference_first_moment[0] + c * reference_first_moment[1];
   }
@@ -42,7 +43,7 @@ namespace tread
   double WheelHub::static_force() const
   {
     double moment_x, moment_z;
-    first_moment(moment_x, moment_z);
+    first_moment(moment_x, moment_z, motion.angle);
     return -(parameters.mass + parameters.sprung_mass) * parameters.gravity +
            motion.angular_velocity * motion.angular_velocity * moment_z;
   }
@@ -57,9 +58,9 @@ namespace tread
 
     motion.velocity_z += time_step * (force[2] + vertical_outside) / parameters.mass;
     double moment_x, moment_z;
-    first_moment(moment_x, moment_z);
-    const double weight_moment   = moment_x * parameters.gravity;
-    double       turning_outside = -moment; // with it the angular velocity stays; includes the weight's moment
+    first_moment(moment_x, moment_z, motion.angle);
+    const double weight_moment = moment_x * parameters.gravity;
+    double turning_outside     = -moment; // with it the angular velocity stays; includes the weight's moment
     if (drive == Drive::torque)
       {
         turning_outside = drive_torque + weight_moment;
@@ -73,13 +74,14 @@ namespace tread
     motion.angle += time_step * motion.angular_velocity;
     motion.sprung_z += time_step * motion.sprung_velocity;
 
-    // The guidance holds the hub's speed against the cells and the pull of the balancing part, which changes its
-    // momentum along x, angular velocity times first moment, by turning and by turning faster.
+    // The guidance holds the hub's speed against the cells and the pull of the balancing part, which changes
+    // its momentum along x, angular velocity times first moment, by turning and by turning faster.
     const double pull   = before.angular_velocity * before.angular_velocity * moment_x;
     const double faster = moment_z * (motion.angular_velocity - before.angular_velocity);
     const double along  = (faster - time_step * (force[0] + pull)) * motion.velocity_x;
-    const double up    = time_step * vertical_outside * 0.5 * (before.velocity_z + motion.velocity_z);
-    const double turn  = time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
+    const double up     = time_step * vertical_outside * 0.5 * (before.velocity_z + motion.velocity_z);
+    const double turn =
+      time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
     work += along + up + turn;
     gross += std::abs(along) + std::abs(up) + std::abs(turn);
   }
@@ -88,23 +90,22 @@ namespace tread
   Row WheelHub::position_of(const Row reference) const
   {
     const double c = std::cos(motion.angle), s = std::sin(motion.angle);
-    return Row{motion.x + c * reference[0] + s * reference[2], reference[1], motion.z - s * reference[0] + c * reference[2], 0.};
+    return Row{motion.x + c * reference[0] + s * reference[2], reference[1],
+               motion.z - s * reference[0] + c * reference[2], 0.};
   }
 
 
   Row WheelHub::velocity_at(const Row x) const
   {
-    return Row{motion.velocity_x + motion.angular_velocity * (x[2] - motion.z),
-               0.,
-               motion.velocity_z - motion.angular_velocity * (x[0] - motion.x),
-               0.};
+    return Row{motion.velocity_x + motion.angular_velocity * (x[2] - motion.z), 0.,
+               motion.velocity_z - motion.angular_velocity * (x[0] - motion.x), 0.};
   }
 
 
-  double WheelHub::kinetic_energy() const
+  double WheelHub::kinetic_energy(const double time_back) const
   {
     double moment_x, moment_z;
-    first_moment(moment_x, moment_z);
+    first_moment(moment_x, moment_z, motion.angle - time_back * motion.angular_velocity);
     return 0.5 * parameters.mass *
              (motion.velocity_x * motion.velocity_x + motion.velocity_z * motion.velocity_z) +
            motion.angular_velocity * (motion.velocity_x * moment_z - motion.velocity_z * moment_x) +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Rails and wheels: refined by their own rule, then volume, surfaces, cell shapes and boundaries against the exact ones.
+// Rails and wheels: refined by their own rule, then volume, surfaces, cell shapes and boundaries against the
+// exact ones.
 #include <tread/mesh/rail_body.h>
 #include <tread/mesh/wheel_body.h>
 
@@ -50,7 +51,8 @@ namespace
     for (const auto &cell : mesh.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
         if (cell->at_boundary(face))
-          cell->face(face)->set_all_boundary_ids(static_cast<unsigned int>(body.boundary_at(cell->face(face)->center())));
+          cell->face(face)->set_all_boundary_ids(
+            static_cast<unsigned int>(body.boundary_at(cell->face(face)->center())));
     if (body.manifold)
       {
         mesh.set_all_manifold_ids(0);
@@ -81,7 +83,7 @@ namespace
   {
     unsigned int          n_cells = 0, n_fine = 0;
     double                volume = 0.;
-    Tensor<1, 3>          moment;             ///< integral of the position
+    Tensor<1, 3>          moment;               ///< integral of the position
     double                min_jacobian = 1e300; ///< at vertices and Gauss points, over the cell's volume
     double                min_scaled   = 1e300; ///< sine-like: by the three edge lengths at the vertex
     double                fine_scaled  = 1e300; ///< the same in the fine zone
@@ -91,7 +93,10 @@ namespace
   };
 
   /// Moves the vertices to space and measures. in_zone is asked for chart positions of cell centres.
-  Measured measure(const Body &body, Mesh &mesh, const double finest, const std::function<bool(const Point<3> &)> &in_zone)
+  Measured measure(const Body                                  &body,
+                   Mesh                                        &mesh,
+                   const double                                 finest,
+                   const std::function<bool(const Point<3> &)> &in_zone)
   {
     std::vector<bool> fine(mesh.n_active_cells());
     for (const auto &cell : mesh.active_cell_iterators())
@@ -109,7 +114,7 @@ namespace
               }
       }
 
-    Measured               m;
+    Measured                m;
     const dealii::QGauss<3> quadrature(2); // exact for the trilinear map's determinant
     for (const auto &cell : mesh.active_cell_iterators())
       {
@@ -128,7 +133,9 @@ namespace
               }
           return t;
         };
-        const auto determinant = [](const std::array<Tensor<1, 3>, 3> &t) { return t[0] * dealii::cross_product_3d(t[1], t[2]); };
+        const auto determinant = [](const std::array<Tensor<1, 3>, 3> &t) {
+          return t[0] * dealii::cross_product_3d(t[1], t[2]);
+        };
 
         double       volume = 0., lowest = 1e300, scaled = 1e300;
         Tensor<1, 3> moment;
@@ -170,7 +177,8 @@ namespace
           if (cell->at_boundary(f))
             {
               const auto face = cell->face(f);
-              const auto n    = dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+              const auto n    = dealii::cross_product_3d(face->vertex(3) - face->vertex(0),
+                                                         face->vertex(2) - face->vertex(1));
               m.areas[face->boundary_id()] += 0.5 * n.norm();
             }
       }
@@ -178,7 +186,9 @@ namespace
   }
 
   /// Largest distance from the true surface of the vertices on faces with the given id (m).
-  double off_surface(const Mesh &mesh, const Boundary id, const std::function<double(const Point<3> &)> &distance)
+  double off_surface(const Mesh                                    &mesh,
+                     const Boundary                                 id,
+                     const std::function<double(const Point<3> &)> &distance)
   {
     double largest = 0.;
     for (const auto &cell : mesh.active_cell_iterators())
@@ -189,13 +199,19 @@ namespace
     return largest;
   }
 
-  void check_shape(tests::Check &check, const std::string &name, const Mesh &mesh, const Measured &m, const double volume, const double allowed)
+  void check_shape(tests::Check      &check,
+                   const std::string &name,
+                   const Mesh        &mesh,
+                   const Measured    &m,
+                   const double       volume,
+                   const double       allowed)
   {
     unsigned int n_levels = mesh.n_levels();
-    std::printf("%s: %u cells (%u coarse, %u levels, %u in the fine zone), %u vertices, shortest edge %.4f mm, "
-                "scaled Jacobian at vertices: lowest %.4f, in the fine zone %.5f\n",
-                name.c_str(), m.n_cells, mesh.n_cells(0), n_levels, m.n_fine, mesh.n_used_vertices(), 1e3 * m.shortest_edge,
-                m.min_scaled, m.fine_scaled);
+    std::printf(
+      "%s: %u cells (%u coarse, %u levels, %u in the fine zone), %u vertices, shortest edge %.4f mm, "
+      "scaled Jacobian at vertices: lowest %.4f, in the fine zone %.5f\n",
+      name.c_str(), m.n_cells, mesh.n_cells(0), n_levels, m.n_fine, mesh.n_used_vertices(),
+      1e3 * m.shortest_edge, m.min_scaled, m.fine_scaled);
     check.relative(name + ": volume, cm3", 1e6 * m.volume, 1e6 * volume, allowed);
     check.that(name + ": Jacobians at vertices and Gauss points > 0", m.min_jacobian > 0.);
     check.that(name + ": cells in the fine zone", m.n_fine > 0);
@@ -205,10 +221,14 @@ namespace
 
   std::function<bool(const Point<3> &)> in_box(const FineZone &zone)
   {
-    return [zone](const Point<3> &p) { return zone.distance(p[0], p[1], -p[2]) <= 0.; };
+    return [zone](const Point<3> &p) {
+      return zone.distance(p[0], p[1], -p[2]) <= 0.;
+    };
   }
 
-  std::function<bool(const Point<3> &)> in_arc(const FineZone &zone, const double center_x, const double radius)
+  std::function<bool(const Point<3> &)> in_arc(const FineZone &zone,
+                                               const double    center_x,
+                                               const double    radius)
   {
     return [=](const Point<3> &p) {
       double angle = std::atan2(p[0] - center_x, radius - p[2]);
@@ -233,7 +253,8 @@ namespace
     const auto lines = coarse_lines(-0.1, 0.1, 0., 0.0224); // 4.46 rows a side: three whole, one of 1.46
     check.that("lines: number", lines.size() == 9);
     check.absolute("lines: regular row, mm", 1e3 * (lines[5] - lines[4]), 22.4, 1e-9);
-    check.absolute("lines: stretched row over regular", (lines[8] - lines[7]) / 0.0224, 0.1 / 0.0224 - 3., 1e-9);
+    check.absolute("lines: stretched row over regular", (lines[8] - lines[7]) / 0.0224, 0.1 / 0.0224 - 3.,
+                   1e-9);
     check.below("lines: symmetric, mm", 1e3 * (lines[0] + lines[8]), 1e-12);
   }
 
@@ -259,7 +280,8 @@ namespace
       for (const unsigned int v : cell->vertex_indices())
         {
           const Point<3> p = cell->vertex(v);
-          keeps_distance   = keeps_distance && shortest_edge(cell) < 1.2001 * zone.wanted_size(p[0], p[1], -p[2]);
+          keeps_distance =
+            keeps_distance && shortest_edge(cell) < 1.2001 * zone.wanted_size(p[0], p[1], -p[2]);
         }
     const Measured m = measure(body, mesh, finest, in_box(zone));
 
@@ -267,27 +289,38 @@ namespace
     if (!std::isinf(crown_radius))
       {
         const double angle = std::asin(0.5 * block.width / crown_radius);
-        area -= block.width * crown_radius - crown_radius * crown_radius * (angle + 0.5 * std::sin(2. * angle));
+        area -=
+          block.width * crown_radius - crown_radius * crown_radius * (angle + 0.5 * std::sin(2. * angle));
       }
     check_shape(check, name, mesh, m, area * (block.x_end - block.x_begin), 1e-3);
     check.that(std::string(name) + ": cells per level kept", keeps_distance);
     check.below(std::string(name) + ": nodes off the crown, nm",
-                1e9 * off_surface(mesh, Boundary::contact, [&](const Point<3> &p) { return p[2] - crown_height(p[1], crown_radius); }), 1e-3);
-    check.below(std::string(name) + ": nodes off the flat bottom, nm",
-                1e9 * off_surface(mesh, Boundary::support, [&](const Point<3> &p) { return p[2] + block.height; }), 1e-3);
-    check.relative(std::string(name) + ": support area, cm2", 1e4 * m.areas.at(2), 1e4 * block.width * 0.24, 1e-9);
+                1e9 * off_surface(mesh, Boundary::contact,
+                                  [&](const Point<3> &p) { return p[2] - crown_height(p[1], crown_radius); }),
+                1e-3);
+    check.below(
+      std::string(name) + ": nodes off the flat bottom, nm",
+      1e9 * off_surface(mesh, Boundary::support, [&](const Point<3> &p) { return p[2] + block.height; }),
+      1e-3);
+    check.relative(std::string(name) + ": support area, cm2", 1e4 * m.areas.at(2), 1e4 * block.width * 0.24,
+                   1e-9);
     check.relative(std::string(name) + ": end area, cm2", 1e4 * m.areas.at(3), 2e4 * area, 2e-3);
     check.below(std::string(name) + ": first moment in y, mm4", 1e12 * m.moment[1], 1e-3);
   }
 
-  void check_head(tests::Check &check, const RailProfile &profile, const double finest, const double coarsest, const double allowed)
+  void check_head(tests::Check      &check,
+                  const RailProfile &profile,
+                  const double       finest,
+                  const double       coarsest,
+                  const double       allowed)
   {
     RailHead head;
     head.coarsest_cell_size = coarsest;
     FineZone zone;
     zone.finest_cell_size = finest;
     char name[60];
-    std::snprintf(name, sizeof(name), "head %s, %.2f mm, coarse %.1f mm", profile.name().c_str(), 1e3 * finest, 1e3 * coarsest);
+    std::snprintf(name, sizeof(name), "head %s, %.2f mm, coarse %.1f mm", profile.name().c_str(),
+                  1e3 * finest, 1e3 * coarsest);
 
     const Body body = make_rail_head(profile, head, zone);
     Mesh       mesh;
@@ -299,14 +332,18 @@ namespace
     const unsigned int n    = 100000;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const auto a = profile.head_point(profile.head_length() * i / n), b = profile.head_point(profile.head_length() * (i + 1) / n);
+        const auto a = profile.head_point(profile.head_length() * i / n),
+                   b = profile.head_point(profile.head_length() * (i + 1) / n);
         area += (a[1] + b[1]) * (b[0] - a[0]);
       }
     check_shape(check, name, mesh, m, 0.24 * area, allowed);
     check.that(std::string(name) + ": lowest scaled Jacobian above 0.25", m.min_scaled > 0.25);
     check.below(std::string(name) + ": nodes off the top, nm",
-                1e9 * off_surface(mesh, Boundary::contact, [&](const Point<3> &p) { return p[2] - profile.z_top(p[1]); }), 1e-3);
-    check.relative(std::string(name) + ": support area, cm2", 1e4 * m.areas.at(2), 1e4 * 0.48 * profile.head_half_width(), 1e-9);
+                1e9 * off_surface(mesh, Boundary::contact,
+                                  [&](const Point<3> &p) { return p[2] - profile.z_top(p[1]); }),
+                1e-3);
+    check.relative(std::string(name) + ": support area, cm2", 1e4 * m.areas.at(2),
+                   1e4 * 0.48 * profile.head_half_width(), 1e-9);
     check.relative(std::string(name) + ": end area, cm2", 1e4 * m.areas.at(3), 2e4 * area, 1.5 * allowed);
     check.below(std::string(name) + ": first moment in y, mm4", 1e12 * m.moment[1], 1e-3);
   }
@@ -318,7 +355,9 @@ namespace
     sector.arc_begin = -0.09;
     sector.arc_end   = 0.18;
     if (conical)
-      sector.tread_offset = [](const double y) { return -y / 40.; };
+      sector.tread_offset = [](const double y) {
+        return -y / 40.;
+      };
     FineZone zone;
     zone.finest_cell_size = finest;
     zone.x_begin          = -0.01;
@@ -333,21 +372,28 @@ namespace
     const auto     exact = wheel_inertia(sector, 1.);
 
     check_shape(check, name, mesh, m, exact.mass, 1e-3);
-    const auto from_axis = [&](const Point<3> &p) { return std::hypot(p[0] - sector.center_x, p[2] - sector.radius); };
+    const auto from_axis = [&](const Point<3> &p) {
+      return std::hypot(p[0] - sector.center_x, p[2] - sector.radius);
+    };
     check.below(std::string(name) + ": nodes off the tread, nm",
                 1e9 * off_surface(mesh, Boundary::contact,
                                   [&](const Point<3> &p) {
-                                    return from_axis(p) - sector.radius - (conical ? sector.tread_offset(p[1]) : 0.);
+                                    return from_axis(p) - sector.radius -
+                                           (conical ? sector.tread_offset(p[1]) : 0.);
                                   }),
                 1e-3);
     check.below(std::string(name) + ": nodes off the inner face, nm",
-                1e9 * off_surface(mesh, Boundary::support, [&](const Point<3> &p) { return from_axis(p) - 0.4; }), 1e-3);
-    check.relative(std::string(name) + ": support area, cm2", 1e4 * m.areas.at(2), 1e4 * 0.27 / 0.46 * 0.4 * 0.12, 1e-3);
+                1e9 *
+                  off_surface(mesh, Boundary::support, [&](const Point<3> &p) { return from_axis(p) - 0.4; }),
+                1e-3);
+    check.relative(std::string(name) + ": support area, cm2", 1e4 * m.areas.at(2),
+                   1e4 * 0.27 / 0.46 * 0.4 * 0.12, 1e-3);
     check.relative(std::string(name) + ": contact area, cm2", 1e4 * m.areas.at(1), 1e4 * 0.27 * 0.12, 1e-3);
     check.relative(std::string(name) + ": end area, cm2", 1e4 * m.areas.at(3), 1e4 * 2. * 0.06 * 0.12, 1e-3);
     // the mesh's first moment, moved to the wheel's centre
     const Tensor<1, 3> moment = m.moment - m.volume * Point<3>(sector.center_x, 0., sector.radius);
-    check.below(std::string(name) + ": first moment, relative error", (moment - exact.first_moment).norm() / exact.first_moment.norm(), 2e-3);
+    check.below(std::string(name) + ": first moment, relative error",
+                (moment - exact.first_moment).norm() / exact.first_moment.norm(), 2e-3);
     double lowest = 1e300;
     for (const auto &p : mesh.get_vertices())
       lowest = std::min(lowest, p[2]);
@@ -366,7 +412,8 @@ namespace
     zone.x_end            = zone_center + 0.05;
 
     char name[60];
-    std::snprintf(name, sizeof(name), "wheel %.2f mm, coarse %.0f mm, zone %.2f m", 1e3 * finest, 1e3 * coarsest, zone_center);
+    std::snprintf(name, sizeof(name), "wheel %.2f mm, coarse %.0f mm, zone %.2f m", 1e3 * finest,
+                  1e3 * coarsest, zone_center);
     const Body body = make_full_wheel(wheel, zone);
     Mesh       mesh;
     refine(body, mesh);
@@ -374,14 +421,22 @@ namespace
     const auto     exact = wheel_inertia(wheel, 1.);
 
     check_shape(check, name, mesh, m, exact.mass, 3e-3);
-    const auto from_axis = [&](const Point<3> &p) { return std::hypot(p[0] - wheel.center_x, p[2] - wheel.radius); };
+    const auto from_axis = [&](const Point<3> &p) {
+      return std::hypot(p[0] - wheel.center_x, p[2] - wheel.radius);
+    };
     check.below(std::string(name) + ": nodes off the tread, nm",
-                1e9 * off_surface(mesh, Boundary::contact, [&](const Point<3> &p) { return from_axis(p) - wheel.radius; }), 1e-3);
+                1e9 * off_surface(mesh, Boundary::contact,
+                                  [&](const Point<3> &p) { return from_axis(p) - wheel.radius; }),
+                1e-3);
     check.below(std::string(name) + ": nodes off the bore, nm",
-                1e9 * off_surface(mesh, Boundary::support, [&](const Point<3> &p) { return from_axis(p) - wheel.bore_radius; }), 1e-3);
-    check.relative(std::string(name) + ": bore area, cm2", 1e4 * m.areas.at(2), 1e4 * 2. * pi * wheel.bore_radius * wheel.hub_length, 2e-3);
+                1e9 * off_surface(mesh, Boundary::support,
+                                  [&](const Point<3> &p) { return from_axis(p) - wheel.bore_radius; }),
+                1e-3);
+    check.relative(std::string(name) + ": bore area, cm2", 1e4 * m.areas.at(2),
+                   1e4 * 2. * pi * wheel.bore_radius * wheel.hub_length, 2e-3);
     check.that(std::string(name) + ": contact area covers the path and not much more",
-               m.areas.at(1) > 0.1 * wheel.rim_width && m.areas.at(1) < (0.1 + 2. * 0.02 + 3. * coarsest) * wheel.rim_width);
+               m.areas.at(1) > 0.1 * wheel.rim_width &&
+                 m.areas.at(1) < (0.1 + 2. * 0.02 + 3. * coarsest) * wheel.rim_width);
     check.that(std::string(name) + ": no cut faces", m.areas.count(3) == 0);
     check.below(std::string(name) + ": centre of gravity off the axis, mm",
                 1e3 * (m.moment / m.volume - Point<3>(wheel.center_x, 0., wheel.radius)).norm(), 0.1);
@@ -393,7 +448,8 @@ int main()
   const auto   start = std::chrono::steady_clock::now();
   tests::Check check;
   const auto   lap = [&] {
-    std::printf("-- %.1f s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    std::printf("-- %.1f s\n",
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
 
   check_rule(check);
@@ -431,17 +487,20 @@ int main()
   const auto ring     = wheel_inertia(half_ring, 7800.);
   check.relative("half ring, kg", ring.mass, 7800. * 0.5 * pi * (0.46 * 0.46 - 0.16) * 0.12, 1e-12);
   check.relative("half ring, kg m2", ring.axial_inertia, 0.5 * ring.mass * (0.46 * 0.46 + 0.16), 1e-12);
-  check.relative("half ring, first moment in z, kg m", ring.first_moment[2], -7800. * 2. / 3. * (std::pow(0.46, 3) - 0.064) * 0.12, 1e-12);
+  check.relative("half ring, first moment in z, kg m", ring.first_moment[2],
+                 -7800. * 2. / 3. * (std::pow(0.46, 3) - 0.064) * 0.12, 1e-12);
 
   // The cell size does not notice where the angle jumps.
   FineZone behind;
-  behind.x_begin      = pi * 0.46 - 0.03;
-  behind.x_end        = pi * 0.46 + 0.05;
-  const Body   around = make_full_wheel(FullWheel(), behind);
-  const auto   size_at = [&](const double arc) {
-    return around.wanted_cell_size(Point<3>(0.46 * std::sin(arc / 0.46), 0., 0.46 - 0.46 * std::cos(arc / 0.46)));
+  behind.x_begin     = pi * 0.46 - 0.03;
+  behind.x_end       = pi * 0.46 + 0.05;
+  const Body around  = make_full_wheel(FullWheel(), behind);
+  const auto size_at = [&](const double arc) {
+    return around.wanted_cell_size(
+      Point<3>(0.46 * std::sin(arc / 0.46), 0., 0.46 - 0.46 * std::cos(arc / 0.46)));
   };
-  check.absolute("wheel: size on both sides of the jump, mm", 1e3 * size_at(pi * 0.46 - 1e-6), 1e3 * size_at(pi * 0.46 + 1e-6), 1e-12);
+  check.absolute("wheel: size on both sides of the jump, mm", 1e3 * size_at(pi * 0.46 - 1e-6),
+                 1e3 * size_at(pi * 0.46 + 1e-6), 1e-12);
   check.absolute("wheel: size at the zone's end, mm", 1e3 * size_at(pi * 0.46 + 0.0499), 1., 1e-12);
   check.absolute("wheel: size just behind the zone, mm", 1e3 * size_at(pi * 0.46 + 0.0501), 2., 1e-12);
   check.absolute("wheel: size just before the zone, mm", 1e3 * size_at(pi * 0.46 - 0.0301), 2., 1e-12);
@@ -461,11 +520,14 @@ int main()
   };
   FineZone too_long;
   too_long.x_end = 0.5;
-  check.that("a zone beyond the block's end is refused", refused([&] { make_rail_block(RailBlock(), too_long); }));
-  check.that("a zone beyond the sector's end is refused", refused([&] { make_wheel_sector(WheelSector(), too_long); }));
+  check.that("a zone beyond the block's end is refused",
+             refused([&] { make_rail_block(RailBlock(), too_long); }));
+  check.that("a zone beyond the sector's end is refused",
+             refused([&] { make_wheel_sector(WheelSector(), too_long); }));
   FullWheel inside_out;
   inside_out.bore_radius = 0.2;
-  check.that("a bore wider than the hub is refused", refused([&] { make_full_wheel(inside_out, FineZone()); }));
+  check.that("a bore wider than the hub is refused",
+             refused([&] { make_full_wheel(inside_out, FineZone()); }));
   lap();
   return check.exit_code();
 }

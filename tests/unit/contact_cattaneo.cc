@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cattaneo and Mindlin: a sphere pressed on a flat and then sheared slowly; slip eats its way in from the edge.
+// Cattaneo and Mindlin: a sphere pressed on a flat and then sheared slowly; slip eats its way in from the
+// edge.
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/reference/cattaneo_mindlin.h>
 #include <tread/reference/hertz.h>
@@ -19,22 +20,22 @@ int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   Check                                    check;
-  const double                 radius = 0.05, force = 1000., friction = 0.3; // m, N
-  const reference::Elastic     steel;
-  const reference::ElasticPair pair  = reference::combine(steel, steel);
-  const double                 a     = reference::hertz_sphere(radius, pair.hertz_modulus(), force).semi_axis_x;
-  const double                 h     = 0.08e-3;
+  const double                             radius = 0.05, force = 1000., friction = 0.3; // m, N
+  const reference::Elastic                 steel;
+  const reference::ElasticPair             pair = reference::combine(steel, steel);
+  const double a = reference::hertz_sphere(radius, pair.hertz_modulus(), force).semi_axis_x;
+  const double h = 0.08e-3;
 
   FineZone zone;
-  zone.finest_cell_size = h;
-  zone.x_begin          = -1.25 * a;
-  zone.x_end            = 1.25 * a;
-  zone.half_width       = 1.25 * a;
-  zone.depth            = 0.6 * a;
-  const double size     = 64. * h; // 7 a: small, so that waves cross it quickly
-  const Mesh   mesh(MPI_COMM_WORLD,
-                  {tests::make_indenter("flat", size, 16. * h, 0., zone),
-                   tests::turned(tests::make_indenter("cap", size, 16. * h, radius, zone), Point<3>(1., 0., 0.), dealii::numbers::PI)});
+  zone.finest_cell_size   = h;
+  zone.x_begin            = -1.25 * a;
+  zone.x_end              = 1.25 * a;
+  zone.half_width         = 1.25 * a;
+  zone.depth              = 0.6 * a;
+  const double       size = 64. * h; // 7 a: small, so that waves cross it quickly
+  const Mesh         mesh(MPI_COMM_WORLD, {tests::make_indenter("flat", size, 16. * h, 0., zone),
+                                           tests::turned(tests::make_indenter("cap", size, 16. * h, radius, zone),
+                                                         Point<3>(1., 0., 0.), dealii::numbers::PI)});
   const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
   DynamicsParameters dynamics_parameters;
   dynamics_parameters.gravity       = 0.;
@@ -59,17 +60,19 @@ int main(int argc, char **argv)
   contact.scale_impulses(dynamics_parameters.courant_number * dynamics.critical_time_step());
   dynamics.start();
 
-  // The hub is moved along x, slowly and with a smooth start; instants are chosen by the force that contact carries.
-  const unsigned int  steps = 6000;
-  const double        shift = 4.6e-6, total = steps * dynamics.time_step; // the whole would just make it slide
+  // The hub is moved along x, slowly and with a smooth start; instants are chosen by the force that contact
+  // carries.
+  const unsigned int steps = 6000;
+  const double       shift = 4.6e-6, total = steps * dynamics.time_step; // the whole would just make it slide
   std::vector<double> shares{0.3, 0.5, 0.7, 0.875};                      // T/(f N)
   for (unsigned int n = 0; n < steps && !shares.empty(); ++n)
     {
       hub.motion.velocity_x = 2. * shift / total * std::pow(std::sin(dealii::numbers::PI * n / steps), 2);
       dynamics.step();
-      const Row    p      = contact.total_impulse();
-      const double normal = std::abs(p[2]) / dynamics.time_step, tangential = std::abs(p[0]) / dynamics.time_step;
-      const double share = tangential / (friction * normal);
+      const Row    p          = contact.total_impulse();
+      const double normal     = std::abs(p[2]) / dynamics.time_step,
+                   tangential = std::abs(p[0]) / dynamics.time_step;
+      const double share      = tangential / (friction * normal);
       if (share < shares.front())
         continue;
 
@@ -93,8 +96,10 @@ int main(int argc, char **argv)
       // Nodes stick or slip as a whole: the border is known to one cell, its mean radius better.
       check.absolute(name + "radius of adhesion, mm", 1e3 * found, 1e3 * theory.adhesion_radius, 0.5e3 * h);
       // Nodes at the edges of contact and adhesion have the mean over their surroundings.
-      check.below(name + "surface shear stress, rms error, share of f p0", std::sqrt(squares[0] / squares[1]), 0.06);
-      const double wrong = reference::cattaneo_mindlin(radius, pair, normal, friction, 0.5 * tangential).adhesion_radius;
+      check.below(name + "surface shear stress, rms error, share of f p0", std::sqrt(squares[0] / squares[1]),
+                  0.06);
+      const double wrong =
+        reference::cattaneo_mindlin(radius, pair, normal, friction, 0.5 * tangential).adhesion_radius;
       if (shares.front() >= 0.5)
         check.that(name + "half the force is noticed", std::abs(found - wrong) > 0.5 * h);
       shares.erase(shares.begin());

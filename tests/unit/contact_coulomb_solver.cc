@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The solver for impulses alone, on random problems: do the results satisfy Signorini's conditions and Coulomb's law?
+// The solver for impulses alone, on random problems: do the results satisfy Signorini's conditions and
+// Coulomb's law?
 #include <tread/contact/coulomb_solver.h>
 
 #include "check.h"
@@ -29,7 +30,9 @@ namespace
   RandomProblem make_problem(const unsigned int n, std::mt19937 &random)
   {
     std::uniform_real_distribution<double> from_0_to_1(0., 1.);
-    const auto between = [&](const double a, const double b) { return a + (b - a) * from_0_to_1(random); };
+    const auto                             between = [&](const double a, const double b) {
+      return a + (b - a) * from_0_to_1(random);
+    };
 
     RandomProblem       r;
     std::vector<double> mass(2 * n);
@@ -38,13 +41,15 @@ namespace
     for (unsigned int j = 0; j < n; ++j)
       {
         const Row                  direction{between(-0.3, 0.3), between(-0.3, 0.3), 1., 0.};
-        ContactProblem::Constraint c{direction * (1. / size(direction)), 1e-6, 0., (unsigned int)r.problem.entries.size(), 0, j};
+        ContactProblem::Constraint c{direction * (1. / size(direction)),     1e-6, 0.,
+                                     (unsigned int)r.problem.entries.size(), 0,    j};
         double                     weight[4], total = 0.;
         for (double &w : weight)
           total += w = between(-0.1, 1.); // dual functions make some coefficients negative
         r.problem.entries.push_back({j, -1., -1. / mass[j]});
         for (unsigned int i = 0; i < 4; ++i)
-          r.problem.entries.push_back({n + (j + i) % n, weight[i] / total, weight[i] / total / mass[n + (j + i) % n]});
+          r.problem.entries.push_back(
+            {n + (j + i) % n, weight[i] / total, weight[i] / total / mass[n + (j + i) % n]});
         c.end = r.problem.entries.size();
         for (unsigned int i = c.begin; i < c.end; ++i)
           c.compliance += r.problem.entries[i].coefficient * r.problem.entries[i].over_mass;
@@ -62,7 +67,7 @@ namespace
   /// Violations, as shares of 1 m/s and of the largest impulse.
   struct Violation
   {
-    double penetration = 0., tension = 0., complementarity = 0., cone = 0., stick = 0., direction = 0.;
+    double       penetration = 0., tension = 0., complementarity = 0., cone = 0., stick = 0., direction = 0.;
     unsigned int n_open = 0, n_stick = 0, n_slip = 0;
 
     double largest() const
@@ -84,13 +89,13 @@ namespace
     Violation violation;
     for (unsigned int j = 0; j < impulse.size(); ++j)
       {
-        const auto  &c          = r.problem.constraints[j];
-        const Row    u          = r.problem.combine(c, velocity);
-        const double rate       = dot(u, c.normal) + r.gap_rate[j];
-        const Row    slip       = u - dot(u, c.normal) * c.normal;
-        const double normal     = dot(impulse[j], c.normal);
-        const Row    tangential = impulse[j] - normal * c.normal;
-        const double limit      = friction.coefficient(size(slip)) * normal;
+        const auto  &c            = r.problem.constraints[j];
+        const Row    u            = r.problem.combine(c, velocity);
+        const double rate         = dot(u, c.normal) + r.gap_rate[j];
+        const Row    slip         = u - dot(u, c.normal) * c.normal;
+        const double normal       = dot(impulse[j], c.normal);
+        const Row    tangential   = impulse[j] - normal * c.normal;
+        const double limit        = friction.coefficient(size(slip)) * normal;
         violation.penetration     = std::max(violation.penetration, -rate);
         violation.tension         = std::max(violation.tension, -normal / largest);
         violation.complementarity = std::max(violation.complementarity, std::abs(rate) * normal / largest);
@@ -104,8 +109,10 @@ namespace
           }
         else
           {
-            ++violation.n_slip; // the impulse on the master side is against the slip of the master over the slave
-            violation.direction = std::max(violation.direction, size(size(slip) * tangential + limit * slip) / largest);
+            ++violation
+                .n_slip; // the impulse on the master side is against the slip of the master over the slave
+            violation.direction =
+              std::max(violation.direction, size(size(slip) * tangential + limit * slip) / largest);
           }
       }
     return violation;
@@ -114,13 +121,13 @@ namespace
 
 int main()
 {
-  Check        check;
-  std::mt19937 random(1);
+  Check                   check;
+  std::mt19937            random(1);
   CoulombSolverParameters parameters;
   parameters.tolerance  = 1e-10;
   parameters.max_sweeps = 2000;
-  // The sweeps stop at changes of 1e-10; what is left is that over (1 - rate of convergence), at worst a hundredfold.
-  // A change of an impulse by one share of the largest changes velocities by some m/s here.
+  // The sweeps stop at changes of 1e-10; what is left is that over (1 - rate of convergence), at worst a
+  // hundredfold. A change of an impulse by one share of the largest changes velocities by some m/s here.
   constexpr double allowed = 1e-7;
 
   for (const double mu : {0., 0.3, 0.8})
@@ -132,14 +139,14 @@ int main()
         {
           const RandomProblem r        = make_problem(200, random);
           std::vector<Row>    velocity = r.velocity, impulse(200, Row{});
-          const auto          first    = solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
-          const Violation     now      = violation(r, impulse, friction);
-          worst.penetration            = std::max(worst.penetration, now.penetration);
-          worst.tension                = std::max(worst.tension, now.tension);
-          worst.complementarity        = std::max(worst.complementarity, now.complementarity);
-          worst.cone                   = std::max(worst.cone, now.cone);
-          worst.stick                  = std::max(worst.stick, now.stick);
-          worst.direction              = std::max(worst.direction, now.direction);
+          const auto first    = solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
+          const Violation now = violation(r, impulse, friction);
+          worst.penetration   = std::max(worst.penetration, now.penetration);
+          worst.tension       = std::max(worst.tension, now.tension);
+          worst.complementarity = std::max(worst.complementarity, now.complementarity);
+          worst.cone            = std::max(worst.cone, now.cone);
+          worst.stick           = std::max(worst.stick, now.stick);
+          worst.direction       = std::max(worst.direction, now.direction);
           worst.n_open += now.n_open;
           worst.n_stick += now.n_stick;
           worst.n_slip += now.n_slip;
@@ -168,7 +175,8 @@ int main()
               impulse.assign(200, Row{});
               solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
               const unsigned int active =
-                std::max_element(impulse.begin(), impulse.end(), [](const Row a, const Row b) { return size(a) < size(b); }) -
+                std::max_element(impulse.begin(), impulse.end(),
+                                 [](const Row a, const Row b) { return size(a) < size(b); }) -
                 impulse.begin();
               impulse[active] *= 1.0001;
               check.that("friction " + std::to_string(mu) + ": an impulse wrong by 1e-4 is noticed",
@@ -176,15 +184,16 @@ int main()
             }
         }
       const std::string name = "friction " + std::to_string(mu).substr(0, 3) + ": ";
-      std::printf("%s%u open, %u stick, %u slip; sweeps: %.1f cold (most %u), %.1f warm\n", name.c_str(), worst.n_open,
-                  worst.n_stick, worst.n_slip, cold / 20., most, warm / 20.);
+      std::printf("%s%u open, %u stick, %u slip; sweeps: %.1f cold (most %u), %.1f warm\n", name.c_str(),
+                  worst.n_open, worst.n_stick, worst.n_slip, cold / 20., most, warm / 20.);
       check.below(name + "penetration, m/s", worst.penetration, allowed);
       check.below(name + "tension, share of largest impulse", worst.tension, 0.);
       check.below(name + "rate x normal impulse, share", worst.complementarity, allowed);
       check.below(name + "beyond the cone, share", worst.cone, allowed);
       check.below(name + "slip where it sticks, m/s", worst.stick, allowed);
       check.below(name + "impulse not against slip, share", worst.direction, allowed);
-      check.that(name + "all states occur", worst.n_open > 0 && (mu == 0. || worst.n_stick > 0) && worst.n_slip > 0);
+      check.that(name + "all states occur",
+                 worst.n_open > 0 && (mu == 0. || worst.n_stick > 0) && worst.n_slip > 0);
       check.that(name + "sweeps end by the tolerance", most <= parameters.max_sweeps);
       check.that(name + "a warm start takes fewer sweeps", warm < cold);
     }

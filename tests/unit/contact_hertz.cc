@@ -25,10 +25,11 @@ namespace
     double       center_pressure = 0., counted_area = 0.; ///< largest nodal pressure, areas of loaded nodes
     unsigned int n_loaded = 0, iterations = 0;
     bool         touches_rim = false;
-    std::size_t  n_cells = 0;
+    std::size_t  n_cells     = 0;
   };
 
-  /// p^2 = p0^2 (1 - x^2/a^2 - y^2/b^2) by least squares over the nodes with more than a third of the largest pressure.
+  /// p^2 = p0^2 (1 - x^2/a^2 - y^2/b^2) by least squares over the nodes with more than a third of the largest
+  /// pressure.
   void fit(const std::vector<ContactNodeState> &states, Contacts &result)
   {
     std::vector<double> pressure;
@@ -68,7 +69,10 @@ namespace
 
   /// Body 1, whose support a rigid hub carries, rests on body 0 with the force given.
   /// @param axle of the hub at first touch.
-  Contacts press(const std::vector<Body> &bodies, const Row axle, const double force, const unsigned int slave)
+  Contacts press(const std::vector<Body> &bodies,
+                 const Row                axle,
+                 const double             force,
+                 const unsigned int       slave)
   {
     const Mesh         mesh(MPI_COMM_WORLD, bodies);
     const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
@@ -102,7 +106,12 @@ namespace
   }
 
   /// Sphere on a flat block, both cube-like with half-width and height size.
-  Contacts sphere(const double radius, const double force, const double size, const double h, const double a, const unsigned int slave)
+  Contacts sphere(const double       radius,
+                  const double       force,
+                  const double       size,
+                  const double       h,
+                  const double       a,
+                  const unsigned int slave)
   {
     FineZone zone;
     zone.finest_cell_size = h;
@@ -111,15 +120,17 @@ namespace
     zone.half_width       = 1.25 * a;
     zone.depth            = 0.6 * a;
     const Body flat       = tests::make_indenter("flat", size, 64. * h, 0., zone);
-    const Body cap = tests::turned(tests::make_indenter("cap", size, 64. * h, radius, zone), Point<3>(1., 0., 0.), dealii::numbers::PI);
+    const Body cap        = tests::turned(tests::make_indenter("cap", size, 64. * h, radius, zone),
+                                          Point<3>(1., 0., 0.), dealii::numbers::PI);
     return press({flat, cap}, Row{0., 0., size, 0.}, force, slave);
   }
 
   void print(const std::string &name, const Contacts &r)
   {
-    std::printf("%s%zu cells, %u iterations, %u loaded slave nodes, areas %.3f mm2, largest nodal pressure %.1f MPa%s\n", name.c_str(),
-                r.n_cells, r.iterations, r.n_loaded, 1e6 * r.counted_area, 1e-6 * r.center_pressure,
-                r.touches_rim ? ", touches the rim" : "");
+    std::printf("%s%zu cells, %u iterations, %u loaded slave nodes, areas %.3f mm2, largest nodal pressure "
+                "%.1f MPa%s\n",
+                name.c_str(), r.n_cells, r.iterations, r.n_loaded, 1e6 * r.counted_area,
+                1e-6 * r.center_pressure, r.touches_rim ? ", touches the rim" : "");
   }
 } // namespace
 
@@ -132,37 +143,45 @@ int main(int argc, char **argv)
 
   {
     const double radius = 0.05, force = 1000.;
-    const auto   hertz  = reference::hertz_sphere(radius, modulus, force);
+    const auto   hertz = reference::hertz_sphere(radius, modulus, force);
     check.relative("closed form: sphere, radius of contact, mm", 1e3 * hertz.semi_axis_x, 0.6875, 1e-3);
     double approach[2][2] = {};
     for (const unsigned int slave : {0u, 1u})
       {
         const double h = 0.07e-3, size = 64. * h * 4.;
-        for (const unsigned int i : slave == 0 ? std::vector<unsigned int>{0, 1} : std::vector<unsigned int>{0})
+        for (const unsigned int i :
+             slave == 0 ? std::vector<unsigned int>{0, 1} : std::vector<unsigned int>{0})
           {
-            const std::string name = std::string("sphere, ") + (slave ? "slave above" : "slave below") + (i ? ", twice the size: " : ": ");
-            const Contacts    r    = sphere(radius, force, (i + 1) * size, h, hertz.semi_axis_x, slave);
+            const std::string name = std::string("sphere, ") + (slave ? "slave above" : "slave below") +
+                                     (i ? ", twice the size: " : ": ");
+            const Contacts r = sphere(radius, force, (i + 1) * size, h, hertz.semi_axis_x, slave);
             print(name, r);
             approach[slave][i] = r.approach;
             check.relative(name + "force, N", r.force, force, 1e-3);
             check.that(name + "inside the fine zone", !r.touches_rim);
             // Ten cells across a radius.
-            check.relative(name + "largest pressure, MPa", 1e-6 * r.max_pressure, 1e-6 * hertz.max_pressure, 0.015);
+            check.relative(name + "largest pressure, MPa", 1e-6 * r.max_pressure, 1e-6 * hertz.max_pressure,
+                           0.015);
             check.relative(name + "a, mm", 1e3 * r.a, 1e3 * hertz.semi_axis_x, 0.015);
             check.relative(name + "b, mm", 1e3 * r.b, 1e3 * hertz.semi_axis_x, 0.015);
             check.relative(name + "area, mm2", 1e6 * pi * r.a * r.b, 1e6 * hertz.area, 0.015);
-            check.that(name + "a force wrong by 10 % is noticed",
-                       std::abs(r.max_pressure / reference::hertz_sphere(radius, modulus, 1.1 * force).max_pressure - 1.) > 0.015);
+            check.that(
+              name + "a force wrong by 10 % is noticed",
+              std::abs(r.max_pressure / reference::hertz_sphere(radius, modulus, 1.1 * force).max_pressure -
+                       1.) > 0.015);
           }
         if (slave == 1)
           {
-            check.relative("sphere: approach, slave above - slave below, um", 1e6 * approach[1][0], 1e6 * approach[0][0], 1e-3);
+            check.relative("sphere: approach, slave above - slave below, um", 1e6 * approach[1][0],
+                           1e6 * approach[0][0], 1e-3);
             continue;
           }
         // Far from the contact displacements die out as 1/distance: so does the effect of finite blocks.
         const double limit = 2. * approach[slave][1] - approach[slave][0];
-        std::printf("approach: %.3f um, twice the size %.3f um\n", 1e6 * approach[slave][0], 1e6 * approach[slave][1]);
-        check.relative("sphere: approach extrapolated to half-spaces, um", 1e6 * limit, 1e6 * hertz.approach, 0.015);
+        std::printf("approach: %.3f um, twice the size %.3f um\n", 1e6 * approach[slave][0],
+                    1e6 * approach[slave][1]);
+        check.relative("sphere: approach extrapolated to half-spaces, um", 1e6 * limit, 1e6 * hertz.approach,
+                       0.015);
       }
   }
 
@@ -196,21 +215,22 @@ int main(int argc, char **argv)
         sector.arc_end            = size;
         sector.coarsest_cell_size = 0.025;
         const std::string name    = std::string("wheel on rail") + (i ? ", twice the size: " : ": ");
-        const Contacts    r =
-          press({make_rail_block(block, zone), make_wheel_sector(sector, zone)}, Row{0., 0., radius, 0.}, force, 1);
+        const Contacts    r       = press({make_rail_block(block, zone), make_wheel_sector(sector, zone)},
+                                          Row{0., 0., radius, 0.}, force, 1);
         print(name, r);
         approach[i] = r.approach;
         check.relative(name + "force, kN", 1e-3 * r.force, 1e-3 * force, 1e-3);
         check.that(name + "inside the fine zone", !r.touches_rim);
         // Eight to ten cells across a semi-axis; (a/R)^2 is 3e-4, (a/size)^3 1e-3.
-        check.relative(name + "largest pressure, MPa", 1e-6 * r.max_pressure, 1e-6 * hertz.max_pressure, 0.015);
+        check.relative(name + "largest pressure, MPa", 1e-6 * r.max_pressure, 1e-6 * hertz.max_pressure,
+                       0.015);
         check.relative(name + "a, mm", 1e3 * r.a, 1e3 * hertz.semi_axis_x, 0.015);
         check.relative(name + "b, mm", 1e3 * r.b, 1e3 * hertz.semi_axis_y, 0.015);
         check.relative(name + "area, mm2", 1e6 * pi * r.a * r.b, 1e6 * hertz.area, 0.015);
       }
     std::printf("approach: %.3f um, twice the size %.3f um\n", 1e6 * approach[0], 1e6 * approach[1]);
-    check.relative("wheel on rail: approach extrapolated to half-spaces, um", 1e6 * (2. * approach[1] - approach[0]),
-                   1e6 * hertz.approach, 0.015);
+    check.relative("wheel on rail: approach extrapolated to half-spaces, um",
+                   1e6 * (2. * approach[1] - approach[0]), 1e6 * hertz.approach, 0.015);
   }
   return check.exit_code();
 }

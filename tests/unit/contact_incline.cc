@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A block on an inclined plane (gravity is vertical, so the plane is tilted): sticks or slides as Coulomb says.
+// A block on an inclined plane (gravity is vertical, so the plane is tilted): sticks or slides as Coulomb
+// says.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,8 +27,8 @@ namespace
 
   struct Result
   {
-    double       slide, acceleration, drift, friction_loss, normal_impulse, seconds; ///< m, m/s^2, m, J, N s, s
-    double       mass;
+    double slide, acceleration, drift, friction_loss, normal_impulse, seconds; ///< m, m/s^2, m, J, N s, s
+    double mass;
     unsigned int n_steps;
   };
 
@@ -37,17 +38,18 @@ namespace
     ElasticMaterial material;
     material.young_modulus = 3e7;
     material.density       = 1000.;
-    const Point<3> axis(0., 1., 0.);
-    const Mesh     mesh(
-      MPI_COMM_WORLD,
-      {tests::turned(tests::make_box("plane", Point<3>(0., -0.06, -0.03), Point<3>(0.9, 0.06, 0.), {{60, 7, 1}},
-                                     {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::support,
-                                       Boundary::contact}}),
-                     axis, slope),
-       tests::turned(tests::make_box("block", Point<3>(0.05, -0.04, 0.), Point<3>(0.05 + length, 0.04, height), {{6, 6, 2}},
-                                     {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact,
-                                       Boundary::free}}),
-                     axis, slope)});
+    const Point<3>     axis(0., 1., 0.);
+    const Mesh         mesh(MPI_COMM_WORLD,
+                            {tests::turned(tests::make_box("plane", Point<3>(0., -0.06, -0.03),
+                                                           Point<3>(0.9, 0.06, 0.), {{60, 7, 1}},
+                                                           {{Boundary::free, Boundary::free, Boundary::free,
+                                                             Boundary::free, Boundary::support, Boundary::contact}}),
+                                           axis, slope),
+                             tests::turned(tests::make_box("block", Point<3>(0.05, -0.04, 0.),
+                                                           Point<3>(0.05 + length, 0.04, height), {{6, 6, 2}},
+                                                           {{Boundary::free, Boundary::free, Boundary::free,
+                                                             Boundary::free, Boundary::contact, Boundary::free}}),
+                                           axis, slope)});
     const Solid        solid(mesh, {material, material}, SolidParameters());
     DynamicsParameters dynamics_parameters;
     dynamics_parameters.gravity       = gravity;
@@ -76,7 +78,7 @@ namespace
           in_block[i] = true;
     Result     result{0., 0., 0., 0., 0., 0., 0., 0};
     const auto mean = [&](const NodalField &field) {
-      double sum = 0.;
+      double sum  = 0.;
       result.mass = 0.;
       for (unsigned int i = 0; i < field.size(); ++i)
         if (in_block[i])
@@ -94,7 +96,8 @@ namespace
 
     for (unsigned int n = 0; n < test.steps_before; ++n)
       dynamics.step();
-    const double     v0 = mean(dynamics.v), x0 = mean(dynamics.x), t0 = dynamics.time, loss0 = dynamics.ledger().friction;
+    const double v0 = mean(dynamics.v), x0 = mean(dynamics.x), t0 = dynamics.time,
+                 loss0      = dynamics.ledger().friction;
     const NodalField before = dynamics.x;
     for (unsigned int n = 0; n < test.steps; ++n)
       {
@@ -120,7 +123,8 @@ int main(int argc, char **argv)
   for (const bool elastic : {false, true})
     for (const unsigned int slave : {1u, 0u})
       {
-        const std::string name = std::string(elastic ? "elastic plane, " : "rigid plane, ") + (slave ? "slave block: " : "slave plane: ");
+        const std::string name = std::string(elastic ? "elastic plane, " : "rigid plane, ") +
+                                 (slave ? "slave block: " : "slave plane: ");
         // The plane's own weight and the block's landing ring off within some thousand steps.
         const double friction = 0.2;
         const Result r        = run({friction, 1e-8, slave, elastic, 500, elastic ? 7000u : 9000u});
@@ -130,20 +134,25 @@ int main(int argc, char **argv)
         // Vibration that lasts; the weight itself is exact.
         check.relative(name + "acceleration, m/s2", r.acceleration, a, 0.01);
         check.relative(name + "normal force, N", r.normal_impulse / r.seconds, normal, 0.01);
-        check.relative(name + "friction loss, mJ", 1e3 * r.friction_loss, 1e3 * friction * normal * r.slide, 0.01);
+        check.relative(name + "friction loss, mJ", 1e3 * r.friction_loss, 1e3 * friction * normal * r.slide,
+                       0.01);
         check.that(name + "it slid over more than one face", r.slide > 0.015);
-        check.that(name + "friction wrong by 2 % is noticed",
-                   std::abs(r.acceleration / (gravity * (std::sin(slope) - 1.02 * friction * std::cos(slope))) - 1.) > 0.01);
+        check.that(
+          name + "friction wrong by 2 % is noticed",
+          std::abs(r.acceleration / (gravity * (std::sin(slope) - 1.02 * friction * std::cos(slope))) - 1.) >
+            0.01);
       }
   // tan(slope) = 0.365.
   for (const double friction : {0.40, 0.8})
     for (const unsigned int slave : {1u, 0u})
       {
-        const std::string name = "friction " + std::to_string(friction).substr(0, 4) + (slave ? ", slave block: " : ", slave plane: ");
-        const Result      r    = run({friction, 1e-14, slave, false, 5000, 10000});
+        const std::string name = "friction " + std::to_string(friction).substr(0, 4) +
+                                 (slave ? ", slave block: " : ", slave plane: ");
+        const Result r = run({friction, 1e-14, slave, false, 5000, 10000});
         // Stick is a condition on velocities: what creeps is what the solver leaves, here round-off.
         check.below(name + "drift in 1e4 steps, share of length", r.drift / length, 1e-9);
-        check.below(name + "friction loss, share of weight x height", r.friction_loss / (r.mass * gravity * height), 1e-9);
+        check.below(name + "friction loss, share of weight x height",
+                    r.friction_loss / (r.mass * gravity * height), 1e-9);
       }
   const Result loose = run({0.40, 1e-5, 1, false, 5000, 10000});
   check.below("usual tolerance: drift in 1e4 steps, share of length", loose.drift / length, 1e-6);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Two free blocks fly into each other obliquely, with friction and meshes that do not match: momentum, energy, ranks.
+// Two free blocks fly into each other obliquely, with friction and meshes that do not match: momentum,
+// energy, ranks.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,7 +19,7 @@ using dealii::Point;
 namespace
 {
   constexpr unsigned int n_steps = 1600;
-  constexpr double       edge    = 0.02, face = 0.02 / 5.; // of the blocks, and of their smaller faces, m
+  constexpr double       edge = 0.02, face = 0.02 / 5.; // of the blocks, and of their smaller faces, m
 
   Row cross(const Row a, const Row b)
   {
@@ -41,11 +42,12 @@ namespace
   {
     Momentum     before, after;
     EnergyLedger energy;
-    Row          impulse{};             ///< total on the master
-    double       largest_energy = 0.;   ///< kinetic and strain energy over that at the start
-    unsigned int n_touching     = 0;    ///< steps with contact
+    Row          impulse{};           ///< total on the master
+    double       largest_energy = 0.; ///< kinetic and strain energy over that at the start
+    unsigned int n_touching     = 0;  ///< steps with contact
     bool         touches_at_end = true;
-    std::map<std::tuple<long, long, long, unsigned int>, Row> velocities; ///< of owned nodes, by reference position (nm) and body
+    std::map<std::tuple<long, long, long, unsigned int>, Row>
+      velocities; ///< of owned nodes, by reference position (nm) and body
   };
 
   Momentum momentum(const ExplicitDynamics &dynamics, const std::vector<unsigned int> &body_of)
@@ -73,20 +75,19 @@ namespace
 
   Result run(const MPI_Comm comm, const unsigned int slave, const double sliding_share)
   {
-    const std::array<Boundary, 6> top{{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free,
-                                       Boundary::contact}},
-      bottom{{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact, Boundary::free}};
+    const std::array<Boundary, 6> top{
+      {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact}},
+      bottom{
+        {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact, Boundary::free}};
     const Body lower =
       tests::make_box("lower", Point<3>(0., 0., -0.02), Point<3>(0.02, 0.02, 0.), {{3, 3, 3}}, top);
     // An edge strikes first, the block turns, and its whole face follows.
     const double tilt  = 0.01;
     const Body   upper = tests::turned(
-      tests::turned(tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(0.018, 0.017, 0.015), {{5, 4, 4}}, bottom),
-                    Point<3>(0., 1., 0.),
-                    tilt),
-      Point<3>(0., 0., 1.),
-      0.3,
-      dealii::Tensor<1, 3>({0.004, -0.001, 0.018 * std::sin(tilt) + 2e-6}));
+        tests::turned(
+          tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(0.018, 0.017, 0.015), {{5, 4, 4}}, bottom),
+          Point<3>(0., 1., 0.), tilt),
+        Point<3>(0., 0., 1.), 0.3, dealii::Tensor<1, 3>({0.004, -0.001, 0.018 * std::sin(tilt) + 2e-6}));
     const Mesh         mesh(comm, {lower, upper});
     const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
     DynamicsParameters dynamics_parameters;
@@ -95,8 +96,8 @@ namespace
     dynamics_parameters.courant_number = 0.2; // see the ledger below
     ExplicitDynamics  dynamics(mesh, solid, dynamics_parameters);
     ContactParameters contact_parameters;
-    contact_parameters.slave_body  = slave;
-    contact_parameters.master_body = 1 - slave;
+    contact_parameters.slave_body    = slave;
+    contact_parameters.master_body   = 1 - slave;
     contact_parameters.sliding_share = sliding_share;
     // Sweeps that end elsewhere on other ranks must not hide behind the tolerance.
     contact_parameters.solver.tolerance  = 1e-13;
@@ -113,7 +114,7 @@ namespace
     dynamics.start();
 
     Result result;
-    result.before = momentum(dynamics, body_of);
+    result.before       = momentum(dynamics, body_of);
     double last_kinetic = 0., strain = 0.;
     for (unsigned int n = 0; n < n_steps; ++n)
       {
@@ -125,7 +126,8 @@ namespace
         // Kinetic energy half a step before and after the instant of the strain energy.
         const double kinetic = momentum(dynamics, body_of).kinetic;
         if (n % 20 == 1)
-          result.largest_energy = std::max(result.largest_energy, 0.5 * (last_kinetic + kinetic) - result.before.kinetic + strain);
+          result.largest_energy =
+            std::max(result.largest_energy, 0.5 * (last_kinetic + kinetic) - result.before.kinetic + strain);
         if (n % 20 == 0)
           {
             const EnergyLedger energy = dynamics.ledger();
@@ -152,15 +154,18 @@ int main(int argc, char **argv)
       const std::string name     = slave == 0 ? "slave below: " : "slave above: ";
       const Result      r        = run(MPI_COMM_WORLD, slave, 0.02);
       const double      transfer = size(r.impulse);
-      std::printf("%scontact in %u steps, impulse %.4f N s, kinetic energy %.4f -> %.4f J, friction %.3e J, normal %.3e J, "
+      std::printf("%scontact in %u steps, impulse %.4f N s, kinetic energy %.4f -> %.4f J, friction %.3e J, "
+                  "normal %.3e J, "
                   "strain %.3e J\n",
-                  name.c_str(), r.n_touching, transfer, r.before.kinetic, r.after.kinetic, r.energy.friction, r.energy.contact,
-                  r.energy.strain);
+                  name.c_str(), r.n_touching, transfer, r.before.kinetic, r.after.kinetic, r.energy.friction,
+                  r.energy.contact, r.energy.strain);
       check.that(name + "they touch and part", r.n_touching > 20 && !r.touches_at_end);
       // Round-off of 1600 steps, each of the coupling's rows summing to zero within a bit or two.
-      check.below(name + "change of linear momentum, share of impulse", size(r.after.linear - r.before.linear) / transfer, 1e-13);
+      check.below(name + "change of linear momentum, share of impulse",
+                  size(r.after.linear - r.before.linear) / transfer, 1e-13);
       check.below(name + "momentum of master - impulse, share",
-                  size(r.after.of_body[1 - slave] - r.before.of_body[1 - slave] - r.impulse) / transfer, 1e-12);
+                  size(r.after.of_body[1 - slave] - r.before.of_body[1 - slave] - r.impulse) / transfer,
+                  1e-12);
       // The coupling's arms are exact when it is integrated; sliding by up to a share of a face before it is
       // integrated anew leaves a couple of impulse x slide.
       check.below(name + "change of angular momentum, share of impulse x edge",
@@ -168,16 +173,20 @@ int main(int argc, char **argv)
       const Result finer = run(MPI_COMM_WORLD, slave, 0.002);
       // Ten times less of it; the rest are gaps and turned normals within a step, about twice as much.
       check.below(name + "the same, search ten times as often",
-                  size(finer.after.angular - finer.before.angular) / (transfer * edge), 3. * 0.002 * face / edge);
+                  size(finer.after.angular - finer.before.angular) / (transfer * edge),
+                  3. * 0.002 * face / edge);
       // The blocks' oscillation while they strike takes part in the same (omega dt)^2/2, see below.
       check.below(name + "gain of energy, share", std::max(0., r.largest_energy) / r.before.kinetic, 1e-3);
       check.that(name + "energy is lost in the end", r.after.kinetic < r.before.kinetic);
       check.that(name + "friction takes energy", r.energy.friction > 0.);
-      // Strain energy at n and kinetic energy at n - 1/2 miss each other by (omega dt)^2/2 of what vibrates, here 4 %
-      // of the kinetic energy with frequencies up to 0.4/dt.
-      check.below(name + "residual of the energy ledger, share", r.energy.residual() / r.before.kinetic, 1e-3);
+      // Strain energy at n and kinetic energy at n - 1/2 miss each other by (omega dt)^2/2 of what vibrates,
+      // here 4 % of the kinetic energy with frequencies up to 0.4/dt.
+      check.below(name + "residual of the energy ledger, share", r.energy.residual() / r.before.kinetic,
+                  1e-3);
       check.that(name + "a wrong impulse of 1e-10 is noticed",
-                 size(r.after.of_body[1 - slave] - r.before.of_body[1 - slave] - (1. + 1e-10) * r.impulse) / transfer > 1e-12);
+                 size(r.after.of_body[1 - slave] - r.before.of_body[1 - slave] - (1. + 1e-10) * r.impulse) /
+                     transfer >
+                   1e-12);
 
       // The same alone on each rank.
       const Result alone      = run(MPI_COMM_SELF, slave, 0.02);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Contact patch test: uniform pressure must pass through an interface whose meshes do not match (Taylor & Papadopoulos 1991).
+// Contact patch test: uniform pressure must pass through an interface whose meshes do not match (Taylor &
+// Papadopoulos 1991).
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -57,23 +58,19 @@ namespace
   void run(const Case &test, const MPI_Comm comm, Check &check)
   {
     const Point<3> axis(0.6, 0., 0.8);
-    const Body     lower = tests::turned(tests::make_box("lower",
-                                                     Point<3>(0., 0., -edge),
-                                                     Point<3>(edge, edge, 0.),
-                                                     {{test.n_lower, test.n_lower, test.n_lower}},
-                                                     {{Boundary::free, Boundary::free, Boundary::free, Boundary::free,
-                                                           Boundary::support, Boundary::contact}}),
-                                     axis,
-                                     test.tilt);
-    const Body     upper = tests::turned(tests::make_box("upper",
-                                                     Point<3>(0., 0., 0.),
-                                                     Point<3>(edge, edge, edge),
-                                                     {{test.n_upper, test.n_upper, test.n_upper}},
-                                                     {{Boundary::free, Boundary::free, Boundary::free, Boundary::free,
-                                                           Boundary::contact, Boundary::end}}),
-                                     axis,
-                                     test.tilt);
-    const Mesh     mesh(comm, {lower, upper});
+    const Body     lower =
+      tests::turned(tests::make_box("lower", Point<3>(0., 0., -edge), Point<3>(edge, edge, 0.),
+                                    {{test.n_lower, test.n_lower, test.n_lower}},
+                                    {{Boundary::free, Boundary::free, Boundary::free, Boundary::free,
+                                      Boundary::support, Boundary::contact}}),
+                    axis, test.tilt);
+    const Body upper =
+      tests::turned(tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(edge, edge, edge),
+                                    {{test.n_upper, test.n_upper, test.n_upper}},
+                                    {{Boundary::free, Boundary::free, Boundary::free, Boundary::free,
+                                      Boundary::contact, Boundary::end}}),
+                    axis, test.tilt);
+    const Mesh      mesh(comm, {lower, upper});
     ElasticMaterial material;
     material.poisson_ratio = 0.; // then uniaxial stress is exact with the bottom held in all directions
     const Solid        solid(mesh, {material, material}, SolidParameters());
@@ -139,7 +136,8 @@ namespace
         const double tensor[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
-            stress_error = std::max(stress_error, std::abs(tensor[i][j] + pressure * up[i] * up[j]) / pressure);
+            stress_error =
+              std::max(stress_error, std::abs(tensor[i][j] + pressure * up[i] * up[j]) / pressure);
       }
     stress_error = dealii::Utilities::MPI::max(stress_error, comm);
 
@@ -147,8 +145,8 @@ namespace
     const unsigned int                  n      = (test.slave == 0 ? test.n_lower : test.n_upper) + 1;
     std::printf("%s: %u iterations\n", test.name.c_str(), iterations);
     check.absolute(test.name + ": loaded slave nodes", states.size(), n * n, 0.);
-    // Exact but for the relaxation (1e-9 of the load; single nodes and cells have a larger share of it) and the
-    // strain of 5e-4 that turns the reference area into the present one.
+    // Exact but for the relaxation (1e-9 of the load; single nodes and cells have a larger share of it) and
+    // the strain of 5e-4 that turns the reference area into the present one.
     check.below(test.name + ": contact pressure, share", deviation(states), 1e-6);
     check.below(test.name + ": cell stresses, share", stress_error, 1e-6);
     check.below(test.name + ": load - contact force, share", size(force[1] - load * up) / load, 1e-7);
@@ -157,7 +155,8 @@ namespace
     // Every entry of a row is scaled and summed once: some 1e-16 for each of the nodes.
     check.below(test.name + ": sum of forces, share", size(force[0] + force[1]) / load, 1e-13);
     // Gaps are closed only as well as the bodies are in balance.
-    check.below(test.name + ": sum of moments, share of load x edge", size(moment[0] + moment[1]) / (load * edge), 1e-9);
+    check.below(test.name + ": sum of moments, share of load x edge",
+                size(moment[0] + moment[1]) / (load * edge), 1e-9);
     check.that(test.name + ": 0.1 % at one node is noticed", deviation(states, 1.001) > 1e-6);
   }
 } // namespace
@@ -166,13 +165,11 @@ int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   Check                                    check;
-  for (const Case &test : {Case{"1:1", 4, 4, 0, 0.},
-                           Case{"2:3, slave below", 2, 3, 0, 0.},
-                           Case{"2:3, slave above", 2, 3, 1, 0.},
-                           Case{"2:3 tilted, slave below", 2, 3, 0, 0.7},
-                           Case{"2:3 tilted, slave above", 2, 3, 1, 0.7},
-                           Case{"1:7, slave below", 1, 7, 0, 0.},
-                           Case{"1:7, slave above", 1, 7, 1, 0.}})
+  for (const Case &test :
+       {Case{"1:1", 4, 4, 0, 0.}, Case{"2:3, slave below", 2, 3, 0, 0.},
+        Case{"2:3, slave above", 2, 3, 1, 0.}, Case{"2:3 tilted, slave below", 2, 3, 0, 0.7},
+        Case{"2:3 tilted, slave above", 2, 3, 1, 0.7}, Case{"1:7, slave below", 1, 7, 0, 0.},
+        Case{"1:7, slave above", 1, 7, 1, 0.}})
     run(test, MPI_COMM_WORLD, check);
   return check.exit_code();
 }

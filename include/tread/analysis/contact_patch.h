@@ -23,16 +23,19 @@ namespace tread
   /// Measures of a contact patch, SI units.
   struct PatchMeasures
   {
-    double area = 0., max_pressure = 0., adhesion_share = 0., max_shear = 0., max_slip = 0., frictional_power = 0.;
+    double area = 0., max_pressure = 0., adhesion_share = 0., max_shear = 0., max_slip = 0.,
+           frictional_power = 0.;
     /// Half of the extent of the nodes in contact and their cells.
     double semi_axis_x = 0., semi_axis_y = 0.;
-    /// Semi-axes of the Hertzian ellipse with the same second moments of pressure, a^2 = 5 int p x^2 / int p: finer than a cell.
+    /// Semi-axes of the Hertzian ellipse with the same second moments of pressure, a^2 = 5 int p x^2 / int p:
+    /// finer than a cell.
     double pressure_semi_axis_x = 0., pressure_semi_axis_y = 0.;
   };
 
   /// The patch of one instant. @param centre_x where the wheel's centre stands, m; @param time_step s.
-  std::vector<PatchNode>
-  patch_nodes(const std::vector<ContactNodeState> &states, const double centre_x, const double time_step);
+  std::vector<PatchNode> patch_nodes(const std::vector<ContactNodeState> &states,
+                                     const double                         centre_x,
+                                     const double                         time_step);
 
   PatchMeasures measure(const std::vector<PatchNode> &patch);
 
@@ -63,7 +66,7 @@ namespace tread
     std::map<unsigned int, Sum> sums;
     PatchMeasures               measure_sums;
     double                      centre_sum = 0.;
-    unsigned int                steps = 0;
+    unsigned int                steps      = 0;
 
     friend class Checkpoint;
   };

@@ -38,7 +38,7 @@ namespace tread
       std::vector<unsigned int> nodes; ///< local numbers, in the order of global ids
     };
 
-    MPI_Comm                    comm = MPI_COMM_SELF;
+    MPI_Comm                    comm      = MPI_COMM_SELF;
     int                         this_rank = 0;
     std::vector<Neighbour>      neighbours; ///< ascending ranks
     std::vector<unsigned int>   shared;     ///< all nodes that have a copy elsewhere

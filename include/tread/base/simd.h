@@ -30,11 +30,12 @@ namespace tread
   template <typename T>
   struct AlignedAllocator
   {
-    using value_type = T;
+    using value_type   = T;
     AlignedAllocator() = default;
     template <typename U>
     AlignedAllocator(const AlignedAllocator<U> &)
-    {}
+    {
+    }
     T *allocate(const std::size_t n)
     {
       return static_cast<T *>(::operator new(n * sizeof(T), std::align_val_t(64)));
@@ -79,9 +80,9 @@ namespace tread
         const auto ab_odd  = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
         const auto cd_even = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
         const auto cd_odd  = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-        x = __builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 4, 5, 12, 13);
-        y = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13);
-        z = __builtin_shufflevector(ab_even, cd_even, 2, 3, 10, 11, 6, 7, 14, 15);
+        x                  = __builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 4, 5, 12, 13);
+        y                  = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+        z                  = __builtin_shufflevector(ab_even, cd_even, 2, 3, 10, 11, 6, 7, 14, 15);
       }
     else if constexpr (sizeof(L) == 32)
       {
@@ -90,9 +91,9 @@ namespace tread
         const auto ab_odd  = __builtin_shufflevector(a, b, 1, 5, 3, 7);
         const auto cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
         const auto cd_odd  = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-        x = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
-        y = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
-        z = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+        x                  = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+        y                  = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+        z                  = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
       }
     else
       for (unsigned int i = 0; i < n_lanes; ++i)

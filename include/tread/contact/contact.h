@@ -23,10 +23,10 @@ namespace tread
   /// What the last step did at one slave node.
   struct ContactNodeState
   {
-    unsigned int node; ///< surface node
-    Row          position, normal, impulse, slip; ///< m, -, N s (on the master surface), m/s (master over slave)
-    double       area, gap;                       ///< m^2, m
-    bool         adhesion;
+    unsigned int node;                      ///< surface node
+    Row    position, normal, impulse, slip; ///< m, -, N s (on the master surface), m/s (master over slave)
+    double area, gap;                       ///< m^2, m
+    bool   adhesion;
   };
 
   /// Work of one step's impulses, J: lost by friction, and by normal impulses (touching down, or
@@ -43,7 +43,9 @@ namespace tread
   class Contact
   {
   public:
-    Contact(const Mesh &mesh, const ContactParameters &parameters, std::shared_ptr<const FrictionLaw> friction);
+    Contact(const Mesh                        &mesh,
+            const ContactParameters           &parameters,
+            std::shared_ptr<const FrictionLaw> friction);
 
     /// Nodal inverse masses (1/kg; 0 where motion is prescribed), by node of this rank. Collective.
     void set_inverse_masses(const std::vector<double> &inverse_masses);
@@ -66,8 +68,8 @@ namespace tread
       return time_since_refresh >= time_to_refresh || travelled >= allowed_travel;
     }
 
-    /// Sum extra (n numbers) over the ranks in their order, and gather the predicted velocities of the nodes that
-    /// may touch: v + time_step * force / m. Collective; the only one of a step.
+    /// Sum extra (n numbers) over the ranks in their order, and gather the predicted velocities of the nodes
+    /// that may touch: v + time_step * force / m. Collective; the only one of a step.
     void predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra);
 
     /// Solve for the impulses and add them, divided by time_step, to the forces on this rank's nodes.
@@ -114,7 +116,9 @@ namespace tread
     std::array<double, 2> largest_speeds(const Row *v) const;
     /// Normals follow the turning of the slave faces between two refreshes.
     void update_normals();
-    void compact(const MortarCoupling &coupling, const std::vector<unsigned int> &chosen, const std::vector<Row> &x);
+    void compact(const MortarCoupling            &coupling,
+                 const std::vector<unsigned int> &chosen,
+                 const std::vector<Row>          &x);
 
     MPI_Comm                           comm;
     ContactParameters                  parameters;
@@ -122,21 +126,21 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
-    ContactProblem            problem;
-    std::vector<unsigned int> involved;               ///< surface nodes, by compact number
+    ContactProblem                         problem;
+    std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
     std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-    std::vector<Row>          position, velocity, velocity_before; ///< by compact number
-    std::vector<Row>          nodal_impulse;          ///< of the last step, by compact number
-    std::vector<Row>          impulse, previous_impulse; ///< by constraint
-    std::vector<double>       gap_rate;
-    std::vector<double>       slid;                   ///< since the last refresh, m
+    std::vector<Row>                       position, velocity, velocity_before; ///< by compact number
+    std::vector<Row>                       nodal_impulse;             ///< of the last step, by compact number
+    std::vector<Row>                       impulse, previous_impulse; ///< by constraint
+    std::vector<double>                    gap_rate;
+    std::vector<double>                    slid;        ///< since the last refresh, m
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
-    unsigned int              steps_since_normals = 0;
-    std::vector<double>       send_buffer, receive_buffer;
-    double                    time_since_refresh = 0., time_to_refresh = 0.;
-    double                    travelled = 0., allowed_travel = 0.; ///< sums of largest speeds, m
+    unsigned int                           steps_since_normals = 0;
+    std::vector<double>                    send_buffer, receive_buffer;
+    double                                 time_since_refresh = 0., time_to_refresh = 0.;
+    double                                 travelled = 0., allowed_travel = 0.; ///< sums of largest speeds, m
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
   };

@@ -20,9 +20,9 @@ namespace tread
     struct Node
     {
       unsigned int body;
-      bool         at_rim; ///< belongs to a face that was left out
-      int          owner;  ///< rank
-      int          local;  ///< node number on this rank, -1 if it has no copy
+      bool         at_rim;    ///< belongs to a face that was left out
+      int          owner;     ///< rank
+      int          local;     ///< node number on this rank, -1 if it has no copy
       Row          reference; ///< position, m
     };
 

@@ -16,14 +16,14 @@ namespace tread
     struct Constraint
     {
       Row          normal;
-      double       area;         ///< m^2
-      double       compliance;   ///< sum c^2 / m, 1/kg
-      unsigned int begin, end;   ///< range of entries
-      unsigned int slave;        ///< surface node
+      double       area;       ///< m^2
+      double       compliance; ///< sum c^2 / m, 1/kg
+      unsigned int begin, end; ///< range of entries
+      unsigned int slave;      ///< surface node
     };
     struct Entry
     {
-      unsigned int node; ///< compact number
+      unsigned int node;                   ///< compact number
       double       coefficient, over_mass; ///< c and c / m
     };
 
@@ -48,7 +48,7 @@ namespace tread
   struct CoulombSolverParameters
   {
     /// Sweeps end when no impulse changes by more than this share of the largest one.
-    double       tolerance = 1e-7;
+    double       tolerance  = 1e-7;
     unsigned int max_sweeps = 200;
   };
 

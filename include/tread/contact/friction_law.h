@@ -20,7 +20,8 @@ namespace tread
   public:
     explicit CoulombFriction(const double coefficient)
       : value(coefficient)
-    {}
+    {
+    }
 
     double coefficient(const double) const override
     {

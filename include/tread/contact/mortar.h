@@ -29,20 +29,20 @@ namespace tread
   /// c = (M - D) / area with D_jk = int psi_j N_k^slave, M_jl = int psi_j N_l^master and dual
   /// functions psi_j = sum_k A_jk N_k, int psi_j N_k = delta_jk int N_k over a whole slave face
   /// (Wohlmuth 2000; Popp, Gitterle, Gee & Wall 2010). Faces are cut against each other in the
-  /// plane of the slave face (Puso & Laursen 2004) and integrated exactly to degree 4. On slave faces that the
-  /// master surface covers only in part psi_j = N_j.
+  /// plane of the slave face (Puso & Laursen 2004) and integrated exactly to degree 4. On slave faces that
+  /// the master surface covers only in part psi_j = N_j.
   struct MortarCoupling
   {
     std::vector<MortarRow>   rows;
     std::vector<MortarEntry> entries;
-    double                   time_to_touch; ///< shortest gap over closing speed of faces beyond half the reach, s
+    double time_to_touch; ///< shortest gap over closing speed of faces beyond half the reach, s
   };
 
   /// Couple slave_body's surface to master_body's.
   /// @param x, v positions and velocities of all surface nodes.
   /// @param search_reach faces further apart than this (m) are not looked at.
-  /// @param reach slave nodes get a row if a face around them is nearer than this (m) to the master surface, and
-  /// at least half of their faces is covered by it.
+  /// @param reach slave nodes get a row if a face around them is nearer than this (m) to the master surface,
+  /// and at least half of their faces is covered by it.
   MortarCoupling couple(const ContactSurfaces  &surfaces,
                         const std::vector<Row> &x,
                         const std::vector<Row> &v,

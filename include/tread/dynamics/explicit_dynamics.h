@@ -66,8 +66,8 @@ namespace tread
 
     void attach_contact(Contact &contact);
 
-    /// Largest stable time step with the damping asked for, s: from the highest frequency of the mesh. Collective;
-    /// costs some 80 force evaluations the first time, when all supports must have been set.
+    /// Largest stable time step with the damping asked for, s: from the highest frequency of the mesh.
+    /// Collective; costs some 80 force evaluations the first time, when all supports must have been set.
     double critical_time_step() const;
 
     /// Give the nodes of the wheel the velocities of the hub's rigid motion at their present positions.
@@ -83,7 +83,8 @@ namespace tread
     /// masses that give every cell the same frequency. Contact is frictionless here.
     /// @param tolerance of the force balance, share of the largest force.
     /// @returns the number of iterations. @throws std::runtime_error if max_iterations do not do.
-    unsigned int relax(const double tolerance, const unsigned int max_iterations,
+    unsigned int relax(const double                                     tolerance,
+                       const unsigned int                               max_iterations,
                        const std::function<void(unsigned int, double)> &progress);
 
     /// Energies half a step back, the instant of the velocities. Collective; costs about one step.
@@ -92,11 +93,11 @@ namespace tread
     /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
     void check_stability() const;
 
-    NodalField x, v; ///< positions, m, and velocities (half a step back), m/s
-    NodalField external_force; ///< N, by node; empty if none
-    double     time = 0., time_step = 0.;
+    NodalField    x, v;           ///< positions, m, and velocities (half a step back), m/s
+    NodalField    external_force; ///< N, by node; empty if none
+    double        time = 0., time_step = 0.;
     std::uint64_t n_steps = 0;
-    StepTimes  times;
+    StepTimes     times;
 
     const std::vector<double> &inverse_masses() const
     {
@@ -113,16 +114,16 @@ namespace tread
 
   private:
     /// Time step, inverse masses and all that follows from positions and velocities.
-    void   set_inertia();
+    void                set_inertia();
     std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
     mutable double      critical_step = 0.;
-    void   add_hub_sums(std::vector<double> &sums) const;
-    void   move_hub_nodes();
-    double kinetic_energy() const;
-    double body_potential(const NodalField &positions) const;
+    void                add_hub_sums(std::vector<double> &sums) const;
+    void                move_hub_nodes();
+    double              kinetic_energy() const;
+    double              body_potential(const NodalField &positions) const;
     /// Positions at the instant of the velocities, half a step back: there kinetic energy and work are known.
     NodalField positions_with_velocities() const;
-    void   sample_damping();
+    void       sample_damping();
 
     DynamicsParameters        parameters;
     NodalField                force, x_damped;
@@ -130,12 +131,12 @@ namespace tread
     std::vector<char>         fixed, carried, on_wheel;
     std::vector<unsigned int> hub_nodes;
     std::vector<Row>          hub_reference; ///< relative to the axle
-    WheelHub                 *hub     = nullptr;
-    Contact                  *contact = nullptr;
+    WheelHub                 *hub                      = nullptr;
+    Contact                  *contact                  = nullptr;
     double                    nominal_angular_velocity = 0.;
     std::vector<double>       hub_sums;
 
-    EnergyLedger  totals;      ///< accumulated by step()
+    EnergyLedger  totals; ///< accumulated by step()
     double        start_kinetic = 0., start_potential = 0.;
     StrainEnergy  start_strain;
     double        start_hub_work = 0., start_hub_gross = 0.;

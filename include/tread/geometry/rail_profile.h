@@ -13,14 +13,15 @@ namespace tread
   /// cancellation; 0 for an infinite radius (m).
   double crown_height(double y, double radius);
 
-  /// A piece of an outline in the (y, z) plane: a straight line or a circular arc. Lengths in m, angles in rad.
+  /// A piece of an outline in the (y, z) plane: a straight line or a circular arc. Lengths in m, angles in
+  /// rad.
   struct OutlinePiece
   {
     dealii::Point<2> begin;
     dealii::Point<2> end;
     bool             straight = true;
-    dealii::Point<2> center;          ///< of an arc
-    double           radius = 0.;     ///< of an arc
+    dealii::Point<2> center;           ///< of an arc
+    double           radius      = 0.; ///< of an arc
     double           angle_begin = 0.; ///< of an arc: point = center + radius (cos, sin)
     double           angle_end   = 0.;
 
@@ -39,8 +40,8 @@ namespace tread
     double inertia_z;       ///< second moment about the vertical axis: lateral bending (m^4)
   };
 
-  /// The section of a flat-bottom rail (EN 13674-1), made of lines and arcs that meet tangentially. y is lateral, z up
-  /// and zero on the rail top. Only the right half (y >= 0) is stored.
+  /// The section of a flat-bottom rail (EN 13674-1), made of lines and arcs that meet tangentially. y is
+  /// lateral, z up and zero on the rail top. Only the right half (y >= 0) is stored.
   class RailProfile
   {
   public:
@@ -50,21 +51,22 @@ namespace tread
     const std::string &name() const;
     double             height() const; ///< foot base to rail top (m)
 
-    /// Height of the running surface (m, negative below the top), for |y| <= head_half_width(): the crown arcs, the
-    /// gauge corner and the flank, exactly.
+    /// Height of the running surface (m, negative below the top), for |y| <= head_half_width(): the crown
+    /// arcs, the gauge corner and the flank, exactly.
     double z_top(double y) const;
 
     /// Radius of the crown's middle arc (m).
     double crown_radius() const;
 
-    /// The head's outline at the arc length |s| from the rail top, down to the lower end of the flank; negative s is the
-    /// left half: y(-s) = -y(s). |s| <= head_length().
+    /// The head's outline at the arc length |s| from the rail top, down to the lower end of the flank;
+    /// negative s is the left half: y(-s) = -y(s). |s| <= head_length().
     dealii::Point<2> head_point(double s) const;
 
-    double head_length() const;      ///< arc length from the rail top to the lower end of the flank (m)
-    double shoulder_length() const;  ///< arc length from the rail top to the middle of the gauge corner arc (m)
-    double head_depth() const;       ///< lower end of the flank below the rail top, without the rounding there (m)
-    double head_half_width() const;  ///< y at the lower end of the flank, without the rounding there (m)
+    double head_length() const; ///< arc length from the rail top to the lower end of the flank (m)
+    double shoulder_length()
+      const;                   ///< arc length from the rail top to the middle of the gauge corner arc (m)
+    double head_depth() const; ///< lower end of the flank below the rail top, without the rounding there (m)
+    double head_half_width() const; ///< y at the lower end of the flank, without the rounding there (m)
 
     /// The right half of the whole section from the rail top clockwise to the middle of the base.
     const std::vector<OutlinePiece> &half_outline() const;

@@ -38,7 +38,10 @@ namespace tread
   /// small strain under any rotation. T is double or a vector of lanes; symmetric tensors
   /// are stored as xx, yy, zz, xy, yz, zx.
   template <typename T>
-  inline void saint_venant_kirchhoff(const double lambda, const double mu, const T (&strain)[6], T (&stress)[6])
+  inline void saint_venant_kirchhoff(const double lambda,
+                                     const double mu,
+                                     const T (&strain)[6],
+                                     T (&stress)[6])
   {
     const T pressure_part = lambda * (strain[0] + strain[1] + strain[2]);
     for (unsigned int i = 0; i < 3; ++i)

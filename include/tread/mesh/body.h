@@ -3,8 +3,8 @@
 #define tread_mesh_body_h
 
 #include <deal.II/base/point.h>
-#include <deal.II/grid/tria_description.h>
 #include <deal.II/grid/manifold.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <functional>
 #include <memory>
@@ -26,9 +26,9 @@ namespace tread
   /// refines them and puts the nodes onto the true surfaces. Lengths in m.
   struct Body
   {
-    std::string                           name;
-    std::vector<dealii::Point<3>>         vertices; ///< of the coarse cells, in chart coordinates
-    std::vector<dealii::CellData<3>>      cells;    ///< vertex numbers from 0, deal.II's (lexicographic) order
+    std::string                      name;
+    std::vector<dealii::Point<3>>    vertices; ///< of the coarse cells, in chart coordinates
+    std::vector<dealii::CellData<3>> cells;    ///< vertex numbers from 0, deal.II's (lexicographic) order
 
     /// How new vertices are placed while refining; null: straight in chart coordinates.
     std::shared_ptr<const dealii::Manifold<3>> manifold;

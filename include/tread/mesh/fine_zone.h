@@ -9,16 +9,16 @@ namespace tread
   /// The box under the contact path in which the cells have the finest size, and how fast they may
   /// grow around it. On the rail x is the coordinate along the rail; on the wheel it is the arc length
   /// along the tread (at the running radius), zero at the lowest point of the reference configuration
-  /// and positive towards +x. y is lateral, depth is measured inwards from the surface. Lengths in m. The octree rounds
-  /// the box outwards to whole cells of 2h: a depth of 2h, 4h, ... is filled exactly.
+  /// and positive towards +x. y is lateral, depth is measured inwards from the surface. Lengths in m. The
+  /// octree rounds the box outwards to whole cells of 2h: a depth of 2h, 4h, ... is filled exactly.
   struct FineZone
   {
-    double finest_cell_size = 1e-3;  ///< edge of the cells in the box, h (m)
-    double x_begin          = -0.02; ///< contact path, margin for the patch included (m)
-    double x_end            = 0.02;  ///< (m)
-    double half_width       = 9e-3;  ///< the box is |y| <= half_width (m)
+    double finest_cell_size = 1e-3;   ///< edge of the cells in the box, h (m)
+    double x_begin          = -0.02;  ///< contact path, margin for the patch included (m)
+    double x_end            = 0.02;   ///< (m)
+    double half_width       = 9e-3;   ///< the box is |y| <= half_width (m)
     double depth            = 1.5e-3; ///< the box is 0 <= depth <= this (m)
-    double cells_per_level  = 2;     ///< cells of each size 2h, 4h, ... that lie between the box and larger ones
+    double cells_per_level  = 2; ///< cells of each size 2h, 4h, ... that lie between the box and larger ones
 
     /// Distance of a point from the box; zero inside (m). The box is taken smaller by a hundredth of a
     /// cell, so that cells which only touch it stay outside.

@@ -12,45 +12,49 @@
 
 namespace tread
 {
-  /// A piece of a ring that rolls with its outer face on the rail. The reference configuration is the start of the
-  /// run: axis through (center_x, 0, radius) along y, lowest point at z = 0.
+  /// A piece of a ring that rolls with its outer face on the rail. The reference configuration is the start
+  /// of the run: axis through (center_x, 0, radius) along y, lowest point at z = 0.
   struct WheelSector
   {
-    double center_x           = 0.;   ///< wheel centre: minus the distance to be rolled to the solution instant (m)
-    double radius             = 0.46; ///< running radius at y = 0 (m)
-    double thickness          = 0.06; ///< radial (m)
-    double width              = 0.12; ///< lateral (m)
-    double arc_begin          = -0.1; ///< arc length along the tread from the lowest point, positive towards +x (m)
-    double arc_end            = 0.1;  ///< (m)
+    double center_x  = 0.;   ///< wheel centre: minus the distance to be rolled to the solution instant (m)
+    double radius    = 0.46; ///< running radius at y = 0 (m)
+    double thickness = 0.06; ///< radial (m)
+    double width     = 0.12; ///< lateral (m)
+    double arc_begin = -0.1; ///< arc length along the tread from the lowest point, positive towards +x (m)
+    double arc_end   = 0.1;  ///< (m)
     double coarsest_cell_size = 0.025; ///< upper bound of the coarse cells' edge (m)
-    double contact_half_width = std::numeric_limits<double>::infinity(); ///< tread faces with |y| up to this are in reach of the rail (m)
+    double contact_half_width = std::numeric_limits<double>::infinity(); ///< tread faces with |y| up to this
+                                                                         ///< are in reach of the rail (m)
 
-    /// Radius of the tread at y minus running radius (m); zero at y = 0; null: a cylinder. The shift fades linearly to
-    /// zero at the inner face.
+    /// Radius of the tread at y minus running radius (m); zero at y = 0; null: a cylinder. The shift fades
+    /// linearly to zero at the inner face.
     std::function<double(double)> tread_offset;
   };
 
   /// A whole wheel of revolution: rim, straight web and hub, all symmetric to y = 0. Lengths in m.
   struct FullWheel
   {
-    double center_x           = 0.;     ///< as in WheelSector
-    double radius             = 0.46;   ///< running radius at y = 0
+    double center_x           = 0.;   ///< as in WheelSector
+    double radius             = 0.46; ///< running radius at y = 0
     double rim_inner_radius   = 0.395;
     double rim_width          = 0.135;
     double web_thickness      = 0.028;
     double hub_outer_radius   = 0.14;
     double hub_length         = 0.18;
     double bore_radius        = 0.0925;
-    double coarsest_cell_size = 0.041;  ///< upper bound of the coarse cells' edge on the tread
-    double contact_half_width = std::numeric_limits<double>::infinity(); ///< tread faces with |y| up to this are in reach of the rail
-    double contact_margin     = 0.02;   ///< tread faces up to this far beyond the ends of the fine zone are in reach of the rail
+    double coarsest_cell_size = 0.041; ///< upper bound of the coarse cells' edge on the tread
+    double contact_half_width =
+      std::numeric_limits<double>::infinity(); ///< tread faces with |y| up to this are in reach of the rail
+    double contact_margin =
+      0.02; ///< tread faces up to this far beyond the ends of the fine zone are in reach of the rail
 
     /// As in WheelSector, fading to zero at the inner radius of the rim.
     std::function<double(double)> tread_offset;
   };
 
-  /// Sector as coarse cells whose arc on the running circle is 2^k finest_cell_size. Chart: the reference position of the
-  /// cylinder; new vertices by a CylindricalManifold about the wheel's axis. Inner face: support, cut faces: end.
+  /// Sector as coarse cells whose arc on the running circle is 2^k finest_cell_size. Chart: the reference
+  /// position of the cylinder; new vertices by a CylindricalManifold about the wheel's axis. Inner face:
+  /// support, cut faces: end.
   Body make_wheel_sector(const WheelSector &sector, const FineZone &zone);
 
   /// The whole wheel; a whole number of coarse cells around, so that the circumferential size differs from
@@ -60,9 +64,10 @@ namespace tread
   /// Mass properties of the exact (unmeshed) shape about the wheel's axis.
   struct WheelInertia
   {
-    double                mass = 0.;         ///< (kg)
-    double                axial_inertia = 0.; ///< about the axis (kg m^2)
-    dealii::Tensor<1, 3>  first_moment;       ///< integral of density times position relative to the wheel centre (kg m)
+    double mass          = 0.; ///< (kg)
+    double axial_inertia = 0.; ///< about the axis (kg m^2)
+    dealii::Tensor<1, 3>
+      first_moment; ///< integral of density times position relative to the wheel centre (kg m)
   };
 
   /// density in kg/m^3.

@@ -25,7 +25,7 @@ namespace tread
 
   private:
     template <typename Archive>
-    static void state(Archive &archive, Simulation &simulation);
+    static void        state(Archive &archive, Simulation &simulation);
     static std::string fingerprint(const Simulation &simulation);
 
     const RunFolder &folder;

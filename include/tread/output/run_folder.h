@@ -53,16 +53,20 @@ namespace tread
     void write_volume(const ExplicitDynamics &dynamics, const WheelHub &hub, const unsigned int wheel_body);
 
     /// The rail's contact surface with pressure, shear, slip and state.
-    void write_surface(const Contact &contact, const unsigned int body, const std::vector<Row> &positions,
-                       const double time, const double time_step);
+    void write_surface(const Contact          &contact,
+                       const unsigned int      body,
+                       const std::vector<Row> &positions,
+                       const double            time,
+                       const double            time_step);
 
   private:
-    void write_collection(const std::string &name, const std::vector<std::pair<double, std::string>> &files) const;
+    void write_collection(const std::string                                 &name,
+                          const std::vector<std::pair<double, std::string>> &files) const;
 
-    std::string   folder;
-    MPI_Comm      comm;
-    bool          writes_tables;
-    std::ofstream history;
+    std::string                                 folder;
+    MPI_Comm                                    comm;
+    bool                                        writes_tables;
+    std::ofstream                               history;
     std::vector<std::pair<double, std::string>> volume_files, surface_files;
   };
 } // namespace tread

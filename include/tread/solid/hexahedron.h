@@ -2,9 +2,9 @@
 #ifndef tread_solid_hexahedron_h
 #define tread_solid_hexahedron_h
 
-#include <deal.II/base/point.h>
-
 #include <tread/material/elastic.h>
+
+#include <deal.II/base/point.h>
 
 #include <array>
 
@@ -13,12 +13,14 @@ namespace tread
   /// Integrals over one trilinear hexahedron in its reference position.
   struct HexahedronIntegrals
   {
-    double                                volume;    ///< m^3
-    std::array<std::array<double, 3>, 8>  gradient;  ///< mean of dN_a/dX, 1/m (Flanagan & Belytschko 1981, eq. 15)
-    std::array<std::array<double, 8>, 4>  hourglass; ///< gamma: orthogonal to every linear field (same, eq. 35)
-    std::array<double, 8>                 node_volume; ///< integral of N_a, m^3
+    double volume; ///< m^3
+    std::array<std::array<double, 3>, 8>
+      gradient; ///< mean of dN_a/dX, 1/m (Flanagan & Belytschko 1981, eq. 15)
+    std::array<std::array<double, 8>, 4>
+                          hourglass;   ///< gamma: orthogonal to every linear field (same, eq. 35)
+    std::array<double, 8> node_volume; ///< integral of N_a, m^3
     std::array<std::array<std::array<double, 3>, 8>, 8> point_gradient; ///< dN_a/dX at the Gauss points
-    std::array<double, 8>                 point_volume;
+    std::array<double, 8>                               point_volume;
 
     /// @throws std::runtime_error if the Jacobian is not positive at a Gauss point.
     explicit HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes);
@@ -26,7 +28,9 @@ namespace tread
 
   /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a box the
   /// stiffness of a plate that bends along its longest edge: E/(1 - nu^2) V min_i(sum_a B_ai^2)/24.
-  double hourglass_stiffness(const HexahedronIntegrals &cell, const ElasticMaterial &material, const double coefficient);
+  double hourglass_stiffness(const HexahedronIntegrals &cell,
+                             const ElasticMaterial     &material,
+                             const double               coefficient);
 
   /// Upper bound of the highest angular frequency of one free cell, rad/s, with the nodal masses
   /// density_scale * density * node_volume.

@@ -105,15 +105,15 @@ namespace tread
     void add_one_point_forces(const BodyRange &range, const Row *x, const Row *v, Row *force) const;
     void add_fully_integrated_forces(const BodyRange &range, const Row *x, Row *force) const;
 
-    SolidParameters                      parameters;
-    std::vector<ElasticMaterial>         materials;
-    AlignedVector<Batch>                 batches;
-    AlignedVector<BatchOfPoints>         point_batches;
+    SolidParameters                                parameters;
+    std::vector<ElasticMaterial>                   materials;
+    AlignedVector<Batch>                           batches;
+    AlignedVector<BatchOfPoints>                   point_batches;
     std::vector<std::array<unsigned int, n_lanes>> cell_of_lane; ///< invalid where padded
-    std::vector<BodyRange>               ranges;
-    std::vector<double>                  frequencies, volumes;
-    std::vector<std::array<double, 8>>   masses;
-    std::size_t                          n_cells;
+    std::vector<BodyRange>                         ranges;
+    std::vector<double>                            frequencies, volumes;
+    std::vector<std::array<double, 8>>             masses;
+    std::size_t                                    n_cells;
   };
 } // namespace tread
 

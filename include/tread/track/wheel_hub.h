@@ -17,11 +17,11 @@ namespace tread
 
   struct WheelHubParameters
   {
-    double mass                 = 0.;  ///< of the wheel, kg; what deforms is taken out when it is attached
-    double moment_of_inertia    = 0.;  ///< of the same about the axle, kg m^2
-    double sprung_mass          = 0.;  ///< kg
-    double suspension_stiffness = 0.;  ///< N/m
-    double suspension_damping   = 0.;  ///< N s/m
+    double mass                 = 0.;   ///< of the wheel, kg; what deforms is taken out when it is attached
+    double moment_of_inertia    = 0.;   ///< of the same about the axle, kg m^2
+    double sprung_mass          = 0.;   ///< kg
+    double suspension_stiffness = 0.;   ///< N/m
+    double suspension_damping   = 0.;   ///< N s/m
     double gravity              = 9.81; ///< m/s^2
   };
 
@@ -40,7 +40,8 @@ namespace tread
 
     explicit WheelHub(const WheelHubParameters &parameters)
       : parameters(parameters)
-    {}
+    {
+    }
 
     /// Put the axle into its reference position (x, z).
     void place(const double x, const double z);
@@ -51,10 +52,14 @@ namespace tread
       equilibrium_z = motion.z;
     }
 
-    /// Take the cells' share out of mass and inertia: m (kg), their moment of inertia about the axle (kg m^2) and first
-    /// moment in the reference position (x and z, kg m). The whole wheel is balanced, so the rigid rest has the
-    /// opposite first moment: with a flexible sector it is the rest that balances the centrifugal force.
-    void take_out(const double mass, const double moment_of_inertia, const double first_moment_x, const double first_moment_z);
+    /// Take the cells' share out of mass and inertia: m (kg), their moment of inertia about the axle (kg m^2)
+    /// and first moment in the reference position (x and z, kg m). The whole wheel is balanced, so the rigid
+    /// rest has the opposite first moment: with a flexible sector it is the rest that balances the
+    /// centrifugal force.
+    void take_out(const double mass,
+                  const double moment_of_inertia,
+                  const double first_moment_x,
+                  const double first_moment_z);
 
     /// One central-difference step under the force (N) and the moment about the axle (N m) that
     /// the flexible cells exert.
@@ -69,7 +74,8 @@ namespace tread
     /// Velocity of a point of the hub now at x.
     Row velocity_at(const Row x) const;
 
-    double kinetic_energy() const;
+    /// With the angle of so many seconds ago: velocities are those of half a step back.
+    double kinetic_energy(const double time_back) const;
 
     /// Where the axle was in the reference configuration, m.
     double start_x() const
@@ -93,14 +99,14 @@ namespace tread
       return gross;
     }
 
-    Drive  drive        = Drive::creepage;
-    double drive_torque = 0.; ///< N m, used when drive == torque
-    Motion motion;
+    Drive              drive        = Drive::creepage;
+    double             drive_torque = 0.; ///< N m, used when drive == torque
+    Motion             motion;
     WheelHubParameters parameters;
 
   private:
     /// First moment now, by turning the reference one about +y.
-    void first_moment(double &x, double &z) const;
+    void first_moment(double &x, double &z, const double angle) const;
 
     double reference_x = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
     double reference_first_moment[2] = {0., 0.};
