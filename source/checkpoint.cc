@@ -12,11 +12,9 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
-#include <tuple>
 
 namespace tread
 {
@@ -24,36 +22,18 @@ namespace tread
   {
     const std::string format_name = "tread checkpoint 1";
 
-    /// A node of any rank: its reference position in nm names it.
+    /// A node of any rank under its name.
     struct StoredNode
     {
-      unsigned int body;
-      long long    key[3];
-      double       x[3], v[3];
+      std::array<long long, 4> key;
+      double                   x[3], v[3];
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &body &key &x &v;
+        archive &key &x &v;
       }
     };
-
-    std::vector<unsigned int> body_of_nodes(const Mesh &mesh)
-    {
-      std::vector<unsigned int> body(mesh.nodes.size(), 0);
-      for (const Mesh::Cell &cell : mesh.cells)
-        for (const unsigned int i : cell.nodes)
-          body[i] = cell.body;
-      for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-        for (const unsigned int p : h.parents)
-          body[p] = body[h.node];
-      return body;
-    }
-
-    std::array<long long, 3> key_of(const dealii::Point<3> &x)
-    {
-      return {std::llround(x[0] * 1e9), std::llround(x[1] * 1e9), std::llround(x[2] * 1e9)};
-    }
 
     template <typename Archive, typename T>
     void bytes(Archive &archive, T &value)
@@ -159,17 +139,11 @@ namespace tread
     d.totals.gross_work           = dealii::Utilities::MPI::sum(kept.gross_work, comm);
     d.last_damping_power          = dealii::Utilities::MPI::sum(kept_power, comm);
 
-    const std::vector<unsigned int> body = body_of_nodes(mesh);
-    std::vector<StoredNode>         own;
+    std::vector<StoredNode> own;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
-        {
-          const auto key = key_of(mesh.nodes[i]);
-          own.push_back({body[i],
-                         {key[0], key[1], key[2]},
-                         {d.x[i][0], d.x[i][1], d.x[i][2]},
-                         {d.v[i][0], d.v[i][1], d.v[i][2]}});
-        }
+        own.push_back(
+          {mesh.node_key(i), {d.x[i][0], d.x[i][1], d.x[i][2]}, {d.v[i][0], d.v[i][1], d.v[i][2]}});
     std::vector<std::vector<StoredNode>> nodes = dealii::Utilities::MPI::gather(comm, own, 0);
 
     std::string problem;
@@ -251,15 +225,13 @@ namespace tread
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       d.totals.damping = d.totals.external_work = d.totals.gross_work = d.last_damping_power = 0.;
 
-    std::map<std::tuple<unsigned int, long long, long long, long long>, const StoredNode *> by_key;
+    std::map<std::array<long long, 4>, const StoredNode *> by_key;
     for (const auto &list : nodes)
       for (const StoredNode &node : list)
-        by_key[{node.body, node.key[0], node.key[1], node.key[2]}] = &node;
-    const std::vector<unsigned int> body = body_of_nodes(mesh);
+        by_key[node.key] = &node;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       {
-        const auto key   = key_of(mesh.nodes[i]);
-        const auto entry = by_key.find({body[i], key[0], key[1], key[2]});
+        const auto entry = by_key.find(mesh.node_key(i));
         if (entry == by_key.end())
           throw SceneError("--resume: '" + folder.path(name) + "' belongs to another mesh");
         d.x[i] = Row{entry->second->x[0], entry->second->x[1], entry->second->x[2], 0.};

@@ -4,21 +4,14 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <tuple>
 
 namespace tread
 {
   namespace
   {
-    /// Position in nm: a name for a node that does not depend on the number of ranks.
-    using Key = std::tuple<unsigned int, long long, long long, long long>;
-
-    Key key_of(const unsigned int body, const dealii::Point<3> &x)
-    {
-      return {body, std::llround(x[0] * 1e9), std::llround(x[1] * 1e9), std::llround(x[2] * 1e9)};
-    }
+    /// Body and position in nm: a name that does not depend on the number of ranks.
+    using Key = std::array<long long, 4>;
   } // namespace
 
 
@@ -31,7 +24,6 @@ namespace tread
 
     // Flat lists that deal.II can send: body, left out or not, and the four positions in nm.
     std::vector<std::array<long long, 14>> own_faces;
-    std::map<Key, unsigned int>            own_nodes;
     for (const Mesh::Face &face : mesh.faces)
       if (face.boundary == Boundary::contact)
         {
@@ -39,17 +31,14 @@ namespace tread
           entry[0] = face.body;
           for (unsigned int v = 0; v < 4; ++v)
             {
-              const auto [body, x, y, z] = key_of(face.body, mesh.nodes[face.nodes[v]]);
+              const Key key = mesh.node_key(face.nodes[v]);
               entry[1] |= hanging[face.nodes[v]];
-              entry[2 + 3 * v]           = x;
-              entry[2 + 3 * v + 1]       = y;
-              entry[2 + 3 * v + 2]       = z;
-              own_nodes[{body, x, y, z}] = face.nodes[v];
+              for (unsigned int d = 0; d < 3; ++d)
+                entry[2 + 3 * v + d] = key[1 + d];
             }
           own_faces.push_back(entry);
         }
 
-    // Copies of contact nodes whose faces belong to other ranks are found by position, too.
     std::vector<std::vector<std::array<long long, 14>>> all_faces =
       dealii::Utilities::MPI::all_gather(comm, own_faces);
     std::vector<std::array<long long, 14>> sorted;
@@ -60,20 +49,20 @@ namespace tread
     std::map<Key, unsigned int> number;
     for (const auto &entry : sorted)
       for (unsigned int v = 0; v < 4; ++v)
-        number[{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}] = 0;
+        number[{{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}}] = 0;
     unsigned int n = 0;
     for (auto &[key, i] : number)
       i = n++;
 
     nodes.resize(n);
     for (const auto &[key, i] : number)
-      nodes[i] = {std::get<0>(key), false, -1, -1, Row{}};
+      nodes[i] = {static_cast<unsigned int>(key[0]), false, -1, -1, Row{}};
     for (const auto &entry : sorted)
       {
         Face face;
         face.body = entry[0];
         for (unsigned int v = 0; v < 4; ++v)
-          face.nodes[v] = number.at({entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]});
+          face.nodes[v] = number.at({{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}});
         if (entry[1] == 0)
           faces.push_back(face);
         else
@@ -81,16 +70,9 @@ namespace tread
             nodes[i].at_rim = true;
       }
 
-    std::map<Key, unsigned int> held;
-    std::vector<unsigned int>   body_of(mesh.nodes.size(), 0);
-    for (const Mesh::Cell &cell : mesh.cells)
-      for (const unsigned int i : cell.nodes)
-        body_of[i] = cell.body;
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      for (const unsigned int p : h.parents)
-        body_of[p] = body_of[h.node];
+    // Also copies of contact nodes whose faces belong to other ranks.
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      if (const auto entry = number.find(key_of(body_of[i], mesh.nodes[i])); entry != number.end())
+      if (const auto entry = number.find(mesh.node_key(i)); entry != number.end())
         nodes[entry->second].local = i;
 
     std::vector<unsigned int> own;

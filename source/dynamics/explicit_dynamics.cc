@@ -98,13 +98,8 @@ namespace tread
   {
     hub                      = &wheel_hub;
     nominal_angular_velocity = angular_velocity;
-    for (const Mesh::Cell &cell : mesh.cells)
-      if (cell.body == body)
-        for (const unsigned int i : cell.nodes)
-          on_wheel[i] = true;
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      for (const unsigned int p : h.parents)
-        on_wheel[p] = on_wheel[h.node];
+    for (unsigned int i = 0; i < on_wheel.size(); ++i)
+      on_wheel[i] = mesh.node_bodies[i] == body;
     hub_nodes = support_nodes(body);
     hub_reference.clear();
     for (const unsigned int i : hub_nodes)

@@ -8,6 +8,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -182,6 +183,14 @@ namespace tread
         nodes[h.node] = x;
       }
 
+    node_bodies.assign(nodes.size(), 0);
+    for (const Cell &cell : cells)
+      for (const unsigned int i : cell.nodes)
+        node_bodies[i] = cell.body;
+    for (const HangingNode &h : hanging_nodes)
+      for (const unsigned int parent : h.parents)
+        node_bodies[parent] = node_bodies[h.node];
+
     shared_nodes            = SharedNodes(comm, global_ids);
     n_global_cells          = triangulation.n_global_active_cells();
     n_global_nodes          = dof_handler.n_dofs();
@@ -189,5 +198,12 @@ namespace tread
     for (const HangingNode &h : hanging_nodes)
       n_hanging += shared_nodes.is_owned(h.node);
     n_global_hanging_nodes = dealii::Utilities::MPI::sum(n_hanging, comm);
+  }
+
+
+  std::array<long long, 4> Mesh::node_key(const unsigned int node) const
+  {
+    return {{node_bodies[node], std::llround(1e9 * nodes[node][0]), std::llround(1e9 * nodes[node][1]),
+             std::llround(1e9 * nodes[node][2])}};
   }
 } // namespace tread

@@ -48,11 +48,15 @@ namespace tread
     std::vector<std::string>      body_names;
     std::vector<dealii::Point<3>> nodes; ///< reference positions, m
     std::vector<std::uint64_t>    global_ids;
+    std::vector<unsigned int>     node_bodies; ///< body of each node
     std::vector<Cell>             cells;
     std::vector<Face>             faces;
     std::vector<HangingNode>      hanging_nodes;
     SharedNodes                   shared_nodes;
     std::uint64_t                 n_global_cells, n_global_nodes, n_global_hanging_nodes;
+
+    /// A name for a node that does not depend on ranks: body and reference position in nm.
+    std::array<long long, 4> node_key(const unsigned int node) const;
 
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
     /// @throws std::runtime_error when a body has a cell that is turned inside out.
