@@ -157,11 +157,11 @@ namespace tread
     constexpr unsigned int    iterations = 80;
     constexpr double          margin     = 1.03;
     const std::vector<double> inverse    = free_inverse_masses();
-    NodalField                mode(x.size(), Row{}), moved(x.size()), at_rest(x.size(), Row{}), f(x.size()),
-      f0(x.size(), Row{});
-    solid.add_internal_forces(x.data(), at_rest.data(), f0.data());
-    mesh.condense_hanging_nodes(f0.data());
-    mesh.shared_nodes.sum(f0.data());
+    NodalField mode(x.size(), Row{}), reference(x.size()), moved(x.size()), at_rest(x.size(), Row{}),
+      f(x.size());
+    // Not where the nodes are now, so that a run that resumes has the same step.
+    for (unsigned int i = 0; i < x.size(); ++i)
+      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     for (unsigned int i = 0; i < mode.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
         {
@@ -188,7 +188,7 @@ namespace tread
         mesh.distribute_hanging_nodes(mode.data());
         for (unsigned int i = 0; i < mode.size(); ++i)
           {
-            moved[i] = x[i] + mode[i];
+            moved[i] = reference[i] + mode[i];
             f[i]     = Row{};
           }
         solid.add_internal_forces(moved.data(), at_rest.data(), f.data());
@@ -197,7 +197,7 @@ namespace tread
         double stiffness = 0.;
         for (unsigned int i = 0; i < mode.size(); ++i)
           {
-            const Row change = f0[i] - f[i];
+            const Row change = -f[i]; // the reference is free of stress
             if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
               stiffness += dot(mode[i], change);
             mode[i] = inverse[i] * change;
