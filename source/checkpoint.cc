@@ -83,6 +83,7 @@ namespace tread
     bytes(archive, d.time);
     bytes(archive, d.n_steps);
     bytes(archive, d.totals);
+    bytes(archive, d.nominal_angular_velocity);
     bytes(archive, d.start_kinetic);
     bytes(archive, d.start_potential);
     bytes(archive, d.start_strain);

@@ -21,8 +21,14 @@ namespace tread
   {
     volatile std::sig_atomic_t signal_received = 0;
 
-    void on_signal(int)
+    /// Ctrl-C before anything was computed.
+    class Interruption : public std::exception
     {
+    };
+
+    void on_signal(int number)
+    {
+      std::signal(number, SIG_DFL); // a second one ends the program at once
       signal_received = 1;
     }
 
@@ -57,7 +63,12 @@ namespace tread
       c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
       c.prescribe_force = true;
       c.traction_coefficient = traction_coefficient;
-      c.element_size         = std::min(1e-3 * scene.finest_mm, 0.15e-3);
+      // 100 elements along the patch: fine enough for creepages within 0.5 % of the limit.
+      const double a =
+        reference::hertz_ellipse(c.curvature_x, c.curvature_y,
+                                 reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force)
+          .semi_axis_x;
+      c.element_size = a / 50.;
       return c;
     }
 
@@ -262,6 +273,8 @@ namespace tread
     const double began    = progress.seconds();
     relaxation_iterations = dynamics.relax(
       scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
+        if (interrupted())
+          throw Interruption();
         if (progress.due())
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
@@ -347,9 +360,18 @@ namespace tread
     std::signal(SIGTERM, on_signal);
 
     if (resume)
-      checkpoint.read(*this);
-    else
-      folder.remove_results();
+      {
+        checkpoint.read(*this);
+        // The intervals may have been changed since.
+        const auto next = [&](const double start, const double interval_mm) {
+          const double interval = 1e-3 * interval_mm;
+          return interval > 0. ? start + interval * (std::floor((position() - start) / interval) + 1.)
+                               : 1e300;
+        };
+        next_history = next(-1e-3 * scene.rolled_mm, scene.history_mm);
+        next_surface = next(-1e-3 * scene.rolled_mm, scene.surface_mm);
+        next_volume  = next(-1e-3 * scene.rolled_mm, scene.volume_mm);
+      }
     std::ostringstream effective;
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
@@ -368,7 +390,17 @@ namespace tread
           format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
       }
     else
-      prepare_start(progress);
+      try
+        {
+          prepare_start(progress);
+        }
+      catch (const Interruption &)
+        {
+          progress.say("INTERRUPTED before the wheel rolled: there is nothing to go on from");
+          return false;
+        }
+    if (!resume)
+      folder.remove_results();
     folder.open_history(resume, dynamics.time);
 
     const std::uint64_t n_steps = dynamics.n_steps + remaining_steps(), first_step = dynamics.n_steps;
@@ -491,7 +523,7 @@ namespace tread
     summary.set("max_shear_Pa", mean.max_shear);
     summary.set("max_slip_m_per_s", mean.max_slip);
     summary.set("frictional_power_W", mean.frictional_power);
-    if (std::abs(force[0]) < 0.999 * scene.friction * normal)
+    if (completed && std::abs(force[0]) < 0.999 * scene.friction * normal)
       try
         {
           const reference::RollingResult half_space =
@@ -534,6 +566,7 @@ namespace tread
                                                       {"contact_loss_J", energy.contact},
                                                       {"energy_residual_J", energy.residual()}})
       summary.set(name, value);
+    summary.set("contact_unconverged_steps", contact.n_unconverged_steps());
     summary.set("cells", mesh.n_global_cells);
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
     summary.set("steps", dynamics.n_steps);

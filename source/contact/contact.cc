@@ -307,6 +307,9 @@ namespace tread
     const CoulombSolverResult result =
       solve_coulomb(problem, *friction, parameters.solver, gap_rate, velocity, impulse);
 
+    if (result.change > parameters.solver.tolerance)
+      ++unconverged_steps;
+
     // Nodal impulses give forces and the whole work; only pairs that slip lose work by friction.
     work = ContactWork();
     std::fill(nodal_impulse.begin(), nodal_impulse.end(), Row{});
@@ -356,21 +359,6 @@ namespace tread
     Row sum{};
     for (const Row &p : impulse)
       sum += p;
-    return sum;
-  }
-
-
-  Row Contact::total_moment(const Row about) const
-  {
-    Row sum{};
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
-        if (surfaces.nodes[involved[problem.entries[i].node]].body == parameters.master_body)
-          {
-            const Row r = position[problem.entries[i].node] - about;
-            const Row p = problem.entries[i].coefficient * impulse[j];
-            sum += Row{r[1] * p[2] - r[2] * p[1], r[2] * p[0] - r[0] * p[2], r[0] * p[1] - r[1] * p[0], 0.};
-          }
     return sum;
   }
 

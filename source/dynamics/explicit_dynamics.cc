@@ -240,6 +240,8 @@ namespace tread
 
   void ExplicitDynamics::start()
   {
+    if (hub)
+      nominal_angular_velocity = hub->motion.angular_velocity;
     set_inertia();
     totals                     = EnergyLedger();
     start_kinetic              = kinetic_energy();
@@ -323,8 +325,12 @@ namespace tread
     if (hub)
       {
         add_hub_sums(hub_sums);
-        for (unsigned int d = 0; d < 3; ++d) // the compensation acts between the cells and the axle
-          hub_sums[d] -= compensation_sum[d];
+        // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
+        // motion about the axle is a potential, that with the axle's motion is summed here.
+        const double work = time_step * (compensation_sum[0] * hub->motion.velocity_x +
+                                         compensation_sum[2] * hub->motion.velocity_z);
+        totals.external_work += work;
+        totals.gross_work += std::abs(work);
       }
     times.nodes += watch.lap();
 

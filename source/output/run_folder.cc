@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iomanip>
+#include <iterator>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -54,14 +56,12 @@ namespace tread
     std::vector<std::filesystem::path> old;
     for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
       {
-        const std::string name = entry.path().filename();
-        for (const char *begin : {"summary.json", "history.csv", "patch", "reference_patch.csv", "checkpoint",
-                                  "volume", "surface"})
-          if (name.rfind(begin, 0) == 0 && entry.is_regular_file(ignored))
-            {
-              old.push_back(entry.path());
-              break;
-            }
+        const std::string       name = entry.path().filename();
+        static const std::regex own(
+          "(summary\\.json|history\\.csv|patch\\.csv|patch_averaged\\.csv|reference_patch\\.csv|"
+          "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))");
+        if (std::regex_match(name, own) && entry.is_regular_file(ignored))
+          old.push_back(entry.path());
       }
     for (const std::filesystem::path &path : old)
       std::filesystem::remove(path, ignored);
@@ -100,6 +100,18 @@ namespace tread
 
   void RunFolder::open_history(const bool resume, const double time)
   {
+    if (resume)
+      for (const bool surface : {false, true})
+        {
+          // All ranks number the pictures alike, also those made before.
+          std::ifstream     collection(path(surface ? "surface.pvd" : "volume.pvd"));
+          const std::string text((std::istreambuf_iterator<char>(collection)),
+                                 std::istreambuf_iterator<char>());
+          const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
+          for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
+            if (std::stod((*i)[1]) <= time * (1. + 1e-9))
+              (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
+        }
     if (!writes_tables)
       return;
     std::string kept = history_header();

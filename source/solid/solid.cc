@@ -67,7 +67,6 @@ namespace tread
     if (full && needs_velocity())
       throw std::invalid_argument("bulk viscosity is for one-point cells only");
     frequencies.resize(n_cells);
-    volumes.resize(n_cells);
     masses.resize(n_cells);
 
     for (unsigned int body = 0; body < materials.size(); ++body)
@@ -91,7 +90,6 @@ namespace tread
                 hourglass_stiffness(integrals, material, parameters.hourglass_coefficient);
               frequencies[c] =
                 highest_frequency_bound(integrals, material, stiffness, full, parameters.density_scale);
-              volumes[c] = integrals.volume;
               for (unsigned int a = 0; a < 8; ++a)
                 masses[c][a] = material.density * integrals.node_volume[a];
 

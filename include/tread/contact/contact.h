@@ -79,9 +79,6 @@ namespace tread
     /// Total impulse on the master surface in the last step, N s.
     Row total_impulse() const;
 
-    /// Its moment about a point, N m s.
-    Row total_moment(const Row about) const;
-
     ContactWork last_work() const
     {
       return work;
@@ -95,10 +92,10 @@ namespace tread
     /// Slave nodes that carry an impulse after the last step, ordered by number.
     std::vector<ContactNodeState> active_nodes() const;
 
-    /// All slave nodes that are watched at present.
-    std::size_t n_candidates() const
+    /// Steps in which the sweeps ended before the tolerance was reached.
+    std::uint64_t n_unconverged_steps() const
     {
-      return problem.constraints.size();
+      return unconverged_steps;
     }
 
     /// Whether contact has reached the rim of the finely meshed surface.
@@ -143,6 +140,7 @@ namespace tread
     double                                 travelled = 0., allowed_travel = 0.; ///< sums of largest speeds, m
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
+    std::uint64_t             unconverged_steps = 0;
   };
 } // namespace tread
 

@@ -61,7 +61,7 @@ namespace tread
     std::vector<unsigned int> support_nodes(const unsigned int body) const;
 
     /// Carry the support nodes of a body by a rigid hub. The centrifugal force of density that is
-    /// only scaled (not there) is compensated on this body at the angular velocity given.
+    /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes the hub's.
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
 
     void attach_contact(Contact &contact);

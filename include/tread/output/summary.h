@@ -30,7 +30,7 @@ namespace tread
 
     std::string text() const
     {
-      return json.dump(2) + "\n";
+      return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
 
     /// Computed, reference and difference, one line a figure.

@@ -66,12 +66,6 @@ namespace tread
       return masses;
     }
 
-    /// Reference volume of each cell, m^3.
-    const std::vector<double> &cell_volumes() const
-    {
-      return volumes;
-    }
-
     bool needs_velocity() const
     {
       return parameters.linear_bulk_viscosity > 0. || parameters.quadratic_bulk_viscosity > 0.;
@@ -111,7 +105,7 @@ namespace tread
     AlignedVector<BatchOfPoints>                   point_batches;
     std::vector<std::array<unsigned int, n_lanes>> cell_of_lane; ///< invalid where padded
     std::vector<BodyRange>                         ranges;
-    std::vector<double>                            frequencies, volumes;
+    std::vector<double>                            frequencies;
     std::vector<std::array<double, 8>>             masses;
     std::size_t                                    n_cells;
   };
