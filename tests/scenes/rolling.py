@@ -24,7 +24,8 @@ NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "cr
 
 def same(name, a, b, allowed):
     for key in NUMBERS:
-        check.relative(f"{name}: {key}", a[key], b[key], allowed)
+        # Damping is sampled every 50 steps; a ledger in between, as at an interruption, shifts the samples.
+        check.relative(f"{name}: {key}", a[key], b[key], 5. * allowed if key == "damping_work_J" else allowed)
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
