@@ -146,12 +146,14 @@ class Patch:
 
 def spacing(values):
     """The distance of the grid lines to which the coordinates belong."""
-    gaps = np.diff(np.unique(np.round(values, 6)))
+    points = np.unique(np.round(values, 6))
+    gaps = np.diff(points)
     if not len(gaps):
         return 1.0
-    gaps = gaps[gaps > 0.3 * gaps.max()]  # nodes of one line differ a little
-    extent = values.max() - values.min()
-    return float(extent / max(1, round(extent / np.median(gaps))))
+    # Nodes of one line differ a little: its place is their mean.
+    lines = [line.mean() for line in np.split(points, np.nonzero(gaps > 0.3 * gaps.max())[0] + 1)]
+    extent = lines[-1] - lines[0]
+    return float(extent / max(1, round(extent / np.median(np.diff(lines)))))
 
 
 def grid_index(values, size):
