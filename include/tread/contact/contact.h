@@ -17,7 +17,7 @@ namespace tread
     /// The coupling is integrated anew when surfaces have slid over each other by this share of a face.
     double sliding_share = 0.02;
     /// ... or when the loaded slave faces have turned by this angle, rad.
-    double turning = 5e-4;
+    double turning = 2e-3;
   };
 
   /// What the last step did at one slave node.
