@@ -176,6 +176,8 @@ namespace tread
       DynamicsParameters p;
       p.courant_number = scene.courant_number;
       p.damping_steps  = scene.damping_steps;
+      p.mass_damping   = scene.mass_damping;
+      p.mass_damping   = scene.mass_damping;
       p.density_scale  = scene.density_scale;
       p.gravity        = scene.gravity;
       return p;

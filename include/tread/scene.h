@@ -55,8 +55,8 @@ namespace tread
     double       finest_mm = 0.63, fine_half_width_mm = 8., cells_per_level = 2., coarsest_mm = 22.;
     unsigned int fine_layers = 2;
     // Solid
-    std::string element               = "one-point";
-    double      hourglass_coefficient = 1., damping_steps = 0.1, linear_bulk_viscosity = 0.,
+    std::string element          = "one-point";
+    double hourglass_coefficient = 1., damping_steps = 0.1, mass_damping = 0., linear_bulk_viscosity = 0.,
            quadratic_bulk_viscosity = 0.;
     // Contact
     double       friction = 0.5, contact_tolerance = 1e-7;

@@ -301,9 +301,10 @@ namespace tread
       (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     const Row  axle    = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
     const Row  keep_xz = {1., 0., 1., 0.};
-    Row        compensation_sum{};
+    Row        compensation_sum{}, damping_sum{};
+    double     damping_moment = 0., damping_power = 0.;
     const bool loaded      = !external_force.empty();
-    const bool accelerated = parameters.gravity != 0. || compensation != 0.;
+    const bool accelerated = parameters.gravity != 0. || compensation != 0. || parameters.mass_damping > 0.;
     if (loaded)
       for (unsigned int i = 0; i < force.size(); ++i)
         force[i] += external_force[i];
@@ -319,12 +320,34 @@ namespace tread
                 if (mesh.shared_nodes.is_owned(i))
                   compensation_sum += (1. / inverse_mass[i]) * inward;
               }
+            if (parameters.mass_damping > 0.)
+              {
+                // Against what moves on top of the rigid motion. The hub takes the reaction.
+                const Row relative = on_wheel[i] ? v[i] - hub->velocity_at(x[i]) : v[i];
+                const Row drag     = parameters.mass_damping * relative;
+                acceleration -= drag;
+                if (mesh.shared_nodes.is_owned(i))
+                  {
+                    const Row reaction = (1. / inverse_mass[i]) * drag;
+                    damping_power += dot(reaction, relative);
+                    if (on_wheel[i])
+                      {
+                        const Row arm = x[i] - axle;
+                        damping_sum += reaction;
+                        damping_moment += arm[2] * reaction[0] - arm[0] * reaction[2];
+                      }
+                  }
+              }
             force[i] += (1. / inverse_mass[i]) * acceleration;
           }
+    totals.damping += time_step * damping_power;
 
     if (hub)
       {
         add_hub_sums(hub_sums);
+        for (unsigned int d = 0; d < 3; ++d)
+          hub_sums[d] += damping_sum[d];
+        hub_sums[3] += damping_moment;
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's motion is summed here.
         const double work = time_step * (compensation_sum[0] * hub->motion.velocity_x +

@@ -19,6 +19,8 @@ namespace tread
     /// Stiffness-proportional damping: internal forces are taken at x + beta v with
     /// beta = damping_steps time steps.
     double damping_steps = 0.1;
+    /// Mass-proportional damping of what moves on top of the rigid motion, 1/s: for quasi-static scenes.
+    double mass_damping  = 0.;
     double density_scale = 1.;
     double gravity       = 9.81; ///< m/s^2, along -z
   };
