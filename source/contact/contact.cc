@@ -371,7 +371,7 @@ namespace tread
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
         load[involved[problem.entries[i].node]] +=
-          std::abs(problem.entries[i].coefficient) * norm(impulse[j]);
+          problem.entries[i].coefficient * dot(impulse[j], problem.constraints[j].normal);
 
     double stretch[2] = {0., 0.}, weight[2] = {0., 0.};
     for (const ContactSurfaces::Face &face : surfaces.faces)
@@ -393,7 +393,7 @@ namespace tread
         stretch[master] += w * (after / before - 1.);
         weight[master] += w;
       }
-    return weight[0] > 0. && weight[1] > 0. ? stretch[0] / weight[0] - stretch[1] / weight[1] : 0.;
+    return weight[0] != 0. && weight[1] != 0. ? stretch[0] / weight[0] - stretch[1] / weight[1] : 0.;
   }
 
 
