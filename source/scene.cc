@@ -284,6 +284,12 @@ namespace tread
     prm.add_parameter("Courant number", courant_number,
                       "Time step over the critical one. Above 1 the run may become unstable and stops.",
                       Double(0.01, 2.));
+    prm.add_parameter(
+      "Levels", time_levels,
+      "Cells twice, four times, ... as slow as the fastest step only every second, fourth, ... time. "
+      "1: all cells in every step. More levels pay where much of the mesh is coarse; results are at "
+      "least 2^(levels - 1) steps apart.",
+      Integer(1, 6));
     prm.leave_subsection();
 
     prm.enter_subsection("Start");

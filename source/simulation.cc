@@ -156,6 +156,7 @@ namespace tread
       p.linear_bulk_viscosity    = scene.linear_bulk_viscosity;
       p.quadratic_bulk_viscosity = scene.quadratic_bulk_viscosity;
       p.density_scale            = scene.density_scale;
+      p.max_level                = scene.time_levels - 1;
       return p;
     }
 
@@ -219,7 +220,9 @@ namespace tread
   {
     const double step =
       dynamics.time_step > 0. ? dynamics.time_step : scene.courant_number * dynamics.critical_time_step();
-    return static_cast<std::uint64_t>(std::ceil((end_position - position()) / (scene.speed() * step)));
+    const std::uint64_t together = std::uint64_t(1) << dynamics.max_level();
+    return together * static_cast<std::uint64_t>(
+                        std::ceil((end_position - position()) / (scene.speed() * step * together)));
   }
 
 
@@ -242,20 +245,23 @@ namespace tread
     const double seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
     const double memory  = dealii::Utilities::MPI::sum(
        static_cast<double>(solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.)), comm);
-    const double relaxation_steps = 2000.;
+    const double relaxation_steps = 2000., gain = dynamics.ideal_gain_of_levels();
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
         std::printf("unknowns             %12llu\n",
                     3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
         std::printf("time step            %12.4g s\n", step);
+        if (dynamics.max_level() > 0)
+          std::printf("levels of time steps %12u     cell updates fall to 1/%.2f\n", dynamics.max_level() + 1,
+                      gain);
         std::printf("steps                %12llu\n", (unsigned long long)steps);
         std::printf("cells and nodes use  %12.0f MB\n", memory / 1e6);
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.density_scale);
         std::printf(
           "estimated time       %12.0f s on %u rank(s), about 1.7 times that of the internal forces\n",
-          1.7 * seconds * (steps + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
+          1.7 * seconds * (steps / gain + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
       }
   }
 
@@ -385,6 +391,9 @@ namespace tread
     if (scene.density_scale > 1.)
       progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%",
                           scene.density_scale, 100. * scene.inertia_error_estimate()));
+    if (const double gain = dynamics.ideal_gain_of_levels(); gain > 1.)
+      progress.say(
+        format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));
 
     if (resume)
       {
@@ -411,12 +420,15 @@ namespace tread
     const double           loop_began           = progress.seconds();
     double                 last_written         = loop_began;
     constexpr unsigned int steps_between_checks = 100;
+    std::uint64_t          next_check           = dynamics.n_steps + steps_between_checks;
     bool                   stopped              = false;
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
         dynamics.step();
         add_to_interval();
+        if (!dynamics.synchronised())
+          continue;
 
         if (!solution_taken && position() >= 0.)
           take_solution(folder);
@@ -438,8 +450,9 @@ namespace tread
             next_volume += 1e-3 * scene.volume_mm;
           }
 
-        if (dynamics.n_steps % steps_between_checks == 0)
+        if (dynamics.n_steps >= next_check)
           {
+            next_check = dynamics.n_steps + steps_between_checks;
             dynamics.check_stability();
             if (contact.touches_rim())
               throw std::runtime_error(

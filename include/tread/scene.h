@@ -69,7 +69,8 @@ namespace tread
     std::string drive = "creepage", creepage = "predicted";
     double      traction_coefficient = 0.3;
     // Time stepping
-    double courant_number = 0.9;
+    double       courant_number = 0.9;
+    unsigned int time_levels    = 1;
     // Start
     double       start_tolerance  = 1e-5;
     unsigned int start_iterations = 20000;

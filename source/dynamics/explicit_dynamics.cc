@@ -15,6 +15,10 @@ namespace tread
     /// Damping power is sampled every so many steps: two force evaluations more each time.
     constexpr std::uint64_t steps_between_damping_samples = 50;
 
+    /// Part of the way that the steady share of slow cells' forces goes to their present value when these are
+    /// evaluated.
+    const double follow = std::getenv("FOLLOW") ? atof(std::getenv("FOLLOW")) : 0.25;
+
     class Stopwatch
     {
     public:
@@ -65,6 +69,74 @@ namespace tread
     for (unsigned int i = 0; i < mass.size(); ++i)
       true_mass[i] = mass[i][0];
     // A hanging node is condensed on each rank that holds cells at it, so its sum is zero everywhere.
+    set_node_levels();
+  }
+
+
+  void ExplicitDynamics::set_node_levels()
+  {
+    unsigned int max_level = 0;
+    for (const unsigned int level : solid.cell_levels())
+      max_level = std::max(max_level, level);
+    max_level = dealii::Utilities::MPI::max(max_level, mesh.comm);
+    level_of_node.assign(x.size(), max_level);
+    for (unsigned int level = max_level; level-- > 0;)
+      {
+        // A node moves with its fastest cell on any rank, a parent with those of its hanging nodes, too.
+        NodalField marks(x.size(), Row{});
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              marks[i][0] = 1.;
+        if (level == 0)
+          for (const Mesh::Face &face : mesh.faces)
+            if (face.boundary == Boundary::contact)
+              for (const unsigned int i : face.nodes)
+                marks[i][0] = 1.;
+        mesh.condense_hanging_nodes(marks.data());
+        mesh.shared_nodes.sum(marks.data());
+        for (unsigned int i = 0; i < marks.size(); ++i)
+          if (marks[i][0] > 0.)
+            level_of_node[i] = level;
+      }
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      {
+        level_of_node[h.node] = max_level;
+        for (const unsigned int parent : h.parents)
+          level_of_node[h.node] = std::min(level_of_node[h.node], level_of_node[parent]);
+      }
+
+    slow_shares.assign(max_level + 1, {});
+    for (unsigned int level = 1; level <= max_level; ++level)
+      {
+        std::vector<char> seen(x.size(), false);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              if (level_of_node[i] < level && !seen[i])
+                {
+                  seen[i] = true;
+                  slow_shares[level].push_back({i, Row{}, Row{}});
+                }
+      }
+    nodes_of_level.assign(max_level + 1, Runs());
+    for (unsigned int begin = 0; begin < level_of_node.size();)
+      {
+        unsigned int end = begin + 1;
+        while (end < level_of_node.size() && level_of_node[end] == level_of_node[begin])
+          ++end;
+        nodes_of_level[level_of_node[begin]].emplace_back(begin, end);
+        begin = end;
+      }
+  }
+
+
+  double ExplicitDynamics::ideal_gain_of_levels() const
+  {
+    double updates = 0.;
+    for (const unsigned int level : solid.cell_levels())
+      updates += std::ldexp(1., -static_cast<int>(level));
+    return mesh.n_global_cells / dealii::Utilities::MPI::sum(updates, mesh.comm);
   }
 
 
@@ -144,11 +216,26 @@ namespace tread
   {
     if (critical_step > 0.)
       return critical_step;
+    double highest = 0.;
+    for (unsigned int level = 0; level <= max_level(); ++level)
+      highest = std::max(highest, std::ldexp(highest_frequency(level), level));
+    // Three digits, rounded up: the same step on any number of ranks.
+    const double digit = std::pow(10., std::floor(std::log10(highest)) - 2.);
+    highest            = digit * std::ceil(highest / digit);
+    // With forces at x + beta v of half a step back: dt^2 omega^2 (1 + 2 beta/dt) <= 4.
+    critical_step = 2. / (highest * std::sqrt(1. + 2. * parameters.damping_steps));
+    return critical_step;
+  }
+
+
+  double ExplicitDynamics::highest_frequency(const unsigned int first_level) const
+  {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
     double bound = 0.;
-    for (const double frequency : solid.cell_frequencies())
-      bound = std::max(bound, frequency);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (solid.cell_levels()[c] >= first_level)
+        bound = std::max(bound, solid.cell_frequencies()[c]);
     bound = max(bound, mesh.comm);
 
     // No cell can vibrate as fast in the mesh as it would alone: the power method on M^-1 K finds how fast
@@ -191,7 +278,7 @@ namespace tread
             moved[i] = reference[i] + mode[i];
             f[i]     = Row{};
           }
-        solid.add_internal_forces(moved.data(), at_rest.data(), f.data());
+        solid.add_internal_forces(moved.data(), at_rest.data(), f.data(), {first_level});
         mesh.condense_hanging_nodes(f.data());
         mesh.shared_nodes.sum(f.data());
         double stiffness = 0.;
@@ -205,28 +292,29 @@ namespace tread
         highest = std::sqrt(std::max(0., sum(stiffness, mesh.comm) / sum(inertia, mesh.comm)));
       }
     // Bulk viscosity damps high modes, which shortens the stable step: the cells' bound leaves room for it.
-    highest = solid.needs_velocity() ? bound : std::min(bound, margin * highest);
-    // Three digits, rounded up: the same step on any number of ranks.
-    const double digit = std::pow(10., std::floor(std::log10(highest)) - 2.);
-    highest            = digit * std::ceil(highest / digit);
-    // With forces at x + beta v of half a step back: dt^2 omega^2 (1 + 2 beta/dt) <= 4.
-    critical_step = 2. / (highest * std::sqrt(1. + 2. * parameters.damping_steps));
-    return critical_step;
+    return solid.needs_velocity() ? bound : std::min(bound, margin * highest);
   }
 
 
   void ExplicitDynamics::set_wheel_velocities()
   {
+    // Half a step back, as velocities are: the centripetal acceleration in that time is no small thing.
+    const Row    of_axle = hub->velocity_at(Row{hub->motion.x, 0., hub->motion.z, 0.});
+    const double step    = parameters.courant_number * critical_time_step();
     for (unsigned int i = 0; i < x.size(); ++i)
       if (on_wheel[i])
-        v[i] = hub->velocity_at(x[i]);
+        {
+          const double back = 0.5 * std::ldexp(step, level_of_node[i]);
+          v[i]              = hub->velocity_at(x[i] - back * (hub->velocity_at(x[i]) - of_axle));
+        }
   }
 
 
   void ExplicitDynamics::set_inertia()
   {
-    time_step    = parameters.courant_number * critical_time_step();
-    inverse_mass = free_inverse_masses();
+    slow_shares_known = false;
+    time_step         = parameters.courant_number * critical_time_step();
+    inverse_mass      = free_inverse_masses();
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
@@ -243,17 +331,14 @@ namespace tread
     if (hub)
       nominal_angular_velocity = hub->motion.angular_velocity;
     set_inertia();
-    totals                     = EnergyLedger();
-    start_kinetic              = kinetic_energy();
-    const NodalField positions = positions_with_velocities();
-    start_potential            = body_potential(positions);
-    start_strain               = solid.strain_energy(positions.data());
-    start_strain.strain        = dealii::Utilities::MPI::sum(start_strain.strain, mesh.comm);
-    start_strain.hourglass     = dealii::Utilities::MPI::sum(start_strain.hourglass, mesh.comm);
-    start_hub_work             = hub ? hub->external_work() : 0.;
-    start_hub_gross            = hub ? hub->gross_work() : 0.;
-    last_damping_step          = n_steps;
-    last_damping_power         = 0.;
+    totals             = EnergyLedger();
+    start_kinetic      = kinetic_energy();
+    start_potential    = body_potential();
+    start_strain       = strain_energy();
+    start_hub_work     = hub ? hub->external_work() : 0.;
+    start_hub_gross    = hub ? hub->gross_work() : 0.;
+    last_damping_step  = n_steps;
+    last_damping_power = 0.;
     sample_damping();
   }
 
@@ -283,12 +368,51 @@ namespace tread
   }
 
 
+  void ExplicitDynamics::add_forces_due(const unsigned int due)
+  {
+    solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {0, 0, true});
+    for (unsigned int level = 1; level <= max_level(); ++level)
+      {
+        const double factor = std::ldexp(1., level);
+        if (level <= due)
+          {
+            for (SlowShare &share : slow_shares[level])
+              share.before = force[share.node];
+            solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {level, level, true});
+            for (SlowShare &share : slow_shares[level])
+              {
+                const Row now = (1. / factor) * (force[share.node] - share.before);
+                force[share.node] -= factor * share.steady;
+                share.steady = slow_shares_known ? share.steady + follow * (now - share.steady) : now;
+              }
+          }
+        for (const SlowShare &share : slow_shares[level])
+          if (level_of_node[share.node] <= due)
+            force[share.node] += std::ldexp(1., level_of_node[share.node]) * share.steady;
+      }
+    slow_shares_known = true;
+  }
+
+
   void ExplicitDynamics::step()
   {
     Stopwatch watch;
-    if (n_steps >= last_damping_step + steps_between_damping_samples)
+    if (n_steps >= last_damping_step + steps_between_damping_samples && synchronised())
       sample_damping();
-    solid.add_internal_forces(x_damped.data(), v.data(), force.data());
+    unsigned int due = max_level();
+    while (n_steps % (std::uint64_t(1) << due) != 0)
+      --due;
+    // Calls action(node, time step of its level over the smallest) for all nodes that move in this step.
+    const auto for_nodes_due = [&](const auto &action) {
+      for (unsigned int level = 0; level <= due; ++level)
+        {
+          const double factor = std::ldexp(1., level);
+          for (const auto &[begin, end] : nodes_of_level[level])
+            for (unsigned int i = begin; i < end; ++i)
+              action(i, factor);
+        }
+    };
+    add_forces_due(due);
     mesh.condense_hanging_nodes(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
@@ -306,19 +430,20 @@ namespace tread
     const bool loaded      = !external_force.empty();
     const bool accelerated = parameters.gravity != 0. || compensation != 0. || parameters.mass_damping > 0.;
     if (loaded)
-      for (unsigned int i = 0; i < force.size(); ++i)
-        force[i] += external_force[i];
+      for_nodes_due(
+        [&](const unsigned int i, const double factor) { force[i] += factor * external_force[i]; });
     if (accelerated)
-      for (unsigned int i = 0; i < force.size(); ++i)
+      for_nodes_due([&](const unsigned int i, const double factor) {
         if (inverse_mass[i] > 0.)
           {
-            Row acceleration = Row{0., 0., weight_acceleration, 0.};
+            const double inertia      = factor / inverse_mass[i];
+            Row          acceleration = Row{0., 0., weight_acceleration, 0.};
             if (on_wheel[i] && compensation > 0.)
               {
                 const Row inward = -compensation * keep_xz * (x[i] - axle);
                 acceleration += inward;
                 if (mesh.shared_nodes.is_owned(i))
-                  compensation_sum += (1. / inverse_mass[i]) * inward;
+                  compensation_sum += inertia * inward;
               }
             if (parameters.mass_damping > 0.)
               {
@@ -328,7 +453,7 @@ namespace tread
                 acceleration -= drag;
                 if (mesh.shared_nodes.is_owned(i))
                   {
-                    const Row reaction = (1. / inverse_mass[i]) * drag;
+                    const Row reaction = inertia * drag;
                     damping_power += dot(reaction, relative);
                     if (on_wheel[i])
                       {
@@ -338,8 +463,9 @@ namespace tread
                       }
                   }
               }
-            force[i] += (1. / inverse_mass[i]) * acceleration;
+            force[i] += inertia * acceleration;
           }
+      });
     totals.damping += time_step * damping_power;
 
     if (hub)
@@ -379,23 +505,22 @@ namespace tread
 
     const double beta = parameters.damping_steps * time_step;
     double       work = 0., gross = 0.;
-    for (unsigned int i = 0; i < x.size(); ++i)
-      {
-        const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
-        if (loaded)
-          {
-            const double w = 0.5 * time_step * dot(external_force[i], velocity + v[i]);
-            if (mesh.shared_nodes.is_owned(i))
-              {
-                work += w;
-                gross += std::abs(w);
-              }
-          }
-        v[i] = velocity;
-        x[i] += time_step * velocity;
-        x_damped[i] = x[i] + beta * velocity;
-        force[i]    = Row{};
-      }
+    for_nodes_due([&](const unsigned int i, const double factor) {
+      const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
+      if (loaded)
+        {
+          const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
+          if (mesh.shared_nodes.is_owned(i))
+            {
+              work += w;
+              gross += std::abs(w);
+            }
+        }
+      v[i] = velocity;
+      x[i] += factor * time_step * velocity;
+      x_damped[i] = x[i] + beta * velocity;
+      force[i]    = Row{};
+    });
     totals.external_work += work;
     totals.gross_work += gross;
     if (hub)
@@ -435,39 +560,47 @@ namespace tread
 
   double ExplicitDynamics::kinetic_energy() const
   {
+    // The product of the velocities half a step before and after now: central differences keep its sum with
+    // the strain energy. What is not the cells' adds as much to the work.
+    NodalField cell_force(x.size(), Row{});
+    solid.add_internal_forces(x.data(), v.data(), cell_force.data(), {0, max_level(), true});
     double energy = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
-        energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
+      {
+        energy += 0.5 * time_step * dot(cell_force[i], v[i]);
+        if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
+          energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
+      }
     energy = dealii::Utilities::MPI::sum(energy, mesh.comm);
     return hub ? energy + hub->kinetic_energy(0.5 * time_step) : energy;
   }
 
 
-  NodalField ExplicitDynamics::positions_with_velocities() const
+  StrainEnergy ExplicitDynamics::strain_energy() const
   {
-    NodalField positions(x.size());
-    for (unsigned int i = 0; i < x.size(); ++i)
-      positions[i] = x[i] - 0.5 * time_step * v[i];
-    return positions;
+    StrainEnergy energy = solid.strain_energy(x.data());
+    energy.strain       = dealii::Utilities::MPI::sum(energy.strain, mesh.comm);
+    energy.hourglass    = dealii::Utilities::MPI::sum(energy.hourglass, mesh.comm);
+    return energy;
   }
 
 
-  double ExplicitDynamics::body_potential(const NodalField &positions) const
+  double ExplicitDynamics::body_potential() const
   {
-    const Row    axle = hub ? Row{hub->motion.x - 0.5 * time_step * hub->motion.velocity_x, 0.,
-                               hub->motion.z - 0.5 * time_step * hub->motion.velocity_z, 0.}
-                            : Row{};
+    // At the instant of the velocities, half a step back: so far work is counted.
     const double compensation =
       (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     double potential = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          potential += true_mass[i] * parameters.gravity * positions[i][2];
+          const double back     = 0.5 * std::ldexp(time_step, level_of_node[i]);
+          const Row    position = x[i] - back * v[i];
+          potential += true_mass[i] * parameters.gravity * position[2];
           if (on_wheel[i])
             {
-              const double rx = positions[i][0] - axle[0], rz = positions[i][2] - axle[2];
+              const double rx = position[0] - hub->motion.x + back * hub->motion.velocity_x,
+                           rz = position[2] - hub->motion.z + back * hub->motion.velocity_z;
               potential += 0.5 * compensation * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
             }
         }
@@ -479,12 +612,11 @@ namespace tread
   {
     using dealii::Utilities::MPI::sum;
     sample_damping();
-    EnergyLedger now           = totals;
-    now.damping                = sum(totals.damping, mesh.comm);
-    now.external_work          = sum(totals.external_work, mesh.comm);
-    now.gross_work             = sum(totals.gross_work, mesh.comm);
-    const NodalField positions = positions_with_velocities();
-    const double     fall      = start_potential - body_potential(positions);
+    EnergyLedger now  = totals;
+    now.damping       = sum(totals.damping, mesh.comm);
+    now.external_work = sum(totals.external_work, mesh.comm);
+    now.gross_work    = sum(totals.gross_work, mesh.comm);
+    const double fall = start_potential - body_potential();
     now.external_work += fall;
     now.gross_work += std::abs(fall);
     if (hub)
@@ -493,9 +625,9 @@ namespace tread
         now.gross_work += hub->gross_work() - start_hub_gross;
       }
     now.kinetic               = kinetic_energy() - start_kinetic;
-    const StrainEnergy energy = solid.strain_energy(positions.data());
-    now.strain                = sum(energy.strain, mesh.comm) - start_strain.strain;
-    now.hourglass             = sum(energy.hourglass, mesh.comm) - start_strain.hourglass;
+    const StrainEnergy energy = strain_energy();
+    now.strain                = energy.strain - start_strain.strain;
+    now.hourglass             = energy.hourglass - start_strain.hourglass;
     return now;
   }
 

@@ -2,6 +2,10 @@
 #include <tread/solid/hexahedron.h>
 #include <tread/solid/solid.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -68,83 +72,104 @@ namespace tread
       throw std::invalid_argument("bulk viscosity is for one-point cells only");
     frequencies.resize(n_cells);
     masses.resize(n_cells);
+    levels_of_cells.assign(n_cells, 0);
+    std::vector<double> stiffness(n_cells);
+    const auto          integrals_of = [&](const unsigned int c) {
+      std::array<dealii::Point<3>, 8> corners;
+      for (unsigned int a = 0; a < 8; ++a)
+        corners[a] = mesh.nodes[mesh.cells[c].nodes[a]];
+      return HexahedronIntegrals(corners);
+    };
+    double highest = 0.;
+    for (unsigned int c = 0; c < n_cells; ++c)
+      {
+        const ElasticMaterial    &material  = materials[mesh.cells[c].body];
+        const HexahedronIntegrals integrals = integrals_of(c);
+        stiffness[c] = hourglass_stiffness(integrals, material, parameters.hourglass_coefficient);
+        frequencies[c] =
+          highest_frequency_bound(integrals, material, stiffness[c], full, parameters.density_scale);
+        highest = std::max(highest, frequencies[c]);
+        for (unsigned int a = 0; a < 8; ++a)
+          masses[c][a] = material.density * integrals.node_volume[a];
+      }
+    highest = dealii::Utilities::MPI::max(highest, mesh.comm);
+    for (unsigned int c = 0; c < n_cells; ++c)
+      while (levels_of_cells[c] < parameters.max_level &&
+             std::ldexp(frequencies[c], levels_of_cells[c] + 1) <= 1.1 * highest)
+        ++levels_of_cells[c];
 
     for (unsigned int body = 0; body < materials.size(); ++body)
-      {
-        const ElasticMaterial &material = materials[body];
-        BodyRange              range;
-        range.begin       = cell_of_lane.size();
-        range.lambda      = material.lame();
-        range.mu          = material.shear_modulus();
-        range.density     = material.density;
-        range.wave_speed  = material.pressure_wave_speed();
-        unsigned int lane = n_lanes;
-        for (unsigned int c = 0; c < n_cells; ++c)
-          if (mesh.cells[c].body == body)
-            {
-              std::array<dealii::Point<3>, 8> corners;
-              for (unsigned int a = 0; a < 8; ++a)
-                corners[a] = mesh.nodes[mesh.cells[c].nodes[a]];
-              const HexahedronIntegrals integrals(corners);
-              const double              stiffness =
-                hourglass_stiffness(integrals, material, parameters.hourglass_coefficient);
-              frequencies[c] =
-                highest_frequency_bound(integrals, material, stiffness, full, parameters.density_scale);
-              for (unsigned int a = 0; a < 8; ++a)
-                masses[c][a] = material.density * integrals.node_volume[a];
-
-              if (lane == n_lanes)
-                {
-                  lane = 0;
-                  cell_of_lane.emplace_back();
-                  cell_of_lane.back().fill(invalid_cell);
-                  // Padded lanes have no volume and no gradients: their forces vanish.
-                  if (full)
-                    {
-                      point_batches.push_back(BatchOfPoints{});
-                      for (auto &node : point_batches.back().node)
-                        std::fill(std::begin(node), std::end(node), mesh.cells[c].nodes[0]);
-                    }
-                  else
-                    {
-                      batches.push_back(Batch{});
-                      for (auto &node : batches.back().node)
-                        std::fill(std::begin(node), std::end(node), mesh.cells[c].nodes[0]);
-                    }
-                }
-              cell_of_lane.back()[lane] = c;
-              for (unsigned int a = 0; a < 8; ++a)
-                {
-                  if (full)
-                    {
-                      BatchOfPoints &batch  = point_batches.back();
-                      batch.node[a][lane]   = mesh.cells[c].nodes[a];
-                      batch.weight[a][lane] = integrals.point_volume[a];
-                      for (unsigned int q = 0; q < 8; ++q)
+      for (unsigned int level = 0; level <= parameters.max_level; ++level)
+        {
+          const ElasticMaterial &material = materials[body];
+          BodyRange              range;
+          range.begin       = cell_of_lane.size();
+          range.level       = level;
+          range.lambda      = material.lame();
+          range.mu          = material.shear_modulus();
+          range.density     = material.density;
+          range.wave_speed  = material.pressure_wave_speed();
+          unsigned int lane = n_lanes;
+          for (unsigned int c = 0; c < n_cells; ++c)
+            if (mesh.cells[c].body == body && levels_of_cells[c] == level)
+              {
+                const HexahedronIntegrals integrals = integrals_of(c);
+                if (lane == n_lanes)
+                  {
+                    lane = 0;
+                    cell_of_lane.emplace_back();
+                    cell_of_lane.back().fill(invalid_cell);
+                    // Padded lanes have no volume and no gradients: their forces vanish.
+                    if (full)
+                      {
+                        point_batches.push_back(BatchOfPoints{});
+                        for (auto &node : point_batches.back().node)
+                          std::fill(std::begin(node), std::end(node), mesh.cells[c].nodes[0]);
+                      }
+                    else
+                      {
+                        batches.push_back(Batch{});
+                        for (auto &node : batches.back().node)
+                          std::fill(std::begin(node), std::end(node), mesh.cells[c].nodes[0]);
+                      }
+                  }
+                cell_of_lane.back()[lane] = c;
+                for (unsigned int a = 0; a < 8; ++a)
+                  {
+                    if (full)
+                      {
+                        BatchOfPoints &batch  = point_batches.back();
+                        batch.node[a][lane]   = mesh.cells[c].nodes[a];
+                        batch.weight[a][lane] = integrals.point_volume[a];
+                        for (unsigned int q = 0; q < 8; ++q)
+                          for (unsigned int i = 0; i < 3; ++i)
+                            batch.gradient[q][a][i][lane] = integrals.point_gradient[q][a][i];
+                      }
+                    else
+                      {
+                        Batch &batch        = batches.back();
+                        batch.node[a][lane] = mesh.cells[c].nodes[a];
+                        batch.volume[lane]  = integrals.volume;
                         for (unsigned int i = 0; i < 3; ++i)
-                          batch.gradient[q][a][i][lane] = integrals.point_gradient[q][a][i];
-                    }
-                  else
-                    {
-                      Batch &batch        = batches.back();
-                      batch.node[a][lane] = mesh.cells[c].nodes[a];
-                      batch.volume[lane]  = integrals.volume;
-                      for (unsigned int i = 0; i < 3; ++i)
-                        batch.gradient[a][i][lane] = integrals.gradient[a][i];
-                      for (unsigned int m = 0; m < 4; ++m)
-                        batch.hourglass[m][a][lane] = std::sqrt(stiffness) * integrals.hourglass[m][a];
-                    }
-                }
-              ++lane;
-            }
-        range.end = cell_of_lane.size();
-        ranges.push_back(range);
-      }
+                          batch.gradient[a][i][lane] = integrals.gradient[a][i];
+                        for (unsigned int m = 0; m < 4; ++m)
+                          batch.hourglass[m][a][lane] = std::sqrt(stiffness[c]) * integrals.hourglass[m][a];
+                      }
+                  }
+                ++lane;
+              }
+          range.end = cell_of_lane.size();
+          ranges.push_back(range);
+        }
   }
 
 
   template <bool viscous>
-  void Solid::add_one_point_forces(const BodyRange &range, const Row *x, const Row *v, Row *force) const
+  void Solid::add_one_point_forces(const BodyRange &range,
+                                   const Row       *x,
+                                   const Row       *v,
+                                   Row             *force,
+                                   const double     factor) const
   {
     const double density = parameters.density_scale * range.density;
     for (std::size_t b = range.begin; b < range.end; ++b)
@@ -192,7 +217,10 @@ namespace tread
         deformation.first_piola(S, P);
         for (auto &row : P)
           for (Lanes &component : row)
-            component *= -batch.volume;
+            component *= -factor * batch.volume;
+        for (auto &mode : amplitude)
+          for (Lanes &component : mode)
+            component *= factor;
         for (unsigned int a = 0; a < 8; ++a)
           {
             Lanes f[3];
@@ -209,7 +237,10 @@ namespace tread
   }
 
 
-  void Solid::add_fully_integrated_forces(const BodyRange &range, const Row *x, Row *force) const
+  void Solid::add_fully_integrated_forces(const BodyRange &range,
+                                          const Row       *x,
+                                          Row             *force,
+                                          const double     factor) const
   {
     for (std::size_t b = range.begin; b < range.end; ++b)
       {
@@ -228,9 +259,9 @@ namespace tread
             deformation.first_piola(S, P);
             for (unsigned int a = 0; a < 8; ++a)
               for (unsigned int i = 0; i < 3; ++i)
-                f[a][i] -=
-                  batch.weight[q] * (P[i][0] * batch.gradient[q][a][0] + P[i][1] * batch.gradient[q][a][1] +
-                                     P[i][2] * batch.gradient[q][a][2]);
+                f[a][i] -= factor * batch.weight[q] *
+                           (P[i][0] * batch.gradient[q][a][0] + P[i][1] * batch.gradient[q][a][1] +
+                            P[i][2] * batch.gradient[q][a][2]);
           }
         for (unsigned int a = 0; a < 8; ++a)
           scatter_add(force, batch.node[a], f[a][0], f[a][1], f[a][2]);
@@ -238,15 +269,19 @@ namespace tread
   }
 
 
-  void Solid::add_internal_forces(const Row *x, const Row *v, Row *force) const
+  void Solid::add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels) const
   {
     for (const BodyRange &range : ranges)
-      if (parameters.element_type == ElementType::fully_integrated)
-        add_fully_integrated_forces(range, x, force);
-      else if (needs_velocity())
-        add_one_point_forces<true>(range, x, v, force);
-      else
-        add_one_point_forces<false>(range, x, v, force);
+      if (range.level >= levels.first && range.level <= levels.last)
+        {
+          const double factor = levels.weighted ? std::ldexp(1., range.level) : 1.;
+          if (parameters.element_type == ElementType::fully_integrated)
+            add_fully_integrated_forces(range, x, force, factor);
+          else if (needs_velocity())
+            add_one_point_forces<true>(range, x, v, force, factor);
+          else
+            add_one_point_forces<false>(range, x, v, force, factor);
+        }
   }
 
 

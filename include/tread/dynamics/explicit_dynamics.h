@@ -48,6 +48,11 @@ namespace tread
 
   /// Central differences for all bodies, the wheel's hub and the contact between them.
   ///
+  /// With levels of cells (SolidParameters::max_level) the cells of level l push their nodes only every
+  /// 2^l-th step, 2^l times as hard, and nodes move with the step of their fastest cell: an asynchronous
+  /// variational integrator (Lew, Marsden, Ortiz & West 2003; Tuckerman, Berne & Martyna 1992), which keeps
+  /// momentum and, up to oscillations, energy. Nodes of the contact surfaces are of level 0.
+  ///
   /// v^(n+1/2) = v^(n-1/2) + dt M^-1 (f_int(x^n + beta v^(n-1/2)) + f_ext + G^T P/dt),
   /// x^(n+1) = x^n + dt v^(n+1/2), with the impulses P such that gaps at n+1 are closed or open
   /// and Coulomb's law holds for v^(n+1/2).
@@ -63,22 +68,38 @@ namespace tread
     std::vector<unsigned int> support_nodes(const unsigned int body) const;
 
     /// Carry the support nodes of a body by a rigid hub. The centrifugal force of density that is
-    /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes the hub's.
+    /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes
+    /// the hub's.
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
 
     void attach_contact(Contact &contact);
 
-    /// Largest stable time step with the damping asked for, s: from the highest frequency of the mesh.
-    /// Collective; costs some 80 force evaluations the first time, when all supports must have been set.
+    /// Largest stable time step of level 0 with the damping asked for, s: from the highest frequencies of the
+    /// cells of each level and above. Collective; costs some 80 force evaluations a level the first time,
+    /// when all supports must have been set.
     double critical_time_step() const;
 
-    /// Give the nodes of the wheel the velocities of the hub's rigid motion at their present positions.
+    /// Give the nodes of the wheel the velocities that the hub's rigid motion had half a step ago.
     void set_wheel_velocities();
 
     /// Take over inertia and time step and zero the ledger; call after all that is attached and set.
     void start();
 
     void step();
+
+    /// Whether all nodes are at the same instant: always, but for levels of time steps.
+    bool synchronised() const
+    {
+      return n_steps % (std::uint64_t(1) << max_level()) == 0;
+    }
+
+    unsigned int max_level() const
+    {
+      return nodes_of_level.size() - 1;
+    }
+
+    /// Cell updates in 2^max_level steps without levels over those with them, of all ranks. Collective.
+    double ideal_gain_of_levels() const;
 
     /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
     /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with
@@ -89,7 +110,7 @@ namespace tread
                        const unsigned int                               max_iterations,
                        const std::function<void(unsigned int, double)> &progress);
 
-    /// Energies half a step back, the instant of the velocities. Collective; costs about one step.
+    /// Energies now, when nodes must be synchronised. Collective; costs about two steps.
     EnergyLedger ledger();
 
     /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
@@ -118,25 +139,46 @@ namespace tread
     /// Time step, inverse masses and all that follows from positions and velocities.
     void                set_inertia();
     std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
+    double              highest_frequency(const unsigned int first_level) const;
+    void                set_node_levels();
     mutable double      critical_step = 0.;
     void                add_hub_sums(std::vector<double> &sums) const;
     void                move_hub_nodes();
-    double              kinetic_energy() const;
-    double              body_potential(const NodalField &positions) const;
-    /// Positions at the instant of the velocities, half a step back: there kinetic energy and work are known.
-    NodalField positions_with_velocities() const;
-    void       sample_damping();
+    /// Of velocities half a step back, and what the cells' forces add to it in half a step.
+    double       kinetic_energy() const;
+    double       body_potential() const;
+    StrainEnergy strain_energy() const;
+    void         sample_damping();
 
-    DynamicsParameters        parameters;
-    NodalField                force, x_damped;
-    std::vector<double>       true_mass, inverse_mass;
-    std::vector<char>         fixed, carried, on_wheel;
-    std::vector<unsigned int> hub_nodes;
-    std::vector<Row>          hub_reference; ///< relative to the axle
-    WheelHub                 *hub                      = nullptr;
-    Contact                  *contact                  = nullptr;
-    double                    nominal_angular_velocity = 0.;
-    std::vector<double>       hub_sums;
+    /// Forces of the cells that are due in this step, times 2^level.
+    void add_forces_due(const unsigned int due);
+
+    /// What the cells of a level exert on a node that moves in smaller steps. Pushed now and then only, a
+    /// node in a prestressed body would rattle: the steady part of the force acts in each of its steps, and
+    /// only the rest, the difference to the present force, acts as one push.
+    struct SlowShare
+    {
+      unsigned int node;
+      Row          steady, before; ///< N
+    };
+
+    /// Runs [begin, end) of nodes.
+    using Runs = std::vector<std::pair<unsigned int, unsigned int>>;
+
+    DynamicsParameters                  parameters;
+    std::vector<Runs>                   nodes_of_level;
+    std::vector<unsigned int>           level_of_node;
+    std::vector<std::vector<SlowShare>> slow_shares; ///< by level
+    bool                                slow_shares_known = false;
+    NodalField                          force, x_damped;
+    std::vector<double>                 true_mass, inverse_mass;
+    std::vector<char>                   fixed, carried, on_wheel;
+    std::vector<unsigned int>           hub_nodes;
+    std::vector<Row>                    hub_reference; ///< relative to the axle
+    WheelHub                           *hub                      = nullptr;
+    Contact                            *contact                  = nullptr;
+    double                              nominal_angular_velocity = 0.;
+    std::vector<double>                 hub_sums;
 
     EnergyLedger  totals; ///< accumulated by step()
     double        start_kinetic = 0., start_potential = 0.;

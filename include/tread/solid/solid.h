@@ -25,6 +25,15 @@ namespace tread
     double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
     /// Factor on the inertia of the cells (quasi-static scenes).
     double density_scale = 1.;
+    /// Cells of level l are slow enough for time steps of 2^l times the smallest; 0: all in one level.
+    unsigned int max_level = 0;
+  };
+
+  /// Which cells a sum of forces is over.
+  struct Levels
+  {
+    unsigned int first = 0, last = 1000;
+    bool         weighted = false; ///< times 2^level: their share of impulse over the smallest time step
   };
 
   /// Elastic energies, J.
@@ -45,7 +54,7 @@ namespace tread
 
     /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and,
     /// for bulk viscosity, move at v (m/s). Hanging nodes are the caller's affair.
-    void add_internal_forces(const Row *x, const Row *v, Row *force) const;
+    void add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const;
 
     /// Energies stored in the cells of this rank at x.
     StrainEnergy strain_energy(const Row *x) const;
@@ -58,6 +67,14 @@ namespace tread
     const std::vector<double> &cell_frequencies() const
     {
       return frequencies;
+    }
+
+    /// Level of each cell: the largest whole l, up to max_level, with 2^l times its frequency not above
+    /// that of the fastest cell of all ranks (a tenth more passes, as cells of an octree's levels differ a
+    /// little in shape).
+    const std::vector<unsigned int> &cell_levels() const
+    {
+      return levels_of_cells;
     }
 
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
@@ -75,7 +92,7 @@ namespace tread
     std::size_t memory_consumption() const;
 
   private:
-    /// n_lanes cells of one material with what their internal forces need.
+    /// n_lanes cells of one material and level with what their internal forces need.
     struct Batch
     {
       unsigned int node[8][n_lanes];
@@ -91,13 +108,21 @@ namespace tread
     };
     struct BodyRange
     {
-      std::size_t begin, end;
-      double      lambda, mu, density, wave_speed;
+      std::size_t  begin, end;
+      unsigned int level;
+      double       lambda, mu, density, wave_speed;
     };
 
     template <bool viscous>
-    void add_one_point_forces(const BodyRange &range, const Row *x, const Row *v, Row *force) const;
-    void add_fully_integrated_forces(const BodyRange &range, const Row *x, Row *force) const;
+    void add_one_point_forces(const BodyRange &range,
+                              const Row       *x,
+                              const Row       *v,
+                              Row             *force,
+                              const double     factor) const;
+    void add_fully_integrated_forces(const BodyRange &range,
+                                     const Row       *x,
+                                     Row             *force,
+                                     const double     factor) const;
 
     SolidParameters                                parameters;
     std::vector<ElasticMaterial>                   materials;
@@ -106,6 +131,7 @@ namespace tread
     std::vector<std::array<unsigned int, n_lanes>> cell_of_lane; ///< invalid where padded
     std::vector<BodyRange>                         ranges;
     std::vector<double>                            frequencies;
+    std::vector<unsigned int>                      levels_of_cells;
     std::vector<std::array<double, 8>>             masses;
     std::size_t                                    n_cells;
   };
