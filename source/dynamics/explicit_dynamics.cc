@@ -17,7 +17,7 @@ namespace tread
 
     /// Part of the way that the steady share of slow cells' forces goes to their present value when these are
     /// evaluated.
-    const double follow = std::getenv("FOLLOW") ? atof(std::getenv("FOLLOW")) : 0.25;
+    constexpr double follow = 0.1;
 
     class Stopwatch
     {
@@ -89,10 +89,14 @@ namespace tread
             for (const unsigned int i : mesh.cells[c].nodes)
               marks[i][0] = 1.;
         if (level == 0)
-          for (const Mesh::Face &face : mesh.faces)
-            if (face.boundary == Boundary::contact)
-              for (const unsigned int i : face.nodes)
-                marks[i][0] = 1.;
+          {
+            for (const Mesh::Face &face : mesh.faces)
+              if (face.boundary == Boundary::contact)
+                for (const unsigned int i : face.nodes)
+                  marks[i][0] = 1.;
+            for (const unsigned int i : hub_nodes)
+              marks[i][0] = 1.;
+          }
         mesh.condense_hanging_nodes(marks.data());
         mesh.shared_nodes.sum(marks.data());
         for (unsigned int i = 0; i < marks.size(); ++i)
@@ -180,6 +184,7 @@ namespace tread
         hub_reference.push_back(x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.});
       }
     hub_sums.resize(4);
+    set_node_levels(); // the hub moves in every step
 
     std::vector<double> sums(4, 0.);
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -382,8 +387,8 @@ namespace tread
             for (SlowShare &share : slow_shares[level])
               {
                 const Row now = (1. / factor) * (force[share.node] - share.before);
+                share.steady  = slow_shares_known ? share.steady + follow * (now - share.steady) : now;
                 force[share.node] -= factor * share.steady;
-                share.steady = slow_shares_known ? share.steady + follow * (now - share.steady) : now;
               }
           }
         for (const SlowShare &share : slow_shares[level])
@@ -563,11 +568,11 @@ namespace tread
     // The product of the velocities half a step before and after now: central differences keep its sum with
     // the strain energy. What is not the cells' adds as much to the work.
     NodalField cell_force(x.size(), Row{});
-    solid.add_internal_forces(x.data(), v.data(), cell_force.data(), {0, max_level(), true});
+    solid.add_internal_forces(x.data(), v.data(), cell_force.data());
     double energy = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        energy += 0.5 * time_step * dot(cell_force[i], v[i]);
+        energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(cell_force[i], v[i]);
         if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
           energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
       }
