@@ -40,22 +40,13 @@ namespace tread
       return text;
     }
 
-    /// Half of the crown's relative curvature is B of the undeformed gap; the head's crown has its own
-    /// radius.
-    double lateral_radius(const Scene &scene)
-    {
-      return scene.rail_shape == "block" ? 1e-3 * scene.crown_radius_mm
-             : scene.profile == "54E1"   ? RailProfile::rail_54e1().crown_radius()
-                                         : RailProfile::rail_60e1().crown_radius();
-    }
-
     reference::RollingCase half_space_case(const Scene &scene,
                                            const double normal_force,
                                            const double traction_coefficient)
     {
       reference::RollingCase c;
       c.curvature_x     = 0.5 / (1e-3 * scene.radius_mm);
-      c.curvature_y     = 0.5 / lateral_radius(scene);
+      c.curvature_y     = 0.5 / scene.crown_radius();
       c.normal_force    = normal_force;
       c.friction        = std::max(scene.friction, 1e-6);
       c.speed           = scene.speed();
@@ -104,7 +95,7 @@ namespace tread
           block.x_end              = margin;
           block.width              = 1e-3 * scene.block_width_mm;
           block.height             = 1e-3 * scene.block_height_mm;
-          block.crown_radius       = 1e-3 * scene.crown_radius_mm;
+          block.crown_radius       = scene.crown_radius();
           block.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
           bodies.push_back(make_rail_block(block, on_rail));
         }
@@ -114,8 +105,7 @@ namespace tread
           head.x_begin            = -rolled - margin;
           head.x_end              = margin;
           head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
-          bodies.push_back(make_rail_head(
-            scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1(), head, on_rail));
+          bodies.push_back(make_rail_head(scene.rail_profile(), head, on_rail));
         }
       bodies.back().name = "rail";
       if (scene.wheel_shape == "sector")
@@ -141,7 +131,7 @@ namespace tread
           wheel.hub_outer_radius   = 1e-3 * scene.hub_outer_radius_mm;
           wheel.hub_length         = 1e-3 * scene.hub_length_mm;
           wheel.bore_radius        = 1e-3 * scene.bore_radius_mm;
-          wheel.coarsest_cell_size = 1e-3 * std::max(scene.coarsest_mm, 20.);
+          wheel.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
           bodies.push_back(make_full_wheel(wheel, on_wheel));
         }
       bodies.back().name = "wheel";
