@@ -70,6 +70,20 @@ namespace tread
                                       reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
     }
 
+    /// How much more the rail's surface stretches along x than the wheel's under the pressure alone, mean
+    /// weighted with the pressure: eps_x = -(1 + nu)(1 - 2 nu)/E b/(a + b) 3/4 p_max on each half-space
+    /// (Johnson 1985, section 3.2, integrated over the ellipse). Zero for like bodies.
+    double half_space_stretch(const Scene &scene)
+    {
+      const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+      const auto                    stretch = [&](const ElasticMaterial &material) {
+        const double nu = material.poisson_ratio;
+        return -(1. + nu) * (1. - 2. * nu) / material.young_modulus * ellipse.semi_axis_y /
+               (ellipse.semi_axis_x + ellipse.semi_axis_y) * 0.75 * ellipse.max_pressure;
+      };
+      return stretch(scene.rail_material.si()) - stretch(scene.wheel_material.si());
+    }
+
     std::vector<Body> make_bodies(const Scene &scene)
     {
       const double rolled = 1e-3 * scene.rolled_mm;
@@ -269,7 +283,7 @@ namespace tread
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
     relaxation_seconds = progress.seconds() - began;
-    free_creepage      = contact.free_rolling_creepage(dynamics.x.data());
+    free_creepage      = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
