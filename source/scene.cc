@@ -473,10 +473,10 @@ namespace tread
     const double thickness_mm =
       std::min(rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
                wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm);
-    require((fine_layers + 1) * finest_mm <= thickness_mm,
+    require((fine_layers + 1) * finest_mm <= thickness_mm * (1. + 1e-9),
             "'Mesh/Fine layers' " + std::to_string(fine_layers) + " of 'Mesh/Finest cell (mm)' " +
               number(finest_mm) + " do not fit into rail and wheel; at most " +
-              std::to_string(std::max(0, static_cast<int>(thickness_mm / finest_mm) - 1)));
+              std::to_string(std::max(0, static_cast<int>(thickness_mm / finest_mm * (1. + 1e-9)) - 1)));
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' fully-integrated");
