@@ -38,8 +38,8 @@ def arguments_of(output, settings):
 
 def interrupt(output, settings, ranks=1):
     """Start a run, press Ctrl-C when it rolls; the ended process and what it wrote to stderr."""
-    # mpirun kills its ranks a second after it was interrupted, which may be too soon on a busy machine.
-    patient = dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="15")
+    # mpirun waits a second, tells its ranks to end, and kills them a second later: too soon on a busy machine.
+    patient = dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="3")
     process = subprocess.Popen(command(program, arguments_of(output, settings), ranks), env=patient,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     history = os.path.join(output, "history.csv")
@@ -120,10 +120,13 @@ with tempfile.TemporaryDirectory() as folder:
             fails(f"a {name} checkpoint is refused on all ranks in one line",
                   arguments_of(path(name), settings) + ["--resume"], [word], ranks=2)
 
-        interrupt(path("two-ranks"), settings, ranks=2)
-        check.that("Ctrl-C to mpirun: the summary is there", read_summary(path("two-ranks"))["completed"] is False)
-        same("Ctrl-C to mpirun, resumed",
-             run(program, "smooth-rolling.prm", path("two-ranks"), settings, ranks=2, more=["--resume"]), whole, 2e-3)
+        longer = COARSE + ["Motion/Rolled distance (mm)=100"]
+        interrupt(path("two-ranks"), longer, ranks=2)
+        part = read_summary(path("two-ranks"))
+        check.that("Ctrl-C to mpirun: the summary is there", part["completed"] is False)
+        rest = run(program, "smooth-rolling.prm", path("two-ranks"), longer, ranks=2, more=["--resume"])
+        check.that("Ctrl-C to mpirun: resumed to the end", rest["completed"] and rest["steps"] > part["steps"])
+        check.below("Ctrl-C to mpirun: energy residual over both parts, share of the work", rest["energy_residual_share"], 1e-3)
 
     elif what == "torque":
         settings = COARSE + ["Motion/Rolled distance (mm)=120", "Motion/Hold distance (mm)=45"]
