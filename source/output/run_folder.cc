@@ -73,6 +73,8 @@ namespace tread
     if (!taken && !removed && ::write(lock, "locked by a run\n", 16) == 16)
       return "";
     const std::string full = std::strerror(errno);
+    if (!taken && !removed)
+      unlink(path(".lock").c_str());
     close(lock);
     lock = -1;
     return taken || removed ? "'Output/Directory': another run writes into '" + folder + "'"
