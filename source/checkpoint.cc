@@ -6,13 +6,13 @@
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/array.hpp>
+#include <boost/crc.hpp>
 #include <boost/serialization/binary_object.hpp>
-#include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
 
-#include <filesystem>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -20,19 +20,11 @@ namespace tread
 {
   namespace
   {
-    const std::string format_name = "tread checkpoint 1";
-
     /// A node of any rank under its name.
     struct StoredNode
     {
       std::array<long long, 4> key;
       double                   x[3], v[3];
-
-      template <typename Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &key &x &v;
-      }
     };
 
     template <typename Archive, typename T>
@@ -42,6 +34,41 @@ namespace tread
       boost::serialization::binary_object object(&value, sizeof value);
       archive                            &object;
     }
+
+    /// The first line of the file: what can be read by whom, and whether it is whole.
+    struct Header
+    {
+      std::string  layout;
+      std::size_t  size     = 0;
+      unsigned int checksum = 0;
+
+      Header() = default;
+      explicit Header(const std::string &content)
+        : layout(own_layout())
+        , size(content.size())
+        , checksum(sum(content))
+      {
+      }
+
+      /// To be counted up when the order or the meaning of what is stored changes; sizes change by
+      /// themselves.
+      static std::string own_layout()
+      {
+        std::string text = "tread-checkpoint-2";
+        for (const std::size_t n :
+             {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
+              sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures)})
+          text += "." + std::to_string(n);
+        return text;
+      }
+
+      static unsigned int sum(const std::string &content)
+      {
+        boost::crc_32_type crc;
+        crc.process_bytes(content.data(), content.size());
+        return crc.checksum();
+      }
+    };
 
     template <typename Archive, typename T>
     void byte_vector(Archive &archive, std::vector<T> &values)
@@ -91,6 +118,8 @@ namespace tread
     bytes(archive, d.start_hub_gross);
     bytes(archive, d.last_damping_power);
     bytes(archive, d.last_damping_step);
+    bytes(archive, d.times);
+    bytes(archive, s.wall_seconds);
     bytes(archive, s.hub); // plain numbers only
     byte_vector(archive, s.contact.impulse_of_node);
     bytes(archive, s.target_creepage);
@@ -132,48 +161,56 @@ namespace tread
     const Mesh       &mesh = simulation.mesh;
     simulation.contact.refresh(d.x.data(), d.v.data(), d.time_step);
 
-    // Sums that ranks keep apart are stored as one.
+    // What ranks keep apart is stored as one: sums of work, the slowest rank's times.
     const EnergyLedger kept       = d.totals;
     const double       kept_power = d.last_damping_power;
+    const StepTimes    kept_times = d.times;
     d.totals.damping              = dealii::Utilities::MPI::sum(kept.damping, comm);
     d.totals.external_work        = dealii::Utilities::MPI::sum(kept.external_work, comm);
     d.totals.gross_work           = dealii::Utilities::MPI::sum(kept.gross_work, comm);
     d.last_damping_power          = dealii::Utilities::MPI::sum(kept_power, comm);
+    for (double StepTimes::*time : {&StepTimes::internal_forces, &StepTimes::contact, &StepTimes::search,
+                                    &StepTimes::communication, &StepTimes::nodes})
+      d.times.*time = dealii::Utilities::MPI::max(kept_times.*time, comm);
 
-    std::vector<StoredNode> own;
+    std::string nodes;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
-        own.push_back(
-          {mesh.node_key(i), {d.x[i][0], d.x[i][1], d.x[i][2]}, {d.v[i][0], d.v[i][1], d.v[i][2]}});
-    std::vector<std::vector<StoredNode>> nodes = dealii::Utilities::MPI::gather(comm, own, 0);
+        {
+          const StoredNode node{mesh.node_key(i),
+                                {d.x[i][0], d.x[i][1], d.x[i][2]},
+                                {d.v[i][0], d.v[i][1], d.v[i][2]}};
+          nodes.append(reinterpret_cast<const char *>(&node), sizeof node);
+        }
+    nodes = folder.gather(nodes);
 
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        const std::string name = "checkpoint-" + std::to_string(next_slot);
-        std::ofstream     file(folder.path(name), std::ios::binary);
-        if (file)
-          try
-            {
-              boost::archive::binary_oarchive archive(file);
-              std::string                     text = fingerprint(simulation);
-              archive << format_name << text;
-              state(archive, simulation);
-              archive << nodes;
-            }
-          catch (const std::exception &)
-            {
-              file.setstate(std::ios::failbit);
-            }
-        file.flush();
-        if (!file)
-          problem = "cannot write '" + folder.path(name) + "': is the disk full?";
-        else
+      try
+        {
+          std::ostringstream content;
+          {
+            boost::archive::binary_oarchive archive(content);
+            std::string                     text = fingerprint(simulation);
+            archive << text;
+            state(archive, simulation);
+            archive << nodes;
+          }
+          const Header       header(content.str());
+          std::ostringstream file;
+          file << header.layout << ' ' << header.size << ' ' << header.checksum << '\n' << content.str();
+          const std::string name = "checkpoint-" + std::to_string(next_slot);
+          folder.write(name, file.str());
           folder.write("checkpoint.last", name + "\n");
-        next_slot = 1 - next_slot;
-      }
+          next_slot = 1 - next_slot;
+        }
+      catch (const std::exception &error)
+        {
+          problem = error.what();
+        }
     d.totals             = kept;
     d.last_damping_power = kept_power;
+    d.times              = kept_times;
     problem              = dealii::Utilities::MPI::broadcast(comm, problem, 0);
     if (!problem.empty())
       throw std::runtime_error(problem);
@@ -184,60 +221,75 @@ namespace tread
   {
     ExplicitDynamics &d    = simulation.dynamics;
     const Mesh       &mesh = simulation.mesh;
-    std::string       name, text, found_format;
-    std::ifstream     last(folder.path("checkpoint.last"));
-    if (!(last >> name))
+    // Rank 0 reads, and all find the same.
+    const bool  reads = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    std::string name, content;
+    if (reads)
+      std::ifstream(folder.path("checkpoint.last")) >> name;
+    name = dealii::Utilities::MPI::broadcast(comm, name, 0);
+    if (name.empty())
       throw SceneError("--resume: no checkpoint in '" + folder.path("") + "'");
     next_slot = name.back() == '0' ? 1 : 0;
-    std::ifstream                        file(folder.path(name), std::ios::binary);
-    std::vector<std::vector<StoredNode>> nodes;
-    try
-      {
-        boost::archive::binary_iarchive archive(file);
-        archive >> found_format >> text;
-        if (found_format != format_name)
-          throw SceneError("");
-        if (text != fingerprint(simulation))
-          {
-            std::istringstream old_lines(text), new_lines(fingerprint(simulation));
-            std::string        old_line, new_line;
-            while (std::getline(old_lines, old_line) && std::getline(new_lines, new_line) &&
-                   old_line == new_line)
-              ;
-            throw SceneError(
-              "--resume: the checkpoint was made with other parameters: '" +
-              old_line.substr(std::min(old_line.size(), old_line.find_first_not_of(' '))) + "', now '" +
-              new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
-          }
-        state(archive, simulation);
-        archive >> nodes;
-      }
-    catch (const SceneError &error)
-      {
-        if (std::string(error.what()).empty())
-          throw SceneError("--resume: '" + folder.path(name) + "' was written by another version of tread");
-        throw;
-      }
-    catch (const std::exception &)
-      {
-        throw SceneError("--resume: '" + folder.path(name) + "' is damaged");
-      }
 
-    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
+    const std::string path = folder.path(name);
+    Header            header;
+    if (reads)
+      {
+        std::ifstream file(path, std::ios::binary);
+        file >> header.layout >> header.size >> header.checksum;
+        file.get();
+        content.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+      }
+    header.layout = dealii::Utilities::MPI::broadcast(comm, header.layout, 0);
+    if (header.layout.empty())
+      throw SceneError("--resume: cannot read '" + path + "'");
+    if (header.layout != Header::own_layout())
+      throw SceneError("--resume: '" + path + "' was not written by this version of tread");
+    const bool whole = header.size == content.size() && header.checksum == Header::sum(content);
+    if (!dealii::Utilities::MPI::broadcast(comm, whole, 0))
+      throw SceneError("--resume: '" + path + "' is damaged");
+    content = dealii::Utilities::MPI::broadcast(comm, content, 0);
+
+    std::istringstream              stream(content);
+    boost::archive::binary_iarchive archive(stream);
+    std::string                     text;
+    archive >> text;
+    if (text != fingerprint(simulation))
+      {
+        std::istringstream old_lines(text), new_lines(fingerprint(simulation));
+        std::string        old_line, new_line;
+        while (std::getline(old_lines, old_line) && std::getline(new_lines, new_line) && old_line == new_line)
+          ;
+        throw SceneError("--resume: the checkpoint was made with other parameters: '" +
+                         old_line.substr(std::min(old_line.size(), old_line.find_first_not_of(' '))) +
+                         "', now '" +
+                         new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
+      }
+    state(archive, simulation);
+    std::string nodes;
+    archive >> nodes;
+
+    if (!reads)
       d.totals.damping = d.totals.external_work = d.totals.gross_work = d.last_damping_power = 0.;
 
-    std::map<std::array<long long, 4>, const StoredNode *> by_key;
-    for (const auto &list : nodes)
-      for (const StoredNode &node : list)
-        by_key[node.key] = &node;
-    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+    std::map<std::array<long long, 4>, StoredNode> by_key;
+    for (std::size_t i = 0; i < nodes.size(); i += sizeof(StoredNode))
       {
-        const auto entry = by_key.find(mesh.node_key(i));
-        if (entry == by_key.end())
-          throw SceneError("--resume: '" + folder.path(name) + "' belongs to another mesh");
-        d.x[i] = Row{entry->second->x[0], entry->second->x[1], entry->second->x[2], 0.};
-        d.v[i] = Row{entry->second->v[0], entry->second->v[1], entry->second->v[2], 0.};
+        StoredNode node;
+        std::memcpy(&node, nodes.data() + i, sizeof node);
+        by_key[node.key] = node;
       }
+    bool missing = false;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (const auto entry = by_key.find(mesh.node_key(i)); entry != by_key.end())
+        {
+          d.x[i] = Row{entry->second.x[0], entry->second.x[1], entry->second.x[2], 0.};
+          d.v[i] = Row{entry->second.v[0], entry->second.v[1], entry->second.v[2], 0.};
+        }
+      else
+        missing = true;
+    if (dealii::Utilities::MPI::logical_or(missing, comm))
+      throw SceneError("--resume: '" + path + "' belongs to another mesh");
     d.set_inertia();
   }
 } // namespace tread

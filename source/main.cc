@@ -5,9 +5,12 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <thread>
 
 namespace
 {
@@ -75,11 +78,10 @@ namespace
           return 0;
         }
     const CommandLine line = parse(argc, argv);
-    tread::Scene      scene;
     if (line.scene.empty() && !line.print_parameters)
       throw tread::SceneError("no scene given; tread --help shows how, prm/ holds scenes to start from");
-    if (!line.scene.empty())
-      scene.read(line.scene, line.settings);
+    tread::Scene scene;
+    scene.read(line.scene, line.settings);
     if (line.print_parameters)
       {
         if (speaks)
@@ -94,37 +96,48 @@ namespace
       }
     return simulation.run(line.output.empty() ? scene.output : line.output, line.resume) ? 0 : 130;
   }
+
+  /// One line in all for what all ranks find; otherwise each rank that fails speaks and ends the others,
+  /// which may wait for it forever.
+  int fail(const std::string &what, const int code, const MPI_Comm errors)
+  {
+    std::string text = what;
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(errors);
+    MPI_Request        request;
+    int                all_failed = 0;
+    MPI_Ibarrier(errors, &request);
+    for (const double start = MPI_Wtime(); !all_failed && MPI_Wtime() - start < 5.;
+         std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+      MPI_Test(&request, &all_failed, MPI_STATUS_IGNORE);
+    if (all_failed && rank != 0)
+      return code;
+    std::cerr << "tread: " << (all_failed ? "" : "rank " + std::to_string(rank) + ": ") << text << std::endl;
+    if (!all_failed)
+      MPI_Abort(MPI_COMM_WORLD, code);
+    return code;
+  }
 } // namespace
 
 
 int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const MPI_Comm                           comm = MPI_COMM_WORLD;
-  const unsigned int                       rank = dealii::Utilities::MPI::this_mpi_process(comm);
+  MPI_Comm                                 errors; // nothing else waits on it
+  MPI_Comm_dup(MPI_COMM_WORLD, &errors);
+  int code;
   try
     {
-      return run(argc, argv, comm);
+      code = run(argc, argv, MPI_COMM_WORLD);
     }
   catch (const tread::SceneError &error)
     {
-      // What is wrong with the input is found by all ranks alike.
-      if (rank == 0)
-        std::cerr << "tread: " << error.what() << std::endl;
-      return 1;
+      code = fail(error.what(), 1, errors);
     }
   catch (const std::exception &error)
     {
-      std::string text = error.what();
-      for (char &c : text)
-        if (c == '\n')
-          c = ' ';
-      std::cerr << "tread: "
-                << (dealii::Utilities::MPI::n_mpi_processes(comm) > 1 ? "rank " + std::to_string(rank) + ": "
-                                                                      : "")
-                << text << std::endl;
-      if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
-        MPI_Abort(comm, 2);
-      return 2;
+      code = fail(error.what(), 2, errors);
     }
+  MPI_Comm_free(&errors);
+  return code;
 }

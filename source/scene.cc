@@ -162,11 +162,17 @@ namespace tread
     prm.add_parameter("Sector width (mm)", sector_width_mm, "Lateral size of a sector.", Double(1., 1000.));
     prm.add_parameter("Sector margin (mm)", sector_margin_mm,
                       "Arc of a sector beyond the rolled distance, at each end.", Double(0., 1000.));
-    prm.add_parameter("Rim inner radius (mm)", rim_inner_radius_mm, "Full wheel.", Double(1., 2000.));
-    prm.add_parameter("Rim width (mm)", rim_width_mm, "Full wheel.", Double(1., 1000.));
-    prm.add_parameter("Web thickness (mm)", web_thickness_mm, "Full wheel.", Double(1., 1000.));
-    prm.add_parameter("Hub outer radius (mm)", hub_outer_radius_mm, "Full wheel.", Double(1., 2000.));
-    prm.add_parameter("Hub length (mm)", hub_length_mm, "Full wheel.", Double(1., 1000.));
+    prm.add_parameter("Rim inner radius (mm)", rim_inner_radius_mm,
+                      "Full wheel. Above the hub's outer radius, below the wheel's radius.",
+                      Double(1., 2000.));
+    prm.add_parameter("Rim width (mm)", rim_width_mm, "Full wheel. Above the web's thickness.",
+                      Double(1., 1000.));
+    prm.add_parameter("Web thickness (mm)", web_thickness_mm, "Full wheel. Below rim width and hub length.",
+                      Double(1., 1000.));
+    prm.add_parameter("Hub outer radius (mm)", hub_outer_radius_mm, "Full wheel. Above the bore's radius.",
+                      Double(1., 2000.));
+    prm.add_parameter("Hub length (mm)", hub_length_mm, "Full wheel. Above the web's thickness.",
+                      Double(1., 1000.));
     prm.add_parameter("Bore radius (mm)", bore_radius_mm, "Full wheel: the rigid axle begins here.",
                       Double(1., 2000.));
     declare_material(wheel_material);
@@ -204,8 +210,11 @@ namespace tread
                       Integer(1, 64));
     prm.add_parameter("Cells per level", cells_per_level,
                       "How many cells of each larger size follow before the next doubling.", Double(1., 32.));
-    prm.add_parameter("Coarsest cell (mm)", coarsest_mm, "Upper bound of the coarse blocks' edges.",
-                      Double(0.1, 500.));
+    prm.add_parameter(
+      "Coarsest cell (mm)", coarsest_mm,
+      "Upper bound of the coarse blocks' edges, not below the finest cell; a rail head, being curved, "
+      "takes 12.5 mm if that is less.",
+      Double(0.1, 500.));
     prm.leave_subsection();
 
     prm.enter_subsection("Solid");
@@ -253,7 +262,7 @@ namespace tread
     prm.leave_subsection();
 
     prm.enter_subsection("Motion");
-    prm.add_parameter("Speed (km per h)", speed_kmh, "Of the wheel's centre, kept along x.",
+    prm.add_parameter("Speed (km per h)", speed_kmh, "Of the wheel's centre, kept along x. At least 0.1.",
                       Double(0., 1000.));
     prm.add_parameter(
       "Rolled distance (mm)", rolled_mm,
@@ -319,11 +328,12 @@ namespace tread
 
   void Scene::read(const std::string &file, const std::vector<std::string> &settings)
   {
-    if (!std::ifstream(file))
+    if (!file.empty() && !std::ifstream(file))
       throw SceneError("cannot read parameter file '" + file + "'");
     try
       {
-        handler.parse_input(file, "", false, true);
+        if (!file.empty())
+          handler.parse_input(file, "", false, true);
       }
     catch (const dealii::ParameterHandler::ExcEntryUndeclared &error)
       {
@@ -392,8 +402,9 @@ namespace tread
             "'Scene/Density scale' " + number(density_scale) + " at " + number(speed_kmh) +
               " km/h makes an inertia error of about " + number(100. * inertia_error_estimate()) +
               " %; at most 2 % is allowed");
-    require(speed_kmh > 0., "'Motion/Speed (km per h)' must be above 0: a wheel that stands does not roll" +
-                              std::string(drive == "torque" ? ", and a torque would only spin it" : ""));
+    require(speed_kmh >= 0.1,
+            "'Motion/Speed (km per h)' must be at least 0.1: a wheel that stands does not roll" +
+              std::string(drive == "torque" ? ", and a torque would only spin it" : ""));
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     require(std::abs(traction_coefficient) < friction || (traction_coefficient == 0.) ||
               (drive == "creepage" && creepage != "predicted"),
@@ -418,11 +429,10 @@ namespace tread
             "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " + number(rolled_mm));
 
     const ElasticMaterial wheel = wheel_material.si(), rail = rail_material.si();
-    const auto            pair       = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
-                                                          {rail.young_modulus, rail.poisson_ratio});
-    const double          lateral_mm = rail_shape == "block" ? crown_radius_mm : 300.;
+    const auto            pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
+                                                    {rail.young_modulus, rail.poisson_ratio});
     const auto            hertz =
-      reference::hertz_ellipse(500. / radius_mm, 500. / lateral_mm, pair.hertz_modulus(), static_load());
+      reference::hertz_ellipse(500. / radius_mm, 0.5 / crown_radius(), pair.hertz_modulus(), static_load());
     const double a_mm = 1e3 * hertz.semi_axis_x, b_mm = 1e3 * hertz.semi_axis_y;
     require(finest_mm <= 0.4 * std::min(a_mm, b_mm),
             "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
@@ -437,9 +447,12 @@ namespace tread
     require(wheel_shape == "full" || sector_margin_mm >= 3. * a_mm,
             "'Wheel/Sector margin (mm)' " + number(sector_margin_mm) +
               " lets the contact leave the sector; at least three semi-axes, " + number(3. * a_mm));
-    require(
-      wheel_shape == "full" || rolled_mm + 2. * sector_margin_mm < 2. * 3.14159 * radius_mm,
-      "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' exceeds the wheel's circumference");
+    require(wheel_shape == "full" ||
+              rolled_mm + 2. * sector_margin_mm <= 0.95 * 2. * dealii::numbers::PI * radius_mm,
+            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
+            "wheel's "
+            "circumference, " +
+              number(0.95 * 2. * dealii::numbers::PI * radius_mm));
     require(wheel_shape == "full" || sector_thickness_mm < radius_mm,
             "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + number(radius_mm));
     require(wheel_shape == "sector" ||
@@ -447,13 +460,37 @@ namespace tread
                rim_inner_radius_mm < radius_mm),
             "a full wheel needs 'Wheel/Bore radius (mm)' < 'Hub outer radius (mm)' < 'Rim inner radius (mm)' "
             "< 'Radius (mm)'");
-    const double half_width_mm = rail_shape == "block" ? 0.5 * block_width_mm : 30.;
-    require(fine_half_width_mm < half_width_mm, "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-                                                  " must be below the half width of the rail, " +
-                                                  number(half_width_mm));
-    require(fine_half_width_mm < 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm),
+    require(wheel_shape == "sector" || web_thickness_mm < std::min(rim_width_mm, hub_length_mm),
+            "'Wheel/Web thickness (mm)' " + number(web_thickness_mm) +
+              " must be below 'Wheel/Rim width (mm)' " + number(rim_width_mm) +
+              " and 'Wheel/Hub length (mm)' " + number(hub_length_mm));
+    require(rail_shape == "head" || crown_radius_mm > 0.5 * block_width_mm,
+            "'Rail/Crown radius (mm)' " + number(crown_radius_mm) +
+              " must be above half of 'Rail/Block width (mm)', " + number(0.5 * block_width_mm));
+    require(rail_shape == "head" ||
+              block_height_mm > -1e3 * crown_height(5e-4 * block_width_mm, crown_radius()),
+            "'Rail/Block height (mm)' " + number(block_height_mm) + " must be above the rise of the crown, " +
+              number(-1e3 * crown_height(5e-4 * block_width_mm, crown_radius())));
+
+    // Around the finest cells there is room for at least one more.
+    require(coarsest_mm >= finest_mm, "'Mesh/Coarsest cell (mm)' " + number(coarsest_mm) +
+                                        " must be at least 'Mesh/Finest cell (mm)' " + number(finest_mm));
+    const double rail_half_width_mm =
+      rail_shape == "block" ? 0.5 * block_width_mm : 1e3 * rail_profile().shoulder_length();
+    require(fine_half_width_mm <= rail_half_width_mm - finest_mm,
             "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              " must be below half of the wheel's width");
+              " must be below the half width of the rail; at most " + number(rail_half_width_mm - finest_mm));
+    const double wheel_half_width_mm = 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm);
+    require(fine_half_width_mm <= wheel_half_width_mm - finest_mm,
+            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
+              " must be below half of the wheel's width; at most " + number(wheel_half_width_mm - finest_mm));
+    const double thickness_mm =
+      std::min(rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
+               wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm);
+    require((fine_layers + 1) * finest_mm <= thickness_mm * (1. + 1e-9),
+            "'Mesh/Fine layers' " + std::to_string(fine_layers) + " of 'Mesh/Finest cell (mm)' " +
+              number(finest_mm) + " do not fit into rail and wheel; at most " +
+              std::to_string(std::max(0, static_cast<int>(thickness_mm / finest_mm * (1. + 1e-9)) - 1)));
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' fully-integrated");
@@ -462,11 +499,25 @@ namespace tread
 
   double Scene::inertia_error_estimate() const
   {
-    const ElasticMaterial material = rail_material.si();
-    const double          nu       = material.poisson_ratio;
-    // Speed of Rayleigh waves (Viktorov 1967).
-    const double rayleigh = material.shear_wave_speed() * (0.87 + 1.12 * nu) / (1. + nu);
-    return density_scale * speed() * speed() / (rayleigh * rayleigh);
+    // Speed of Rayleigh waves (Viktorov 1967), the slower body's.
+    const auto rayleigh = [](const ElasticMaterial &material) {
+      const double nu = material.poisson_ratio;
+      return material.shear_wave_speed() * (0.87 + 1.12 * nu) / (1. + nu);
+    };
+    const double slower = std::min(rayleigh(rail_material.si()), rayleigh(wheel_material.si()));
+    return density_scale * speed() * speed() / (slower * slower);
+  }
+
+
+  RailProfile Scene::rail_profile() const
+  {
+    return profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1();
+  }
+
+
+  double Scene::crown_radius() const
+  {
+    return rail_shape == "block" ? 1e-3 * crown_radius_mm : rail_profile().crown_radius();
   }
 
 

@@ -40,22 +40,13 @@ namespace tread
       return text;
     }
 
-    /// Half of the crown's relative curvature is B of the undeformed gap; the head's crown has its own
-    /// radius.
-    double lateral_radius(const Scene &scene)
-    {
-      return scene.rail_shape == "block" ? 1e-3 * scene.crown_radius_mm
-             : scene.profile == "54E1"   ? RailProfile::rail_54e1().crown_radius()
-                                         : RailProfile::rail_60e1().crown_radius();
-    }
-
     reference::RollingCase half_space_case(const Scene &scene,
                                            const double normal_force,
                                            const double traction_coefficient)
     {
       reference::RollingCase c;
       c.curvature_x     = 0.5 / (1e-3 * scene.radius_mm);
-      c.curvature_y     = 0.5 / lateral_radius(scene);
+      c.curvature_y     = 0.5 / scene.crown_radius();
       c.normal_force    = normal_force;
       c.friction        = std::max(scene.friction, 1e-6);
       c.speed           = scene.speed();
@@ -77,6 +68,20 @@ namespace tread
       const reference::RollingCase c = half_space_case(scene, normal_force, 0.);
       return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
                                       reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
+    }
+
+    /// How much more the rail's surface stretches along x than the wheel's under the pressure alone, mean
+    /// weighted with the pressure: eps_x = -(1 + nu)(1 - 2 nu)/E b/(a + b) 3/4 p_max on each half-space
+    /// (Johnson 1985, section 3.2, integrated over the ellipse). Zero for like bodies.
+    double half_space_stretch(const Scene &scene)
+    {
+      const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+      const auto                    stretch = [&](const ElasticMaterial &material) {
+        const double nu = material.poisson_ratio;
+        return -(1. + nu) * (1. - 2. * nu) / material.young_modulus * ellipse.semi_axis_y /
+               (ellipse.semi_axis_x + ellipse.semi_axis_y) * 0.75 * ellipse.max_pressure;
+      };
+      return stretch(scene.rail_material.si()) - stretch(scene.wheel_material.si());
     }
 
     std::vector<Body> make_bodies(const Scene &scene)
@@ -104,7 +109,7 @@ namespace tread
           block.x_end              = margin;
           block.width              = 1e-3 * scene.block_width_mm;
           block.height             = 1e-3 * scene.block_height_mm;
-          block.crown_radius       = 1e-3 * scene.crown_radius_mm;
+          block.crown_radius       = scene.crown_radius();
           block.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
           bodies.push_back(make_rail_block(block, on_rail));
         }
@@ -114,8 +119,7 @@ namespace tread
           head.x_begin            = -rolled - margin;
           head.x_end              = margin;
           head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
-          bodies.push_back(make_rail_head(
-            scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1(), head, on_rail));
+          bodies.push_back(make_rail_head(scene.rail_profile(), head, on_rail));
         }
       bodies.back().name = "rail";
       if (scene.wheel_shape == "sector")
@@ -141,7 +145,7 @@ namespace tread
           wheel.hub_outer_radius   = 1e-3 * scene.hub_outer_radius_mm;
           wheel.hub_length         = 1e-3 * scene.hub_length_mm;
           wheel.bore_radius        = 1e-3 * scene.bore_radius_mm;
-          wheel.coarsest_cell_size = 1e-3 * std::max(scene.coarsest_mm, 20.);
+          wheel.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
           bodies.push_back(make_full_wheel(wheel, on_wheel));
         }
       bodies.back().name = "wheel";
@@ -287,7 +291,7 @@ namespace tread
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
     relaxation_seconds = progress.seconds() - began;
-    free_creepage      = contact.free_rolling_creepage(dynamics.x.data());
+    free_creepage      = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
@@ -351,9 +355,7 @@ namespace tread
     solution_patch = patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
     solution_taken = true;
     folder.write_patch("patch.csv", solution_patch);
-    std::vector<Row> positions;
-    contact.surfaces.replicate(dynamics.x.data(), positions);
-    folder.write_surface(contact, rail_body, positions, dynamics.time, dynamics.time_step);
+    folder.write_surface(dynamics, contact, rail_body);
     if (scene.write_volume)
       folder.write_volume(dynamics, hub, wheel_body);
   }
@@ -367,19 +369,16 @@ namespace tread
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 
-    if (resume)
+    if (resume && folder.is_complete())
       {
-        checkpoint.read(*this);
-        // The intervals may have been changed since.
-        const auto next = [&](const double start, const double interval_mm) {
-          const double interval = 1e-3 * interval_mm;
-          return interval > 0. ? start + interval * (std::floor((position() - start) / interval) + 1.)
-                               : 1e300;
-        };
-        next_history = next(-1e-3 * scene.rolled_mm, scene.history_mm);
-        next_surface = next(-1e-3 * scene.rolled_mm, scene.surface_mm);
-        next_volume  = next(-1e-3 * scene.rolled_mm, scene.volume_mm);
+        progress.say("the run in '" + path +
+                     "' is complete: nothing to resume; without --resume it starts anew");
+        return true;
       }
+    if (resume)
+      checkpoint.read(*this);
+    const double seconds_before = wall_seconds;
+
     std::ostringstream effective;
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
@@ -397,31 +396,42 @@ namespace tread
 
     if (resume)
       {
+        // The intervals may have been changed since.
+        const auto next = [&](const double start, const double interval_mm) {
+          const double interval = 1e-3 * interval_mm;
+          return interval > 0. ? start + interval * (std::floor((position() - start) / interval) + 1.)
+                               : 1e300;
+        };
+        next_history = next(-1e-3 * scene.rolled_mm, scene.history_mm);
+        next_surface = next(-1e-3 * scene.rolled_mm, scene.surface_mm);
+        next_volume  = next(-1e-3 * scene.rolled_mm, scene.volume_mm);
         progress.say(
           format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
       }
     else
-      try
-        {
-          prepare_start(progress);
-        }
-      catch (const Interruption &)
-        {
-          progress.say("INTERRUPTED before the wheel rolled: there is nothing to go on from");
-          return false;
-        }
-    if (!resume)
-      folder.remove_results();
+      {
+        try
+          {
+            prepare_start(progress);
+          }
+        catch (const Interruption &)
+          {
+            progress.say("INTERRUPTED before the wheel rolled: there is nothing to go on from");
+            return false;
+          }
+        folder.remove_results();
+      }
     folder.open_history(resume, dynamics.time);
 
     const std::uint64_t n_steps = dynamics.n_steps + remaining_steps(), first_step = dynamics.n_steps;
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - first_step), 1e3 * (end_position - position())));
-    const double           loop_began           = progress.seconds();
-    double                 last_written         = loop_began;
-    constexpr unsigned int steps_between_checks = 100;
-    std::uint64_t          next_check           = dynamics.n_steps + steps_between_checks;
-    bool                   stopped              = false;
+    const double loop_began   = progress.seconds();
+    double       last_written = loop_began;
+    // mpirun gives its ranks a second to end after Ctrl-C.
+    constexpr unsigned int steps_between_checks = 100, steps_between_signals = 10;
+    std::uint64_t next_check = dynamics.n_steps + steps_between_checks, next_signal = dynamics.n_steps;
+    bool          stopped = false;
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
@@ -439,9 +449,7 @@ namespace tread
           }
         if (position() >= next_surface)
           {
-            std::vector<Row> positions;
-            contact.surfaces.replicate(dynamics.x.data(), positions);
-            folder.write_surface(contact, rail_body, positions, dynamics.time, dynamics.time_step);
+            folder.write_surface(dynamics, contact, rail_body);
             next_surface += 1e-3 * scene.surface_mm;
           }
         if (scene.write_volume && position() >= next_volume)
@@ -450,6 +458,15 @@ namespace tread
             next_volume += 1e-3 * scene.volume_mm;
           }
 
+        if (dynamics.n_steps >= next_signal)
+          {
+            next_signal = dynamics.n_steps + steps_between_signals;
+            if (interrupted())
+              {
+                stopped = true;
+                break;
+              }
+          }
         if (dynamics.n_steps >= next_check)
           {
             next_check = dynamics.n_steps + steps_between_checks;
@@ -458,17 +475,13 @@ namespace tread
               throw std::runtime_error(
                 format("contact leaves the fine mesh at x = %.2f mm: raise 'Mesh/Fine half width (mm)'",
                        1e3 * position()));
-            if (interrupted())
-              {
-                stopped = true;
-                break;
-              }
             const double now       = progress.seconds();
             const bool   write_now = dealii::Utilities::MPI::max(
                 scene.checkpoint_minutes > 0. && now - last_written > 60. * scene.checkpoint_minutes ? 1 : 0,
               comm);
             if (write_now)
               {
+                wall_seconds = seconds_before + now;
                 checkpoint.write(*this);
                 last_written = now;
               }
@@ -483,14 +496,27 @@ namespace tread
               }
           }
       }
+    wall_seconds = seconds_before + progress.seconds();
+    std::exception_ptr no_checkpoint;
     if (stopped)
-      checkpoint.write(*this);
-    finish(folder, !stopped, progress.seconds());
+      try
+        {
+          checkpoint.write(*this);
+        }
+      catch (const std::exception &)
+        {
+          no_checkpoint = std::current_exception(); // what was computed is kept all the same
+        }
+    else if (interval_steps > 0)
+      end_interval(folder);
+    finish(folder, !stopped);
+    if (no_checkpoint)
+      std::rethrow_exception(no_checkpoint);
     return !stopped;
   }
 
 
-  void Simulation::finish(RunFolder &folder, const bool completed, const double wall_seconds)
+  void Simulation::finish(RunFolder &folder, const bool completed)
   {
     using dealii::Utilities::MPI::max;
     const EnergyLedger  energy   = dynamics.ledger();
@@ -532,7 +558,8 @@ namespace tread
                   ellipse.semi_axis_y);
 
     // Kalker's answer for the forces that act.
-    std::string note;
+    std::string            note;
+    std::vector<PatchNode> reference_patch;
     summary.set("creepage", creepage);
     summary.set("adhesion_share", mean.adhesion_share);
     summary.set("max_shear_Pa", mean.max_shear);
@@ -555,16 +582,14 @@ namespace tread
           compare("max_slip_m_per_s", "maximum micro-slip, m/s", 1., mean.max_slip, half_space.max_slip);
           compare("frictional_power_W", "frictional power, W", 1., mean.frictional_power,
                   half_space.power_balance);
-          std::vector<PatchNode> nodes;
           for (std::size_t i = 0; i < half_space.x.size(); ++i)
             if (half_space.state[i] != reference::ElementState::exterior)
-              nodes.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.},
-                               half_space.element_size * half_space.element_size,
-                               half_space.pressure[i],
-                               {half_space.shear_x[i], half_space.shear_y[i]},
-                               {half_space.slip_x[i], half_space.slip_y[i]},
-                               half_space.state[i] == reference::ElementState::adhesion});
-          folder.write_patch("reference_patch.csv", nodes);
+              reference_patch.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.},
+                                         half_space.element_size * half_space.element_size,
+                                         half_space.pressure[i],
+                                         {half_space.shear_x[i], half_space.shear_y[i]},
+                                         {half_space.slip_x[i], half_space.slip_y[i]},
+                                         half_space.state[i] == reference::ElementState::adhesion});
         }
       catch (const std::exception &error)
         {
@@ -588,7 +613,13 @@ namespace tread
     summary.set("time_step_s", dynamics.time_step);
     summary.set("density_scale", scene.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
-    summary.set("rolled_m", position() + 1e-3 * scene.rolled_mm);
+    const double rolled = position() + 1e-3 * scene.rolled_mm;
+    const double patch_lengths =
+      (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * ellipse.semi_axis_x);
+    const bool long_enough = patch_lengths >= 3.;
+    summary.set("rolled_m", rolled);
+    summary.set("rolled_patch_lengths", patch_lengths);
+    summary.set("long_enough_to_be_steady", long_enough);
     const StepTimes &times = dynamics.times;
     summary.set("wall_s", max(wall_seconds, comm));
     summary.set("wall_s_start", max(relaxation_seconds, comm));
@@ -603,6 +634,8 @@ namespace tread
     folder.write("summary.json", summary.text());
     if (averaged)
       folder.write_patch("patch_averaged.csv", average.nodes());
+    if (!reference_patch.empty())
+      folder.write_patch("reference_patch.csv", reference_patch);
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
@@ -613,10 +646,16 @@ namespace tread
           last_steps > 0 ? 100. * std::max(last_force_high - normal, normal - last_force_low) / normal : 0.,
           force[0] / normal, energy.residual_share(), summary.table().c_str(), note.c_str(),
           note.empty() ? "" : "\n");
-        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s\n",
+        if (completed && !long_enough)
+          std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes three or more\n",
+                      patch_lengths, torque_released ? "torque acts" : "start");
+        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s%s\n",
                     completed ? "finished" : "INTERRUPTED: stopped", wall_seconds, folder.path("").c_str(),
-                    solution_taken ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
-                                   : "; go on with --resume");
+                    solution_taken
+                      ? (scene.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
+                                            : ", patch.csv; for ParaView: surface.pvd")
+                      : "",
+                    completed ? "" : "; go on with --resume");
       }
   }
 } // namespace tread

@@ -50,8 +50,8 @@ class Run:
             patch = read_contact(contact_file)
             self.references.append((f"CONTACT, {patch.size_x:.2g} mm", patch, "black", "--"))
         self.history = read_table(os.path.join(folder, "history.csv"), ("time_s",))
-        if not len(self.history["time_s"]):
-            raise DataError(f"{os.path.join(folder, 'history.csv')}: no rows")
+        # A single row is a point, not a line.
+        self.marker = "o" if len(self.history["time_s"]) < 3 else None
 
         scale = {"semi_axis_x_m": 1e3, "semi_axis_y_m": 1e3, "max_pressure_Pa": 1e-6}
         hertz = [reference_value(self.summary, key, "Hertz") for key in scale]
@@ -251,7 +251,8 @@ def draw_forces(run):
                                       ("lateral_force_N", "lateral, on the wheel", GREEN, "--")):
         values = column(run, name)
         if values is not None:
-            axes[0].plot(x, values / 1e3, color=colour, ls=style, label=f"{text} (at the end {values[-1] / 1e3:.2f} kN)")
+            axes[0].plot(x, values / 1e3, color=colour, ls=style, marker=run.marker,
+                         label=f"{text} (at the end {values[-1] / 1e3:.2f} kN)")
     axes[0].set_ylabel("contact force [kN]")
     for axis, name, factor, text, colour in ((axes[1], "traction_coefficient", 1.0, "traction coefficient [-]", PURPLE),
                                              (axes[2], "creepage", 100.0, "creepage [%]", ORANGE)):
@@ -259,7 +260,7 @@ def draw_forces(run):
         axis.set_ylabel(text)
         if values is None:
             continue
-        axis.plot(x, factor * values, color=colour, label=f"at the end {factor * values[-1]:.4f}")
+        axis.plot(x, factor * values, color=colour, marker=run.marker, label=f"at the end {factor * values[-1]:.4f}")
         wanted = reference_value(run.summary, name)
         if wanted is not None:
             axis.axhline(factor * wanted, color="black", ls="--", lw=1.1, label=f"reference {factor * wanted:.4f}")
@@ -295,14 +296,14 @@ def draw_energies(run):
                 values = values - values[0]
             if axis is axes[0]:
                 scale = max(scale, abs(values).max())
-            axis.plot(time, values, color=colour, ls=style, label=f"{label}\n({values[-1]:.3g} J)")
+            axis.plot(time, values, color=colour, ls=style, marker=run.marker, label=f"{label}\n({values[-1]:.3g} J)")
         axis.set_ylabel("energy [J]")
         if axis.get_legend_handles_labels()[0]:
             axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="(value at the end)", title_fontsize=9)
     residual = column(run, "energy_residual_J")
     if residual is not None and scale > 0:
         share = 100 * residual / scale
-        axes[2].plot(time, share, color=BLUE)
+        axes[2].plot(time, share, color=BLUE, marker=run.marker)
         axes[2].axhspan(-0.1, 0.1, color="#DDEBDD", zorder=0)
         axes[2].text(0.99, 0.94, "shaded: $\\pm$0.1 %", transform=axes[2].transAxes, ha="right", va="top", fontsize=9)
         limit = max(0.15, 1.1 * abs(share).max())
@@ -323,8 +324,12 @@ def main():
         run = Run(arguments.run, arguments.contact)
         folder = os.path.join(arguments.run, "pictures")
         os.makedirs(folder, exist_ok=True)
-        for name, draw in (("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors),
-                           ("forces", draw_forces), ("energies", draw_energies)):
+        pictures = [("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors)]
+        if len(run.history["time_s"]):
+            pictures += [("forces", draw_forces), ("energies", draw_energies)]
+        else:
+            print("note: history.csv has no rows; drawn without forces and energies")
+        for name, draw in pictures:
             path = os.path.join(folder, name + ".png")
             figure = draw(run)
             figure.savefig(path)

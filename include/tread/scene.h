@@ -2,6 +2,7 @@
 #ifndef tread_scene_h
 #define tread_scene_h
 
+#include <tread/geometry/rail_profile.h>
 #include <tread/material/elastic.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -79,8 +80,8 @@ namespace tread
     double      history_mm = 0.25, surface_mm = 0., volume_mm = 0., checkpoint_minutes = 10.;
     bool        write_volume = true;
 
-    /// Read a parameter file, then "Section/Name=value" settings in their order, and check that
-    /// they make sense together. @throws SceneError
+    /// Read a parameter file (none: all defaults), then "Section/Name=value" settings in their order, and
+    /// check that they make sense together. @throws SceneError
     void read(const std::string &file, const std::vector<std::string> &settings);
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
@@ -98,6 +99,11 @@ namespace tread
     /// Rolling speed over the speed of Rayleigh waves in the scaled material, squared: the order of
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
+
+    /// Of a rail head.
+    RailProfile rail_profile() const;
+    /// Lateral radius of the rail where it is touched, m.
+    double crown_radius() const;
 
   private:
     void declare();

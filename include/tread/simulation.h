@@ -37,7 +37,7 @@ namespace tread
     void   add_to_interval();
     void   end_interval(RunFolder &folder);
     void   take_solution(RunFolder &folder);
-    void   finish(RunFolder &folder, const bool completed, const double wall_seconds);
+    void   finish(RunFolder &folder, const bool completed);
     bool   interrupted() const;
     double position() const
     {
@@ -68,8 +68,9 @@ namespace tread
     std::vector<PatchNode> solution_patch;
     Row                    last_force_sum{}; ///< over the last 10 mm before the solution instant
     double                 last_force_low = 1e300, last_force_high = -1e300;
-    std::uint64_t          last_steps = 0;
+    std::uint64_t          last_steps         = 0;
     double                 relaxation_seconds = 0., relaxation_iterations = 0.;
+    double                 wall_seconds = 0.; ///< those before resuming included
 
     friend class Checkpoint;
   };

@@ -3,7 +3,14 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <cstdio>
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iomanip>
 #include <iterator>
@@ -31,20 +38,60 @@ namespace tread
     , comm(comm)
     , writes_tables(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
   {
-    std::string problem;
-    if (writes_tables)
-      {
-        std::error_code error;
-        std::filesystem::create_directories(folder, error);
-        const std::string probe = folder + "/.probe";
-        if (error || !(std::ofstream(probe) << "x" << std::flush))
-          problem = "'Output/Directory': cannot write into '" + folder + "'" +
-                    (error ? " (" + error.message() + ")" : "");
-        std::filesystem::remove(probe, error);
-      }
-    problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
+    const std::string problem = dealii::Utilities::MPI::broadcast(comm, writes_tables ? take_lock() : "", 0);
     if (!problem.empty())
       throw std::runtime_error(problem);
+  }
+
+
+  RunFolder::~RunFolder()
+  {
+    if (lock < 0)
+      return;
+    unlink(path(".lock").c_str());
+    close(lock);
+  }
+
+
+  std::string RunFolder::take_lock()
+  {
+    const std::string cannot = "'Output/Directory': cannot write into '" + folder + "'";
+    std::error_code   error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      return cannot + " (" + error.message() + ")";
+    lock = open(path(".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    if (lock < 0)
+      return cannot + " (" + std::strerror(errno) + ")";
+
+    // The system lets go of the lock however the run ends. Some file systems know no locks: then there is
+    // none.
+    const bool  taken  = flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    struct stat status = {};
+    fstat(lock, &status);
+    const bool removed = status.st_nlink == 0; // by the run that had it, since it was opened here
+    if (!taken && !removed && ::write(lock, "locked by a run\n", 16) == 16)
+      return "";
+    const std::string full = std::strerror(errno);
+    if (!taken && !removed)
+      unlink(path(".lock").c_str());
+    close(lock);
+    lock = -1;
+    return taken || removed ? "'Output/Directory': another run writes into '" + folder + "'"
+                            : cannot + " (" + full + ")";
+  }
+
+
+  bool RunFolder::is_complete() const
+  {
+    bool complete = false;
+    if (writes_tables)
+      {
+        std::ifstream file(path("summary.json"));
+        const auto    summary = nlohmann::json::parse(file, nullptr, false);
+        complete              = summary.is_object() && summary.value("completed", nlohmann::json()) == true;
+      }
+    return dealii::Utilities::MPI::broadcast(comm, complete, 0);
   }
 
 
@@ -59,7 +106,7 @@ namespace tread
         const std::string       name = entry.path().filename();
         static const std::regex own(
           "(summary\\.json|history\\.csv|patch\\.csv|patch_averaged\\.csv|reference_patch\\.csv|"
-          "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))");
+          "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
       }
@@ -73,13 +120,41 @@ namespace tread
     if (!writes_tables)
       return;
     const std::string temporary = path(name) + ".part";
-    {
-      std::ofstream file(temporary);
-      file << text << std::flush;
-      if (!file)
+    std::ofstream     file(temporary, std::ios::binary);
+    file << text;
+    file.close();
+    std::error_code error;
+    if (file)
+      std::filesystem::rename(temporary, path(name), error);
+    if (!file || error)
+      {
+        std::filesystem::remove(temporary, error);
         throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
-    }
-    std::filesystem::rename(temporary, path(name));
+      }
+  }
+
+
+  std::string RunFolder::gather(const std::string &bytes) const
+  {
+    constexpr int tag = 4711;
+    if (!writes_tables)
+      {
+        MPI_Send(bytes.data(), bytes.size(), MPI_CHAR, 0, tag, comm);
+        return "";
+      }
+    std::string        all     = bytes;
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    for (unsigned int rank = 1; rank < n_ranks; ++rank)
+      {
+        MPI_Status status;
+        int        size;
+        MPI_Probe(rank, tag, comm, &status);
+        MPI_Get_count(&status, MPI_CHAR, &size);
+        const std::size_t begin = all.size();
+        all.resize(begin + size);
+        MPI_Recv(all.data() + begin, size, MPI_CHAR, rank, tag, comm, MPI_STATUS_IGNORE);
+      }
+    return all;
   }
 
 
@@ -100,10 +175,11 @@ namespace tread
 
   void RunFolder::open_history(const bool resume, const double time)
   {
+    if (!writes_tables)
+      return;
     if (resume)
       for (const bool surface : {false, true})
         {
-          // All ranks number the pictures alike, also those made before.
           std::ifstream     collection(path(surface ? "surface.pvd" : "volume.pvd"));
           const std::string text((std::istreambuf_iterator<char>(collection)),
                                  std::istreambuf_iterator<char>());
@@ -112,8 +188,6 @@ namespace tread
             if (std::stod((*i)[1]) <= time * (1. + 1e-9))
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    if (!writes_tables)
-      return;
     std::string kept = history_header();
     if (resume)
       {

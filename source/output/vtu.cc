@@ -8,17 +8,15 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
-#include <stdexcept>
 
 namespace tread
 {
   namespace
   {
-    /// Patches made from plain arrays, written by deal.II.
+    /// Patches made from plain arrays, and the text that deal.II makes of them.
     template <int dim>
-    class ArrayOutput : public dealii::DataOutInterface<dim, 3>
+    struct ArrayOutput
     {
-    public:
       using Patch = dealii::DataOutBase::Patch<dim, 3>;
 
       std::vector<Patch>       patches;
@@ -38,22 +36,13 @@ namespace tread
                             dealii::DataComponentInterpretation::component_is_part_of_vector);
       }
 
-    private:
-      const std::vector<Patch> &get_patches() const override
+      /// The part of a VTU file with these patches.
+      std::string piece() const
       {
-        return patches;
-      }
-      std::vector<std::string> get_dataset_names() const override
-      {
-        return names;
-      }
-      std::vector<std::tuple<unsigned int,
-                             unsigned int,
-                             std::string,
-                             dealii::DataComponentInterpretation::DataComponentInterpretation>>
-      get_nonscalar_data_ranges() const override
-      {
-        return ranges;
+        std::ostringstream text;
+        if (!patches.empty())
+          dealii::DataOutBase::write_vtu_main(patches, names, ranges, dealii::DataOutBase::VtkFlags(), text);
+        return text.str();
       }
     };
 
@@ -82,12 +71,23 @@ namespace tread
   } // namespace
 
 
-  void RunFolder::write_collection(const std::string                                 &name,
-                                   const std::vector<std::pair<double, std::string>> &files) const
+  void RunFolder::add_picture(const std::string                           &stem,
+                              const std::string                           &pieces,
+                              const double                                 time,
+                              std::vector<std::pair<double, std::string>> &files) const
   {
-    std::ostringstream text;
-    dealii::DataOutBase::write_pvd_record(text, files);
-    write(name, text.str());
+    if (!writes_tables)
+      return;
+    const std::string  name = numbered(stem, files.size());
+    std::ostringstream vtu;
+    dealii::DataOutBase::write_vtu_header(vtu, dealii::DataOutBase::VtkFlags());
+    vtu << pieces;
+    dealii::DataOutBase::write_vtu_footer(vtu);
+    write(name, vtu.str());
+    files.emplace_back(time, name);
+    std::ostringstream collection;
+    dealii::DataOutBase::write_pvd_record(collection, files);
+    write(stem + ".pvd", collection.str());
   }
 
 
@@ -126,22 +126,17 @@ namespace tread
           }
         output.patches.push_back(std::move(patch));
       }
-    const std::string name = numbered("volume", volume_files.size());
-    output.write_vtu_in_parallel(path(name), comm);
-    volume_files.emplace_back(dynamics.time, name);
-    write_collection("volume.pvd", volume_files);
+    add_picture("volume", gather(output.piece()), dynamics.time, volume_files);
   }
 
 
-  void RunFolder::write_surface(const Contact          &contact,
-                                const unsigned int      body,
-                                const std::vector<Row> &positions,
-                                const double            time,
-                                const double            time_step)
+  void RunFolder::write_surface(const ExplicitDynamics &dynamics,
+                                const Contact          &contact,
+                                const unsigned int      body)
   {
-    const std::string name = numbered("surface", surface_files.size());
-    surface_files.emplace_back(time, name);
-    if (!writes_tables)
+    std::vector<Row> positions;
+    contact.surfaces.replicate(dynamics.x.data(), positions);
+    if (!writes_tables) // all ranks know all of the surface
       return;
     ArrayOutput<2> output;
     for (const char *scalar : {"pressure_MPa", "state"})
@@ -157,9 +152,10 @@ namespace tread
     std::vector<Values> values(contact.surfaces.nodes.size());
     for (const ContactNodeState &state : contact.active_nodes())
       {
-        const double normal = dot(state.impulse, state.normal), scale = 1e-6 / (state.area * time_step);
-        values[state.node] = {scale * normal, state.adhesion ? 1. : 2.,
-                              scale * (state.impulse - normal * state.normal), state.slip};
+        const double normal = dot(state.impulse, state.normal),
+                     scale  = 1e-6 / (state.area * dynamics.time_step);
+        values[state.node]  = {scale * normal, state.adhesion ? 1. : 2.,
+                               scale * (state.impulse - normal * state.normal), state.slip};
       }
     for (const ContactSurfaces::Face &face : contact.surfaces.faces)
       if (face.body == body)
@@ -182,11 +178,6 @@ namespace tread
             }
           output.patches.push_back(std::move(patch));
         }
-    std::ofstream file(path(name));
-    output.write_vtu(file);
-    file.flush();
-    if (!file)
-      throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
-    write_collection("surface.pvd", surface_files);
+    add_picture("surface", output.piece(), dynamics.time, surface_files);
   }
 } // namespace tread

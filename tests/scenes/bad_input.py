@@ -3,6 +3,7 @@
 """What a user may get wrong: each ends with one line that names the parameter, a non-zero exit code,
 and the results of an earlier run untouched."""
 
+import fcntl
 import os
 import subprocess
 import sys
@@ -24,9 +25,12 @@ SETTINGS = [
     ("Mesh/Finest cell (mm)=9", ["Mesh/Finest cell (mm)", "too large for a patch", "at most"]),
     ("Mesh/Fine half width (mm)=4", ["Mesh/Fine half width (mm)", "at least"]),
     ("Mesh/Fine half width (mm)=45", ["Mesh/Fine half width (mm)", "half width of the rail"]),
+    ("Mesh/Fine layers=64", ["Mesh/Fine layers", "do not fit", "at most"]),
+    ("Mesh/Coarsest cell (mm)=0.5", ["Mesh/Coarsest cell (mm)", "at least", "Mesh/Finest cell (mm)"]),
     ("Contact/Friction coefficient=-0.1", ["Contact/Friction coefficient", "allowed", "0"]),
     ("Contact/Friction coefficient=0.3", ["Motion/Traction coefficient", "below", "Contact/Friction coefficient"]),
-    ("Motion/Speed (km per h)=0", ["Motion/Speed (km per h)", "above 0"]),
+    ("Motion/Speed (km per h)=0", ["Motion/Speed (km per h)", "at least 0.1"]),
+    ("Motion/Speed (km per h)=1e-200", ["Motion/Speed (km per h)", "at least 0.1"]),
     ("Motion/Drive=rocket", ["Motion/Drive", "creepage", "torque"]),
     ("Motion/Creepage=abc", ["Motion/Creepage", "predicted"]),
     ("Motion/Creepage=0.9", ["Motion/Creepage", "0.2"]),
@@ -45,9 +49,13 @@ SETTINGS = [
 PAIRS = [
     (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
     (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
+    (["Scene/Density scale=100", "Wheel/Young's modulus (GPa)=70"], ["Scene/Density scale", "inertia error"]),
     (["Motion/Drive=torque", "Motion/Speed (km per h)=0"], ["Motion/Speed (km per h)", "torque"]),
     (["Motion/Drive=torque", "Motion/Hold distance (mm)=80"], ["Motion/Hold distance (mm)", "Rolled distance"]),
     (["Wheel/Shape=full", "Wheel/Bore radius (mm)=200"], ["Wheel/Bore radius (mm)", "Hub outer radius"]),
+    (["Wheel/Shape=full", "Wheel/Web thickness (mm)=140"], ["Wheel/Web thickness (mm)", "Wheel/Rim width (mm)"]),
+    (["Rail/Shape=block", "Rail/Crown radius (mm)=50"], ["Rail/Crown radius (mm)", "Rail/Block width (mm)"]),
+    (["Rail/Shape=block", "Rail/Block height (mm)=5"], ["Rail/Block height (mm)", "crown"]),
     (["Solid/Element=fully-integrated", "Solid/Linear bulk viscosity=0.06"], ["Solid/Linear bulk viscosity", "fully-integrated"]),
 ]
 
@@ -76,13 +84,25 @@ with tempfile.TemporaryDirectory() as folder:
     for settings, words in PAIRS:
         must_fail(" and ".join(settings), base + [a for s in settings for a in ("-s", s)], words)
     must_fail("on 3 ranks", base + ["-s", "Motion/Drive=rocket"], ["Motion/Drive"], ranks=3)
+    coarse = ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Mesh/Fine half width (mm)=9"]
+    must_fail("on 3 ranks, when the mesh is known", base + coarse + ["-s", "Wheel/Mass (kg)=1"], ["Wheel/Mass (kg)"], ranks=3)
 
     must_fail("missing file", [os.path.join(folder, "nothing.prm"), "--output", results], ["nothing.prm"])
     must_fail("no scene", ["--output", results], ["no scene"])
     must_fail("unknown option", base + ["--fast"], ["--fast"])
     must_fail("option without its value", [scene, "--output"], ["--output"])
-    must_fail("resume without checkpoint", base + ["--resume", "-s", "Mesh/Finest cell (mm)=1.3",
-                                                   "-s", "Mesh/Fine half width (mm)=9"], ["no checkpoint"])
+    must_fail("resume without checkpoint", base + coarse + ["--resume"], ["no checkpoint"])
+
+    # What a run that was killed leaves is no lock; only a run that goes on has one.
+    with open(os.path.join(results, ".lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        os.rename(results, os.path.join(folder, "busy"))
+        os.mkdir(results)
+        os.rename(os.path.join(folder, "busy", "summary.json"), os.path.join(results, "summary.json"))
+        must_fail("another run has the folder", [scene, "--output", os.path.join(folder, "busy")] + coarse,
+                  ["another run writes into"], ranks=2)
+    must_fail("the other run was killed", [scene, "--output", os.path.join(folder, "busy"), "--resume"] + coarse,
+              ["no checkpoint"])
 
     for name, text, words in (("unknown entry", "subsection Contact\n  set Frictoin = 1\nend\n", ["Frictoin"]),
                               ("unknown section", "subsection Contract\n  set Friction coefficient = 1\nend\n", ["Contract"]),
@@ -98,7 +118,12 @@ with tempfile.TemporaryDirectory() as folder:
     blocked = os.path.join(folder, "a-file")
     with open(blocked, "w", encoding="utf-8") as stream:
         stream.write("x")
-    must_fail("folder cannot be written", [scene, "--output", os.path.join(blocked, "results"), "-s", "Mesh/Finest cell (mm)=1.3",
-                                           "-s", "Mesh/Fine half width (mm)=9"], ["Output/Directory"])
+    for ranks in (1, 3):
+        must_fail(f"folder cannot be written, {ranks} rank(s)", [scene, "--output", os.path.join(blocked, "results")] + coarse,
+                  ["Output/Directory"], ranks)
+
+    printed = subprocess.run(command(program, ["--print-parameters", "-s", "Motion/Speed (km per h)=123"]), env=environment(),
+                             capture_output=True, text=True)
+    check.that("--print-parameters without a scene shows what was set", "set Speed (km per h) " in printed.stdout and "= 123" in printed.stdout)
 
 check.exit()

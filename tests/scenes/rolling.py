@@ -29,6 +29,44 @@ def same(name, a, b, allowed):
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
+def arguments_of(output, settings):
+    arguments = [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", output]
+    for setting in settings:
+        arguments += ["-s", setting]
+    return arguments
+
+
+def interrupt(output, settings, ranks=1):
+    """Start a run, press Ctrl-C when it rolls; the ended process and what it wrote to stderr."""
+    # mpirun waits a second, tells its ranks to end, and kills them a second later: too soon on a busy machine.
+    patient = dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="3")
+    process = subprocess.Popen(command(program, arguments_of(output, settings), ranks), env=patient,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    history = os.path.join(output, "history.csv")
+    deadline = time.time() + 600
+    while time.time() < deadline and process.poll() is None:
+        if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 12:
+            break
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=120)
+    return process, errors
+
+
+def read_summary(output):
+    with open(os.path.join(output, "summary.json"), encoding="utf-8") as stream:
+        return json.load(stream)
+
+
+def fails(name, arguments, words, ranks=1):
+    """One line with these words, and an exit code that says so; a run that hangs ends the test."""
+    result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True,
+                            timeout=600)
+    lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
+    if not check.that(name, result.returncode > 0 and len(lines) == 1 and all(word in lines[0] for word in words)):
+        print(result.returncode, result.stderr)
+
+
 with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
 
@@ -43,40 +81,52 @@ with tempfile.TemporaryDirectory() as folder:
     elif what == "resume":
         settings = SHORT + ["Output/Checkpoint interval (minutes)=0"]
         whole = run(program, "smooth-rolling.prm", path("whole"), settings)
-        arguments = [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", path("parts")]
-        for setting in settings:
-            arguments += ["-s", setting]
-        process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE)
-        history = os.path.join(path("parts"), "history.csv")
-        deadline = time.time() + 300
-        while time.time() < deadline and process.poll() is None:
-            if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 12:
-                break
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        process.wait(timeout=120)
+        process, _ = interrupt(path("parts"), settings)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
-        with open(os.path.join(path("parts"), "summary.json"), encoding="utf-8") as stream:
-            part = json.load(stream)
+        part = read_summary(path("parts"))
         check.that("the summary says that it is not complete", part["completed"] is False)
-        subprocess.run(["cp", "-r", path("parts"), path("more-ranks")], check=True)
+        for copy in ("more-ranks", "other-parameters", "damaged", "foreign"):
+            subprocess.run(["cp", "-r", path("parts"), path(copy)], check=True)
         # The coupling is integrated anew at a checkpoint, at another instant than without: the micro-slip of one node
         # feels that most.
         same("resumed against never stopped", run(program, "smooth-rolling.prm", path("parts"), settings, more=["--resume"]),
              whole, 2e-3)
-        with open(history, encoding="utf-8") as stream:
+        with open(os.path.join(path("parts"), "history.csv"), encoding="utf-8") as stream:
             positions = [float(row["position_m"]) for row in csv.DictReader(stream)]
+        gaps = [b - a for a, b in zip(positions, positions[1:])]
         check.that("the history goes on without gap or overlap",
-                   all(0.2e-3 < b - a < 0.3e-3 for a, b in zip(positions, positions[1:])))
-        with open(os.path.join(path("parts"), "summary.json"), encoding="utf-8") as stream:
-            resumed = json.load(stream)
+                   all(0.2e-3 < gap < 0.3e-3 for gap in gaps[:-1]) and 0. < gaps[-1] < 0.3e-3)
+        resumed = read_summary(path("parts"))
+        for key in ("wall_s", "wall_s_internal_forces", "wall_s_contact"):
+            check.that(f"{key} counts both parts", resumed[key] > part[key])
+        check.relative("element updates of both parts over their time", resumed["element_updates_per_s"],
+                       resumed["cells"] * resumed["steps"] / resumed["wall_s_internal_forces"], 1e-9)
         same("resumed on 4 ranks against 1",
              run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), resumed, 1e-6)
-        other = subprocess.run(command(program, arguments + ["--resume", "-s", "Contact/Friction coefficient=0.4"]),
-                               env=environment(), capture_output=True, text=True)
-        check.that("other parameters are refused and named",
-                   other.returncode == 1 and "Friction coefficient" in other.stderr)
+
+        again = subprocess.run(command(program, arguments_of(path("parts"), settings) + ["--resume"]), env=environment(),
+                               capture_output=True, text=True)
+        check.that("a complete run is left as it is", again.returncode == 0 and "complete" in again.stdout
+                   and read_summary(path("parts")) == resumed)
+        fails("other parameters are refused and named",
+              arguments_of(path("other-parameters"), settings) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
+              ["Friction coefficient"])
+        for name, word in (("damaged", "damaged"), ("foreign", "version")):
+            with open(os.path.join(path(name), "checkpoint.last"), encoding="utf-8") as stream:
+                checkpoint = os.path.join(path(name), stream.read().strip())
+            with open(checkpoint, "r+b") as stream:
+                stream.seek(-200 if name == "damaged" else 0, os.SEEK_END if name == "damaged" else os.SEEK_SET)
+                stream.write(b"another program's")
+            fails(f"a {name} checkpoint is refused on all ranks in one line",
+                  arguments_of(path(name), settings) + ["--resume"], [word], ranks=2)
+
+        longer = COARSE + ["Motion/Rolled distance (mm)=100"]
+        interrupt(path("two-ranks"), longer, ranks=2)
+        part = read_summary(path("two-ranks"))
+        check.that("Ctrl-C to mpirun: the summary is there", part["completed"] is False)
+        rest = run(program, "smooth-rolling.prm", path("two-ranks"), longer, ranks=2, more=["--resume"])
+        check.that("Ctrl-C to mpirun: resumed to the end", rest["completed"] and rest["steps"] > part["steps"])
+        check.below("Ctrl-C to mpirun: energy residual over both parts, share of the work", rest["energy_residual_share"], 1e-3)
 
     elif what == "torque":
         settings = COARSE + ["Motion/Rolled distance (mm)=120", "Motion/Hold distance (mm)=45"]
@@ -105,6 +155,10 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("braking: maximum pressure as driving", brake["max_pressure_Pa"], drive["max_pressure_Pa"], 0.005)
         free = run(program, "smooth-rolling.prm", path("free"), base + ["Motion/Traction coefficient=0"], 2)
         check.absolute("free rolling: traction coefficient", free["traction_coefficient"], 0., 0.003)
+        # A soft rail stretches more than the wheel under the pressure alone: half-space theory's creepage of free rolling.
+        soft = run(program, "smooth-rolling.prm", path("soft"), base + ["Motion/Traction coefficient=0", "Mesh/Fine half width (mm)=11",
+                                                                        "Rail/Young's modulus (GPa)=70"], 2)
+        check.absolute("unlike bodies, free rolling: traction coefficient", soft["traction_coefficient"], 0., 0.02)
         fast = run(program, "smooth-rolling.prm", path("scaled"), base + ["Scene/Density scale=9"], 2)
         check.relative("density x 9: a third of the steps", fast["steps"] / drive["steps"], 1. / 3., 0.01)
         check.relative("density x 9: maximum pressure", fast["max_pressure_Pa"], drive["max_pressure_Pa"], 0.005)
@@ -150,10 +204,37 @@ with tempfile.TemporaryDirectory() as folder:
         check.that("the VTU files open in VTK", reader.returncode == 0)
         for field in ("von_mises_MPa", "displacement_um", "pressure_MPa", "shear_MPa", "slip_m_per_s", "state"):
             check.that(f"a field {field}", field in reader.stdout)
-        plot = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "plot", "plot-run.py"), path("files")],
-                              capture_output=True, text=True)
-        print(plot.stdout, plot.stderr)
-        check.that("the pictures are drawn", plot.returncode == 0 and len(os.listdir(os.path.join(path("files"), "pictures"))) >= 5)
+        one_row = run(program, "smooth-rolling.prm", path("one-row"), COARSE + [
+            "Motion/Rolled distance (mm)=4", "Output/History interval (mm)=100", "Output/Write volume=false"], 2)
+        with open(os.path.join(path("one-row"), "history.csv"), encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        check.that("a long history interval ends with the run", len(rows) == 1 and float(rows[0]["position_m"]) > 0.)
+        check.that("4 mm are called too short to be steady", one_row["long_enough_to_be_steady"] is False)
+        check.relative("patch lengths rolled", one_row["rolled_patch_lengths"],
+                       4.65 / (2e3 * one_row["reference"]["semi_axis_x_m"]["Hertz"]["value"]), 0.01)
+        for name in ("files", "one-row"):
+            plot = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "plot", "plot-run.py"), path(name)],
+                                  capture_output=True, text=True)
+            print(plot.stdout, plot.stderr)
+            check.that(f"{name}: the pictures are drawn",
+                       plot.returncode == 0 and len(os.listdir(os.path.join(path(name), "pictures"))) >= 5)
+
+        # A disk that is full when one file is written.
+        short = COARSE + ["Motion/Rolled distance (mm)=4"]
+        for name, ranks in (("volume-0000.vtu", 2), ("surface.pvd", 1), ("summary.json", 2), ("reference_patch.csv", 1)):
+            output = path("full-" + name)
+            os.mkdir(output)
+            os.symlink("/dev/full", os.path.join(output, name + ".part"))
+            fails(f"disk full at {name}", arguments_of(output, short), ["cannot write", name], ranks)
+            check.that(f"disk full at {name}: nothing half written stays",
+                       not [entry for entry in os.listdir(output) if entry.endswith(".part") or entry == name])
+            check.that(f"disk full at {name}: what was written before stays", "history.csv" in os.listdir(output))
+        output = path("full-checkpoint")
+        os.mkdir(output)
+        os.symlink("/dev/full", os.path.join(output, "checkpoint-0.part"))
+        process, errors = interrupt(output, SHORT)
+        check.that("no room for the checkpoint: said", process.returncode == 2 and "checkpoint-0" in errors)
+        check.that("no room for the checkpoint: the summary is there", read_summary(output)["completed"] is False)
 
     else:
         sys.exit(f"no test '{what}'")

@@ -24,18 +24,25 @@ namespace tread
     EnergyLedger  energy;
   };
 
-  /// The folder of a run and the files in it. Only rank 0 writes tables; pictures are written by all.
+  /// The folder of a run and the files in it, all written by rank 0.
   /// Every write is checked: a full disk is an error, not a short file.
   class RunFolder
   {
   public:
-    /// Make the folder. @throws std::runtime_error with one line if it cannot be written.
+    /// Make the folder and lock it. @throws std::runtime_error with one line, on all ranks, if it cannot be
+    /// written or another run writes into it.
     RunFolder(const std::string &path, const MPI_Comm comm);
+    ~RunFolder();
+    RunFolder(const RunFolder &)            = delete;
+    RunFolder &operator=(const RunFolder &) = delete;
 
     std::string path(const std::string &name) const
     {
       return folder + "/" + name;
     }
+
+    /// Whether its summary is that of a run that came to its end. Collective.
+    bool is_complete() const;
 
     /// A new run leaves nothing of an earlier one that could be taken for its own.
     void remove_results() const;
@@ -43,29 +50,35 @@ namespace tread
     /// Write text to a file of the folder by way of a temporary one, so that it is whole or not there.
     void write(const std::string &name, const std::string &text) const;
 
+    /// The bytes of all ranks one after the other, on rank 0. Collective.
+    std::string gather(const std::string &bytes) const;
+
     void write_patch(const std::string &name, const std::vector<PatchNode> &patch) const;
 
     /// Begin history.csv anew, or (when resuming) go on after the last row not later than time.
     void open_history(const bool resume, const double time);
     void append(const HistoryRow &row);
 
-    /// Bodies as they are now: displacement without the hub's rigid motion, velocity, stress.
+    /// Bodies as they are now: displacement without the hub's rigid motion, velocity, stress. Collective.
     void write_volume(const ExplicitDynamics &dynamics, const WheelHub &hub, const unsigned int wheel_body);
 
-    /// The rail's contact surface with pressure, shear, slip and state.
-    void write_surface(const Contact          &contact,
-                       const unsigned int      body,
-                       const std::vector<Row> &positions,
-                       const double            time,
-                       const double            time_step);
+    /// A body's contact surface with pressure, shear, slip and state. Collective.
+    void write_surface(const ExplicitDynamics &dynamics, const Contact &contact, const unsigned int body);
 
   private:
-    void write_collection(const std::string                                 &name,
-                          const std::vector<std::pair<double, std::string>> &files) const;
+    /// On rank 0. @returns what is wrong, in one line; empty if the folder is this run's.
+    std::string take_lock();
+
+    /// A picture and the list of all with their times.
+    void add_picture(const std::string                           &stem,
+                     const std::string                           &pieces,
+                     const double                                 time,
+                     std::vector<std::pair<double, std::string>> &files) const;
 
     std::string                                 folder;
     MPI_Comm                                    comm;
     bool                                        writes_tables;
+    int                                         lock = -1; ///< file descriptor
     std::ofstream                               history;
     std::vector<std::pair<double, std::string>> volume_files, surface_files;
   };
