@@ -451,56 +451,24 @@ namespace tread
       hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
     const double steps = std::max<double>(1., dynamics.n_steps);
 
-    Summary summary;
-    summary.set("title", scene.title);
-    summary.set("completed", completed);
-    summary.set("normal_force_N", normal);
-    summary.set("longitudinal_force_N", force[0]);
-    summary.set("lateral_force_N", force[1]);
-    summary.set("traction_coefficient", force[0] / normal);
+    Summary             summary;
+    const ContactAnswer answer{force, creepage, mean};
+    summarise(summary, scene, "explicit finite elements", answer, completed);
     summary.set("normal_force_ripple_share",
                 last_steps > 0 ? std::max(last_force_high - normal, normal - last_force_low) / normal : 0.);
     summary.set("free_rolling_creepage", free_creepage);
-    summary.set("friction_coefficient", scene.friction);
 
-    const reference::HertzEllipse ellipse       = hertz(scene, normal);
-    const auto                    compare_hertz = [&](const char *name, const char *label, const double scale,
-                                   const double value, const double reference) {
-      summary.compare(name, label, scale, value, "Hertz", reference);
-    };
-    compare_hertz("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure, ellipse.max_pressure);
-    compare_hertz("patch_area_m2", "patch area, mm2", 1e6, mean.area, ellipse.area);
-    compare_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, mean.semi_axis_x, ellipse.semi_axis_x);
-    compare_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, mean.semi_axis_y, ellipse.semi_axis_y);
-    compare_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, mean.pressure_semi_axis_x,
-                  ellipse.semi_axis_x);
-    compare_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, mean.pressure_semi_axis_y,
-                  ellipse.semi_axis_y);
-
-    // Kalker's answer for the forces that act.
+    // Kalker's answer for the forces that act; where all slips, at the creepage.
     std::string note;
-    summary.set("creepage", creepage);
-    summary.set("adhesion_share", mean.adhesion_share);
-    summary.set("max_shear_Pa", mean.max_shear);
-    summary.set("max_slip_m_per_s", mean.max_slip);
-    summary.set("frictional_power_W", mean.frictional_power);
-    if (completed && std::abs(force[0]) < 0.999 * scene.friction * normal)
+    if (completed)
       try
         {
-          const reference::RollingResult half_space =
-            reference::solve_rolling(half_space_case(scene, normal, force[0] / normal));
-          const auto compare = [&](const char *name, const char *label, const double scale,
-                                   const double value, const double reference) {
-            summary.compare(name, label, scale, value, "half-space", reference);
-          };
-          compare("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure,
-                  half_space.max_pressure);
-          compare("creepage", "creepage, 1e-3", 1e3, creepage, -half_space.creepage);
-          compare("adhesion_share", "adhesion share, %", 1e2, mean.adhesion_share, half_space.adhesion_share);
-          compare("max_shear_Pa", "maximum shear stress, MPa", 1e-6, mean.max_shear, half_space.max_shear);
-          compare("max_slip_m_per_s", "maximum micro-slip, m/s", 1., mean.max_slip, half_space.max_slip);
-          compare("frictional_power_W", "frictional power, W", 1., mean.frictional_power,
-                  half_space.power_balance);
+          const bool             all_slips = std::abs(force[0]) >= 0.999 * scene.friction * normal;
+          reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : force[0] / normal);
+          c.prescribe_force        = !all_slips;
+          c.creepage               = -creepage;
+          const reference::RollingResult half_space = reference::solve_rolling(c);
+          compare(summary, answer, half_space);
           folder.write_patch("reference_patch.csv", patch_nodes(half_space));
         }
       catch (const std::exception &error)

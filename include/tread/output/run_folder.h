@@ -59,6 +59,9 @@ namespace tread
                        const double            time,
                        const double            time_step);
 
+    /// The square elements of a half-space answer with the same fields.
+    void write_surface(const std::vector<PatchNode> &elements, const double element_size);
+
   private:
     void write_collection(const std::string                                 &name,
                           const std::vector<std::pair<double, std::string>> &files) const;
