@@ -170,8 +170,10 @@ namespace tread
     progress.say("tread " + version() + (scene.title.empty() ? "" : ": " + scene.title));
     char text[200];
     std::snprintf(text, sizeof text,
-                  "half-space solver: elements of %.3g mm, normal force %.2f kN, approach %.2f um\n",
-                  1e3 * half_space.element_size, 1e-3 * half_space.normal_force, 1e6 * half_space.approach);
+                  "half-space solver: elements of %.3g mm, normal force %.2f kN, approach %.2f um, traction "
+                  "coefficient %.4f\n",
+                  1e3 * half_space.element_size, 1e-3 * half_space.normal_force, 1e6 * half_space.approach,
+                  half_space.traction_coefficient);
     progress.say(text);
     progress.say(summary.table());
     if (!half_space.note.empty())

@@ -468,7 +468,7 @@ namespace tread
           c.prescribe_force        = !all_slips;
           c.creepage               = -creepage;
           const reference::RollingResult half_space = reference::solve_rolling(c);
-          compare(summary, answer, half_space);
+          compare(summary, answer, half_space, c.prescribe_force);
           folder.write_patch("reference_patch.csv", patch_nodes(half_space));
         }
       catch (const std::exception &error)

@@ -51,7 +51,12 @@ namespace tread
                  bool                 completed);
 
   /// The half-space values beside a computed answer.
-  void compare(Summary &summary, const ContactAnswer &answer, const reference::RollingResult &half_space);
+  /// @param forces_given true: at the computed forces, so that the creepages can be compared; false: at the
+  /// computed creepage, so that the traction coefficients can
+  void compare(Summary                        &summary,
+               const ContactAnswer            &answer,
+               const reference::RollingResult &half_space,
+               bool                            forces_given);
 } // namespace tread
 
 #endif
