@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
+#include <tread/reference_only.h>
 #include <tread/scene.h>
 #include <tread/simulation.h>
 
@@ -21,6 +22,7 @@ namespace
   -s "Section/Name=value"   set a parameter; may be repeated
   --output DIR              folder of the results
   --resume                  go on from the last checkpoint in that folder
+  --reference-only          print and write the half-space answer of the scene in a second; roll nothing
   --dry-run                 print size and cost of the run; run and write nothing
   --print-parameters        print all parameters with units, ranges and meaning, and stop
   --version, --help
@@ -31,7 +33,7 @@ namespace
     std::string              scene;
     std::vector<std::string> settings;
     std::string              output;
-    bool                     resume = false, dry_run = false, print_parameters = false;
+    bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
   };
 
   CommandLine parse(const int argc, char **argv)
@@ -51,6 +53,8 @@ namespace
           line.output = value();
         else if (argument == "--resume")
           line.resume = true;
+        else if (argument == "--reference-only")
+          line.reference_only = true;
         else if (argument == "--dry-run")
           line.dry_run = true;
         else if (argument == "--print-parameters")
@@ -62,6 +66,8 @@ namespace
         else
           line.scene = argument;
       }
+    if (line.resume + line.reference_only + line.dry_run > 1)
+      throw tread::SceneError("only one of --resume, --reference-only and --dry-run can be asked for");
     return line;
   }
 
@@ -86,6 +92,13 @@ namespace
       {
         if (speaks)
           scene.print(std::cout, true);
+        return 0;
+      }
+    if (line.reference_only)
+      {
+        // beside the results of the run, never over them
+        tread::run_reference_only(scene, line.output.empty() ? scene.output + "-reference" : line.output,
+                                  comm);
         return 0;
       }
     tread::Simulation simulation(scene, comm);

@@ -4,7 +4,7 @@
 #include <tread/mesh/wheel_body.h>
 #include <tread/output/checkpoint.h>
 #include <tread/output/summary.h>
-#include <tread/reference/hertz.h>
+#include <tread/references.h>
 #include <tread/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -38,50 +38,6 @@ namespace tread
       char text[512];
       std::snprintf(text, sizeof text, pattern, values...);
       return text;
-    }
-
-    reference::RollingCase half_space_case(const Scene &scene,
-                                           const double normal_force,
-                                           const double traction_coefficient)
-    {
-      reference::RollingCase c;
-      c.curvature_x     = 0.5 / (1e-3 * scene.radius_mm);
-      c.curvature_y     = 0.5 / scene.crown_radius();
-      c.normal_force    = normal_force;
-      c.friction        = std::max(scene.friction, 1e-6);
-      c.speed           = scene.speed();
-      c.wheel           = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
-      c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
-      c.prescribe_force = true;
-      c.traction_coefficient = traction_coefficient;
-      // 100 elements along the patch: fine enough for creepages within 0.5 % of the limit.
-      const double a =
-        reference::hertz_ellipse(c.curvature_x, c.curvature_y,
-                                 reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force)
-          .semi_axis_x;
-      c.element_size = a / 50.;
-      return c;
-    }
-
-    reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
-    {
-      const reference::RollingCase c = half_space_case(scene, normal_force, 0.);
-      return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
-                                      reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
-    }
-
-    /// How much more the rail's surface stretches along x than the wheel's under the pressure alone, mean
-    /// weighted with the pressure: eps_x = -(1 + nu)(1 - 2 nu)/E b/(a + b) 3/4 p_max on each half-space
-    /// (Johnson 1985, section 3.2, integrated over the ellipse). Zero for like bodies.
-    double half_space_stretch(const Scene &scene)
-    {
-      const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
-      const auto                    stretch = [&](const ElasticMaterial &material) {
-        const double nu = material.poisson_ratio;
-        return -(1. + nu) * (1. - 2. * nu) / material.young_modulus * ellipse.semi_axis_y /
-               (ellipse.semi_axis_x + ellipse.semi_axis_y) * 0.75 * ellipse.max_pressure;
-      };
-      return stretch(scene.rail_material.si()) - stretch(scene.wheel_material.si());
     }
 
     std::vector<Body> make_bodies(const Scene &scene)
@@ -531,65 +487,26 @@ namespace tread
       hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
     const double steps = std::max<double>(1., dynamics.n_steps);
 
-    Summary summary;
-    summary.set("title", scene.title);
-    summary.set("completed", completed);
-    summary.set("normal_force_N", normal);
-    summary.set("longitudinal_force_N", force[0]);
-    summary.set("lateral_force_N", force[1]);
-    summary.set("traction_coefficient", force[0] / normal);
+    Summary             summary;
+    const ContactAnswer answer{force, creepage, mean};
+    summarise(summary, scene, "explicit finite elements", answer, completed);
     summary.set("normal_force_ripple_share",
                 last_steps > 0 ? std::max(last_force_high - normal, normal - last_force_low) / normal : 0.);
     summary.set("free_rolling_creepage", free_creepage);
-    summary.set("friction_coefficient", scene.friction);
 
-    const reference::HertzEllipse ellipse       = hertz(scene, normal);
-    const auto                    compare_hertz = [&](const char *name, const char *label, const double scale,
-                                   const double value, const double reference) {
-      summary.compare(name, label, scale, value, "Hertz", reference);
-    };
-    compare_hertz("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure, ellipse.max_pressure);
-    compare_hertz("patch_area_m2", "patch area, mm2", 1e6, mean.area, ellipse.area);
-    compare_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, mean.semi_axis_x, ellipse.semi_axis_x);
-    compare_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, mean.semi_axis_y, ellipse.semi_axis_y);
-    compare_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, mean.pressure_semi_axis_x,
-                  ellipse.semi_axis_x);
-    compare_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, mean.pressure_semi_axis_y,
-                  ellipse.semi_axis_y);
-
-    // Kalker's answer for the forces that act.
+    // Kalker's answer for the forces that act; where all slips, at the creepage.
     std::string            note;
     std::vector<PatchNode> reference_patch;
-    summary.set("creepage", creepage);
-    summary.set("adhesion_share", mean.adhesion_share);
-    summary.set("max_shear_Pa", mean.max_shear);
-    summary.set("max_slip_m_per_s", mean.max_slip);
-    summary.set("frictional_power_W", mean.frictional_power);
-    if (completed && std::abs(force[0]) < 0.999 * scene.friction * normal)
+    if (completed)
       try
         {
-          const reference::RollingResult half_space =
-            reference::solve_rolling(half_space_case(scene, normal, force[0] / normal));
-          const auto compare = [&](const char *name, const char *label, const double scale,
-                                   const double value, const double reference) {
-            summary.compare(name, label, scale, value, "half-space", reference);
-          };
-          compare("max_pressure_Pa", "maximum pressure, MPa", 1e-6, mean.max_pressure,
-                  half_space.max_pressure);
-          compare("creepage", "creepage, 1e-3", 1e3, creepage, -half_space.creepage);
-          compare("adhesion_share", "adhesion share, %", 1e2, mean.adhesion_share, half_space.adhesion_share);
-          compare("max_shear_Pa", "maximum shear stress, MPa", 1e-6, mean.max_shear, half_space.max_shear);
-          compare("max_slip_m_per_s", "maximum micro-slip, m/s", 1., mean.max_slip, half_space.max_slip);
-          compare("frictional_power_W", "frictional power, W", 1., mean.frictional_power,
-                  half_space.power_balance);
-          for (std::size_t i = 0; i < half_space.x.size(); ++i)
-            if (half_space.state[i] != reference::ElementState::exterior)
-              reference_patch.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.},
-                                         half_space.element_size * half_space.element_size,
-                                         half_space.pressure[i],
-                                         {half_space.shear_x[i], half_space.shear_y[i]},
-                                         {half_space.slip_x[i], half_space.slip_y[i]},
-                                         half_space.state[i] == reference::ElementState::adhesion});
+          const bool             all_slips = std::abs(force[0]) >= 0.999 * scene.friction * normal;
+          reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : force[0] / normal);
+          c.prescribe_force        = !all_slips;
+          c.creepage               = -creepage;
+          const reference::RollingResult half_space = reference::solve_rolling(c);
+          compare(summary, answer, half_space, c.prescribe_force);
+          reference_patch = patch_nodes(half_space);
         }
       catch (const std::exception &error)
         {
@@ -615,7 +532,7 @@ namespace tread
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
     const double rolled = position() + 1e-3 * scene.rolled_mm;
     const double patch_lengths =
-      (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * ellipse.semi_axis_x);
+      (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * hertz(scene, normal).semi_axis_x);
     const bool long_enough = patch_lengths >= 3.;
     summary.set("rolled_m", rolled);
     summary.set("rolled_patch_lengths", patch_lengths);

@@ -7,6 +7,10 @@
   vectors.png   shear stress on the wheel and micro-slip
   forces.png    forces, traction coefficient and creepage over the rolled position
   energies.png  energy ledger over time
+  depth.png     stress below the surface, if the run has subsurface.csv (tread --reference-only)
+
+Lines and borders of reference_patch.csv, the half-space answer at the same forces, are drawn beside. A run without
+history.csv (tread --reference-only) has no pictures over time.
 """
 
 import argparse
@@ -41,17 +45,24 @@ class Run:
     def __init__(self, folder, contact_file):
         self.summary = read_summary(folder)
         self.patch = read_patch(os.path.join(folder, "patch.csv"))
-        self.averaged = self.optional(folder, "patch_averaged.csv")
+        self.half_space_only = self.summary.get("method") == "half-space solver"
+        self.label = "half-space solver" if self.half_space_only else "tread"
+        self.averaged = self.reference = self.history = self.depths = None
+        if self.half_space_only:
+            self.depths = read_table(os.path.join(folder, "subsurface.csv"),
+                                     ("x_mm", "depth_mm", "von_mises_MPa"), text=("body", "line"))
+        else:
+            self.averaged = self.optional(folder, "patch_averaged.csv")
+            self.reference = self.optional(folder, "reference_patch.csv")
+            self.history = read_table(os.path.join(folder, "history.csv"), ("time_s",))
+            # A single row is a point, not a line.
+            self.marker = "o" if len(self.history["time_s"]) < 3 else None
         self.references = []  # (label, patch, colour, line style)
-        reference = self.optional(folder, "reference_patch.csv")
-        if reference is not None:
-            self.references.append(("half-space solver", reference, ORANGE, "-"))
+        if self.reference is not None:
+            self.references.append(("half-space solver", self.reference, ORANGE, "-"))
         if contact_file:
             patch = read_contact(contact_file)
             self.references.append((f"CONTACT, {patch.size_x:.2g} mm", patch, "black", "--"))
-        self.history = read_table(os.path.join(folder, "history.csv"), ("time_s",))
-        # A single row is a point, not a line.
-        self.marker = "o" if len(self.history["time_s"]) < 3 else None
 
         scale = {"semi_axis_x_m": 1e3, "semi_axis_y_m": 1e3, "max_pressure_Pa": 1e-6}
         hertz = [reference_value(self.summary, key, "Hertz") for key in scale]
@@ -78,7 +89,7 @@ class Run:
                                       ("creepage", "creepage {:.3f} %", 100.0)):
             if isinstance(self.summary.get(key), (int, float)):
                 parts.append(template.format(self.summary[key] * factor))
-        parts.append(f"cells {self.patch.size_x:.2f} mm")
+        parts.append(f"{'elements' if self.half_space_only else 'cells'} {self.patch.size_x:.2f} mm")
         return ", ".join(parts)
 
 
@@ -122,8 +133,8 @@ def draw_axis(run):
         for label, other, colour, style in run.references:
             axes[row].plot(*axis_profile(other, getattr(other, field)), color=colour, ls=style, lw=1.4,
                            label=label)
-        axes[row].plot(*axis_profile(patch, getattr(patch, field)), color=BLUE, marker="o", ms=3.6,
-                       lw=0.9, label="tread")
+        axes[row].plot(*axis_profile(patch, getattr(patch, field)), color=BLUE, label=run.label,
+                       **({"lw": 1.6} if run.half_space_only else {"marker": "o", "ms": 3.6, "lw": 0.9}))
     if run.averaged is not None:
         axes[2].plot(*axis_profile(run.averaged, getattr(run.averaged, slip)), color=RED, marker="s",
                      ms=3.0, lw=0.9, label="tread, mean of one cell passage")
@@ -167,12 +178,18 @@ def adhesion_border(axis, patch, **style):
         axis.contour(x, y, np.ma.masked_invalid(adhesion), levels=[0.5], **style)
 
 
+def patch_border(axis, patch, **style):
+    """The outline of the contact."""
+    x, y, inside = patch.grid(np.ones_like(patch.x))
+    axis.contour(x, y, np.nan_to_num(inside), levels=[0.5], **style)
+
+
 def draw_map(run):
     patch = run.patch
     figure, axis = plt.subplots(figsize=(7.2, 5.6))
     x, y, state = patch.grid(np.where(patch.adhesion, 0.0, 1.0))
     axis.pcolormesh(x, y, np.ma.masked_invalid(state), cmap=ListedColormap([ADHESION, SLIP]), vmin=0, vmax=1,
-                    shading="nearest", edgecolors="white", linewidth=0.4)
+                    shading="nearest", edgecolors="white", linewidth=0.0 if run.half_space_only else 0.4)
     entries = [Swatch(fc=ADHESION, label=f"adhesion, {100 * patch.adhesion_share:.1f} % of the patch"),
                Swatch(fc=SLIP, label=f"slip, {100 * (1 - patch.adhesion_share):.1f} %")]
     patch_axes(axis, run)
@@ -180,7 +197,8 @@ def draw_map(run):
         entries.append(Line2D([], [], color="black", lw=1.3, label="Hertz ellipse"))
     for label, other, colour, style in run.references:
         adhesion_border(axis, other, colors=colour, linewidths=1.8, linestyles=style)
-        entries.append(Line2D([], [], color=colour, ls=style, lw=1.8, label="adhesion border, " + label
+        patch_border(axis, other, colors=colour, linewidths=1.2, linestyles=style)
+        entries.append(Line2D([], [], color=colour, ls=style, lw=1.8, label="borders of patch and adhesion,\n" + label
                               + f" ({100 * other.adhesion_share:.1f} %)"))
     axis.legend(handles=entries, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=2)
     axis.set_title(run.title(), loc="left", pad=24)
@@ -222,6 +240,24 @@ def draw_vectors(run):
         entries.append(Line2D([], [], color="black", lw=1.3, label="Hertz ellipse"))
     figure.legend(handles=entries, loc="lower center", ncol=2, bbox_to_anchor=(0.5, 0.04))
     figure.subplots_adjust(wspace=0.16)
+    return figure
+
+
+def draw_depth(run):
+    depths = run.depths
+    figure, axes = plt.subplots(figsize=(6.0, 6.4))
+    for body, colour in (("wheel", BLUE), ("rail", RED)):
+        for line, style, place in (("centre", "-", "under the patch centre"), ("maximum", "--", "under x = {:.2f} mm")):
+            rows = (depths["body"] == body) & (depths["line"] == line)
+            if rows.any():
+                axes.plot(depths["von_mises_MPa"][rows], depths["depth_mm"][rows], color=colour, ls=style,
+                          label=f"{body}, " + place.format(depths["x_mm"][rows][0]))
+    axes.invert_yaxis()
+    axes.set_xlim(left=0)
+    axes.set_xlabel("von Mises stress [MPa]")
+    axes.set_ylabel("depth below the surface [mm]")
+    axes.set_title(run.title(), loc="left", fontsize=8)
+    axes.legend(loc="lower right")
     return figure
 
 
@@ -325,7 +361,9 @@ def main():
         folder = os.path.join(arguments.run, "pictures")
         os.makedirs(folder, exist_ok=True)
         pictures = [("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors)]
-        if len(run.history["time_s"]):
+        if run.half_space_only:
+            pictures += [("depth", draw_depth)]
+        elif len(run.history["time_s"]):
             pictures += [("forces", draw_forces), ("energies", draw_energies)]
         else:
             print("note: history.csv has no rows; drawn without forces and energies")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/output/summary.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 
@@ -22,9 +23,20 @@ namespace tread
   }
 
 
+  void Summary::show(const std::string &name,
+                     const std::string &label,
+                     const double       scale,
+                     const double       value)
+  {
+    set(name, value);
+    lines.push_back({label, "", scale * value, 0.});
+  }
+
+
   std::string Summary::table() const
   {
-    // One row a label; Hertz and the half-space solver are columns.
+    // One row a label, one column a source.
+    std::vector<std::string>                           sources;
     std::vector<std::string>                           labels;
     std::map<std::string, std::map<std::string, Line>> rows;
     for (const Line &line : lines)
@@ -32,18 +44,25 @@ namespace tread
         if (rows.find(line.label) == rows.end())
           labels.push_back(line.label);
         rows[line.label][line.source] = line;
+        if (!line.source.empty() && std::find(sources.begin(), sources.end(), line.source) == sources.end())
+          sources.push_back(line.source);
       }
     std::string text;
     char        buffer[256];
-    std::snprintf(buffer, sizeof buffer, "%-32s %12s %12s %8s %12s %8s\n", "", "computed", "Hertz", "diff.",
-                  "half-space", "diff.");
+    std::snprintf(buffer, sizeof buffer, "%-32s %12s", "", "computed");
     text += buffer;
+    for (const std::string &source : sources)
+      {
+        std::snprintf(buffer, sizeof buffer, " %12s %8s", source.c_str(), "diff.");
+        text += buffer;
+      }
+    text += "\n";
     for (const std::string &label : labels)
       {
         const auto &columns = rows[label];
         std::snprintf(buffer, sizeof buffer, "%-32s %12.5g", label.c_str(), columns.begin()->second.value);
         text += buffer;
-        for (const char *source : {"Hertz", "half-space"})
+        for (const std::string &source : sources)
           if (const auto column = columns.find(source); column != columns.end())
             {
               const Line &line = column->second;

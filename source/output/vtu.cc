@@ -62,6 +62,43 @@ namespace tread
       return std::sqrt(0.5 * (a * a + b * b + c * c) + 3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
     }
 
+    struct SurfaceValues
+    {
+      double pressure = 0., state = 0.; // MPa; 0 apart, 1 adhesion, 2 slip
+      Row    shear{}, slip{};           // MPa, m/s
+    };
+
+    ArrayOutput<2> surface_output()
+    {
+      ArrayOutput<2> output;
+      for (const char *scalar : {"pressure_MPa", "state"})
+        output.names.emplace_back(scalar);
+      output.add_vector("shear_MPa");
+      output.add_vector("slip_m_per_s");
+      return output;
+    }
+
+    /// Vertices in deal.II's order.
+    void add_face(ArrayOutput<2>                     &output,
+                  const std::array<Row, 4>           &vertices,
+                  const std::array<SurfaceValues, 4> &values)
+    {
+      ArrayOutput<2>::Patch patch;
+      patch.reference_cell = dealii::ReferenceCells::Quadrilateral;
+      patch.patch_index    = output.patches.size();
+      patch.n_subdivisions = 1;
+      patch.data.reinit(output.names.size(), 4);
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          patch.vertices[v] = dealii::Point<3>(vertices[v][0], vertices[v][1], vertices[v][2]);
+          patch.data(0, v)  = values[v].pressure;
+          patch.data(1, v)  = values[v].state;
+          set_vector<2>(patch, 2, v, values[v].shear);
+          set_vector<2>(patch, 5, v, values[v].slip);
+        }
+      output.patches.push_back(std::move(patch));
+    }
+
     std::string numbered(const std::string &stem, const std::size_t number)
     {
       char text[64];
@@ -138,18 +175,8 @@ namespace tread
     contact.surfaces.replicate(dynamics.x.data(), positions);
     if (!writes_tables) // all ranks know all of the surface
       return;
-    ArrayOutput<2> output;
-    for (const char *scalar : {"pressure_MPa", "state"})
-      output.names.emplace_back(scalar);
-    output.add_vector("shear_MPa");
-    output.add_vector("slip_m_per_s");
-
-    struct Values
-    {
-      double pressure = 0., state = 0.;
-      Row    shear{}, slip{};
-    };
-    std::vector<Values> values(contact.surfaces.nodes.size());
+    ArrayOutput<2>             output = surface_output();
+    std::vector<SurfaceValues> values(contact.surfaces.nodes.size());
     for (const ContactNodeState &state : contact.active_nodes())
       {
         const double normal = dot(state.impulse, state.normal),
@@ -160,24 +187,42 @@ namespace tread
     for (const ContactSurfaces::Face &face : contact.surfaces.faces)
       if (face.body == body)
         {
-          ArrayOutput<2>::Patch patch;
-          patch.reference_cell = dealii::ReferenceCells::Quadrilateral;
-          patch.patch_index    = output.patches.size();
-          patch.n_subdivisions = 1;
-          patch.data.reinit(output.names.size(), 4);
-          constexpr unsigned int around[4] = {0, 1, 3, 2}; // deal.II's order from the counter-clockwise one
+          constexpr unsigned int       around[4] = {0, 1, 3, 2}; // from the counter-clockwise order
+          std::array<Row, 4>           vertices;
+          std::array<SurfaceValues, 4> at;
           for (unsigned int v = 0; v < 4; ++v)
             {
               const unsigned int i = face.nodes[around[v]];
-              const Row          x = positions[i];
-              patch.vertices[v]    = dealii::Point<3>(x[0], x[1], x[2]);
-              patch.data(0, v)     = values[i].pressure;
-              patch.data(1, v)     = values[i].state;
-              set_vector<2>(patch, 2, v, values[i].shear);
-              set_vector<2>(patch, 5, v, values[i].slip);
+              vertices[v]          = positions[i];
+              at[v]                = values[i];
             }
-          output.patches.push_back(std::move(patch));
+          add_face(output, vertices, at);
         }
     add_picture("surface", output.piece(), dynamics.time, surface_files);
+  }
+
+
+  void RunFolder::write_surface(const std::vector<PatchNode> &elements, const double element_size)
+  {
+    if (!writes_tables)
+      return;
+    ArrayOutput<2> output = surface_output();
+    for (const PatchNode &element : elements)
+      {
+        SurfaceValues values;
+        values.pressure = 1e-6 * element.pressure;
+        values.state    = element.adhesion ? 1. : 2.;
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            values.shear[d] = 1e-6 * element.shear[d];
+            values.slip[d]  = element.slip[d];
+          }
+        std::array<Row, 4> vertices;
+        for (unsigned int v = 0; v < 4; ++v)
+          vertices[v] =
+            element.position + Row{(v % 2 - 0.5) * element_size, (v / 2 - 0.5) * element_size, 0., 0.};
+        add_face(output, vertices, {values, values, values, values});
+      }
+    add_picture("surface", output.piece(), 0., surface_files);
   }
 } // namespace tread

@@ -212,6 +212,34 @@ namespace tread::reference
     return spectrum;
   }
 
+  void FourierGrid::factorise(Spectrum &spectrum, const double least) const
+  {
+    const std::size_t n = padded[0], half = n / 2 + 1;
+    double           *line    = fftw_alloc_real(n);
+    fftw_complex     *complex = fftw_alloc_complex(half);
+    const fftw_plan   back    = fftw_plan_dft_c2r_1d(static_cast<int>(n), complex, line, FFTW_ESTIMATE),
+                    forward   = fftw_plan_dft_r2c_1d(static_cast<int>(n), line, complex, FFTW_ESTIMATE);
+    for (unsigned int j = 0; j < padded[1]; ++j)
+      {
+        std::complex<double> *row = &spectrum[j * half];
+        for (std::size_t i = 0; i < half; ++i)
+          {
+            complex[i][0] = std::log(std::max(row[i].real(), least));
+            complex[i][1] = 0.;
+          }
+        fftw_execute(back);
+        for (std::size_t i = 0; i < n; ++i)
+          line[i] *= (i == 0 || 2 * i == n ? 0.5 : 2 * i < n ? 1. : 0.) / n;
+        fftw_execute(forward);
+        for (std::size_t i = 0; i < half; ++i)
+          row[i] = std::exp(std::complex<double>(complex[i][0], complex[i][1]));
+      }
+    fftw_destroy_plan(back);
+    fftw_destroy_plan(forward);
+    fftw_free(line);
+    fftw_free(complex);
+  }
+
   NormalOperator::NormalOperator(const FourierGrid &fourier, const ElasticPair &pair)
     : self_influence(influence_coefficient(Influence::zz, pair, fourier.grid.dx, fourier.grid.dy, 0., 0.))
     , fourier(fourier)
@@ -252,18 +280,45 @@ namespace tread::reference
     fourier.back(work_y, displacement + n);
   }
 
-  void TangentialOperator::invert()
+  FactoredInverse::FactoredInverse(const FourierGrid &fourier, const ElasticPair &pair)
+    : fourier(fourier)
   {
-    const double n =
-      static_cast<double>(fourier.padded_x()) * fourier.padded_y(); // kernels carry a factor 1/n
-    for (std::size_t k = 0; k < xx.size(); ++k)
+    const double n = static_cast<double>(fourier.padded_x()) * fourier.padded_y(); // kernels carry 1/n
+    for (const unsigned int d : {0, 1})
       {
-        const std::complex<double> determinant = (times(xx[k], yy[k]) - times(xy[k], xy[k])) * (n * n);
-        const std::complex<double> a = xx[k], b = xy[k], d = yy[k];
-        xx[k] = d / determinant;
-        yy[k] = a / determinant;
-        xy[k] = -b / determinant;
+        const Influence kind = d == 0 ? Influence::xx : Influence::yy;
+        inverse[d]           = fourier.kernel(kind, pair, {{1., 0.}});
+        for (std::complex<double> &value : inverse[d])
+          value *= n;
+        // The spectrum's mean is the self-influence, its least value some 0.4 of that, but for the ripple of
+        // a kernel that ends at the grid's size.
+        const Grid &grid = fourier.grid;
+        fourier.factorise(inverse[d], 0.1 * influence_coefficient(kind, pair, grid.dx, grid.dy, 0., 0.));
+        for (std::complex<double> &value : inverse[d])
+          value = 1. / (n * value);
       }
+  }
+
+  void FactoredInverse::apply(double *values, const bool forward) const
+  {
+    for (const unsigned int d : {0, 1})
+      {
+        double *block = values + d * fourier.n_selected();
+        fourier.transform(block, work);
+        for (std::size_t k = 0; k < work.size(); ++k)
+          work[k] = times(forward ? inverse[d][k] : std::conj(inverse[d][k]), work[k]);
+        fourier.back(work, block);
+      }
+  }
+
+  void FactoredInverse::apply_forward(double *values) const
+  {
+    apply(values, true);
+  }
+
+  void FactoredInverse::apply_backward(double *values) const
+  {
+    apply(values, false);
   }
 
   CouplingOperator::CouplingOperator(const FourierGrid                        &fourier,

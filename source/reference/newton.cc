@@ -27,6 +27,7 @@ namespace tread::reference
     , n(equations.patch->size())
     , fourier(equations.patch->grid)
     , op(fourier, equations.pair, equations.stencil)
+    , inverse(fourier, equations.pair)
   {
     fourier.select(equations.patch->inner);
     p_ref                = *std::max_element(equations.bound.begin(), equations.bound.end());
@@ -54,13 +55,6 @@ namespace tread::reference
     fixed.resize(2 * n);
     for (std::size_t k = 0; k < 2 * n; ++k)
       fixed[k] = equations.fixed[k] * r / p_ref;
-    // Steady rolling: some viscosity makes waves along y regular; half a patch was found best (fewest Krylov
-    // steps, with and without spin).
-    auto stencil = equations.stencil;
-    if (stencil.size() == 2)
-      stencil[0][0] += 2. / equations.length;
-    inverse = std::make_unique<TangentialOperator>(fourier, equations.pair, stencil);
-    inverse->invert();
     sigma.resize(2 * n), weight.resize(n), e_x.resize(n), e_y.resize(n), work.resize(2 * n);
   }
 
@@ -133,19 +127,38 @@ namespace tread::reference
         out[row[d]] = border * sum[d];
   }
 
-  // In the adhesion area the inverse of the operator as if the plane were periodic; identity elsewhere.
+  // Identity where elements slip. In adhesion u(x) - u(x + dx) = slip is inverted by the sum of slips from
+  // the leading edge of each row, a convolution towards -x that belongs before the backward factor of the
+  // displacement's inverse. A shift or a transient step knows u(x + dx): no sums.
   void FrictionNewton::precondition(const double *in, double *out)
   {
+    const std::vector<unsigned int> &element              = equations.patch->inner;
+    const unsigned int               n_x                  = equations.patch->grid.n_x;
+    const bool                       sums                 = equations.stencil.size() == 2;
+    const double                     scale                = 1. / (r * equations.stencil[0][0]);
+    const auto                       restrict_to_adhesion = [&] {
+      for (std::size_t k = 0; k < n; ++k)
+        if (weight[k] >= 0.)
+          out[k] = out[n + k] = 0.;
+    };
     std::copy_n(in, n_unknowns, out);
-    for (std::size_t k = 0; k < n; ++k)
-      if (weight[k] >= 0.)
-        out[k] = out[n + k] = 0.;
-    inverse->apply(out, work.data());
+    restrict_to_adhesion();
+    inverse.apply_forward(out);
+    restrict_to_adhesion();
+    if (sums)
+      for (std::size_t k = n - 1; k-- > 0;)
+        if (weight[k] < 0. && weight[k + 1] < 0. && element[k + 1] == element[k] + 1 &&
+            element[k + 1] % n_x != 0)
+          {
+            out[k] += out[k + 1];
+            out[n + k] += out[n + k + 1];
+          }
+    inverse.apply_backward(out);
     for (std::size_t k = 0; k < n; ++k)
       {
         const bool adheres = weight[k] < 0.;
-        out[k]             = adheres ? work[k] / r : in[k];
-        out[n + k]         = adheres ? work[n + k] / r : in[n + k];
+        out[k]             = adheres ? scale * out[k] : in[k];
+        out[n + k]         = adheres ? scale * out[n + k] : in[n + k];
       }
   }
 

@@ -6,7 +6,6 @@
 
 #include "gmres.h"
 
-#include <memory>
 #include <vector>
 
 namespace tread::reference
@@ -33,7 +32,6 @@ namespace tread::reference
     const Patch                       *patch;
     ElasticPair                        pair;
     std::vector<std::array<double, 2>> stencil; ///< of L: weights and offsets
-    double                             length;  ///< that of the patch in x, scales the preconditioner [m]
     std::vector<double>                bound;   ///< f pn per element [Pa]
     std::vector<double>                fixed;   ///< slip that does not depend on the unknowns (two blocks)
     bool                               prescribed[2]; ///< force in x, y prescribed
@@ -75,17 +73,17 @@ namespace tread::reference
     void   jacobian(const double *in, double *out);
     void   precondition(const double *in, double *out);
 
-    const FrictionEquations            &equations;
-    const std::size_t                   n;
-    FourierGrid                         fourier;
-    TangentialOperator                  op;
-    std::unique_ptr<TangentialOperator> inverse; // preconditioner
-    double                              p_ref, r;
-    double                              border; // 1/sqrt(n): scales the rows and columns of prescribed forces
-    int                                 row[2]; // of the prescribed forces, -1: none
-    std::size_t                         n_unknowns;
-    std::vector<double>                 bound, fixed, sigma, weight, e_x, e_y, work;
-    Gmres                               gmres;
+    const FrictionEquations &equations;
+    const std::size_t        n;
+    FourierGrid              fourier;
+    TangentialOperator       op;
+    const FactoredInverse    inverse; // preconditioner
+    double                   p_ref, r;
+    double                   border; // 1/sqrt(n): scales the rows and columns of prescribed forces
+    int                      row[2]; // of the prescribed forces, -1: none
+    std::size_t              n_unknowns;
+    std::vector<double>      bound, fixed, sigma, weight, e_x, e_y, work;
+    Gmres                    gmres;
   };
 } // namespace tread::reference
 

@@ -18,13 +18,15 @@ namespace tread::reference
       require_positive("curvature_x", c.curvature_x, "1/m");
       require_positive("curvature_y", c.curvature_y, "1/m");
       require_positive("normal_force", c.normal_force, "N (no contact otherwise)");
-      require_positive("friction", c.friction, "");
+      require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
       require_positive("speed", c.speed, "m/s");
       require_positive("element_size", c.element_size, "m");
       require_finite("lateral_creepage", c.lateral_creepage);
       require_finite("spin", c.spin);
       if (c.prescribe_force)
-        require(std::abs(c.traction_coefficient) < c.friction, "traction_coefficient", c.traction_coefficient,
+        require(std::abs(c.traction_coefficient) < c.friction ||
+                  (c.friction == 0. && c.traction_coefficient == 0.),
+                "traction_coefficient", c.traction_coefficient,
                 "less in magnitude than the friction coefficient, " + std::to_string(c.friction));
       else
         require_finite("creepage", c.creepage);
@@ -57,6 +59,36 @@ namespace tread::reference
       result.power_balance =
         0. - c.speed * (result.longitudinal_force * result.creepage +
                         result.lateral_force * result.lateral_creepage + result.spin_moment * result.spin);
+    }
+
+    /// Without friction all of the patch slips, and only its rigid motion and, for unlike bodies, the
+    /// tangential displacements by pressure make it.
+    ContactSolution solve_frictionless(const Grid          &grid,
+                                       const ElasticPair   &pair,
+                                       const NormalProblem &normal,
+                                       const RollingCase   &c)
+    {
+      const FourierGrid   fourier(grid);
+      ContactSolution     solution;
+      TangentialSolution &t = solution.tangential;
+      solution.normal       = solve_normal(fourier, NormalOperator(fourier, pair), normal);
+      t.longitudinal        = c.prescribe_force ? 0. : c.creepage;
+      t.lateral             = c.lateral_creepage;
+      t.spin                = c.spin;
+      std::vector<double> by_pressure(2 * grid.size(), 0.);
+      if (pair.coupling != 0.)
+        CouplingOperator(fourier, pair, {{1. / grid.dx, 0.}, {-1. / grid.dx, grid.dx}})
+          .tangential_by_pressure(solution.normal.pressure.data(), by_pressure.data());
+      for (std::vector<double> *field : {&t.shear_x, &t.shear_y, &t.slip_x, &t.slip_y})
+        field->assign(grid.size(), 0.);
+      t.state.assign(grid.size(), ElementState::exterior);
+      for (const unsigned int e : solution.normal.contact)
+        {
+          t.slip_x[e] = t.longitudinal - t.spin * grid.y(e / grid.n_x) + by_pressure[e];
+          t.slip_y[e] = t.lateral + t.spin * grid.x(e % grid.n_x) + by_pressure[grid.size() + e];
+          t.state[e]  = ElementState::slip;
+        }
+      return solution;
     }
   } // namespace
 
@@ -95,10 +127,12 @@ namespace tread::reference
           for (unsigned int i = 0; i < grid.n_x; ++i)
             {
               const double x = grid.x(i), y = grid.y(j);
-              normal.gap[j * grid.n_x + i]              = c.curvature_x * x * x + c.curvature_y * y * y;
+              normal.gap[j * grid.n_x + i] =
+                c.gap ? c.gap(x, y) : c.curvature_x * x * x + c.curvature_y * y * y;
               normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
             }
-        contact = solve_contact(grid, pair, normal, tangential);
+        contact = c.friction > 0. ? solve_contact(grid, pair, normal, tangential)
+                                  : solve_frictionless(grid, pair, normal, c);
         if (!contact.normal.cut)
           break;
         margin *= 3.;

@@ -129,9 +129,8 @@ namespace tread::reference
       const std::size_t n    = patch.size();
       const double      step = step_of(grid, problem);
       FrictionEquations equations;
-      equations.patch  = &patch;
-      equations.pair   = pair;
-      equations.length = patch.grid.n_x * patch.grid.dx;
+      equations.patch = &patch;
+      equations.pair  = pair;
       equations.stencil.push_back({1. / step, 0.});
       if (problem.motion == Motion::steady)
         equations.stencil.push_back({-1. / step, step});

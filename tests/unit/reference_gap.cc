@@ -68,6 +68,7 @@ namespace
     const HertzEllipse crown       = hertz_ellipse(1. / 0.92, 1. / 0.6, pair.hertz_modulus(), force);
     const HertzEllipse side        = hertz_ellipse(1. / 0.92, 1. / 0.16, pair.hertz_modulus(), force);
     double             area_before = 1e9, pressure_before = 0.;
+    unsigned int       n_grown = 0;
     for (const double shift : {0., 2e-3, 4e-3, 6e-3, 8e-3})
       {
         Grid         grid  = centred_grid(12e-3, 8e-3, 0.33e-3);
@@ -124,9 +125,43 @@ namespace
                            0.03);
             check.below(std::string(name) + "Fy/Fn", c.tangential.lateral_force / force, 1e-6);
           }
+        // The same from a first grid that holds the patch of the 80 mm arc only: where the patch reaches over
+        // the crown's arc the grid has to grow, and the answer must not depend on it.
+        RollingCase narrow;
+        narrow.curvature_x          = 1. / 0.92;
+        narrow.curvature_y          = 1. / 0.16;
+        narrow.normal_force         = force;
+        narrow.friction             = rolling.friction;
+        narrow.traction_coefficient = 0.1;
+        narrow.spin                 = rolling.spin;
+        narrow.element_size         = grid.dx;
+        narrow.gap                  = [&](const double x, const double y) {
+          return x * x / 0.92 + rail_depth(y + shift) - depth - slope * y;
+        };
+        const RollingResult grown  = solve_rolling(narrow);
+        bool                border = false;
+        for (std::size_t e = 0; e < grown.x.size(); ++e)
+          border =
+            border || (grown.pressure[e] > 0. && (e % grown.n_x == 0 || e % grown.n_x == grown.n_x - 1 ||
+                                                  e / grown.n_x == 0 || e / grown.n_x == grown.n_y - 1));
+        std::printf("    %sfirst grid for %.1f mm^2; %u x %u elements in the end; note: '%s'\n", name,
+                    side.area * 1e6, grown.n_x, grown.n_y, grown.note.c_str());
+        n_grown += grown.note.empty() ? 0 : 1;
+        check.that(std::string(name) + "narrow first grid: holds the patch in the end", !border);
+        check.relative(std::string(name) + "narrow first grid: area [mm^2]", grown.area * 1e6, area * 1e6,
+                       1e-12);
+        check.relative(std::string(name) + "narrow first grid: p_max [MPa]", grown.max_pressure * 1e-6,
+                       p_max * 1e-6, 1e-6);
+        // its y, and with it the pole of spin, begins at the point of contact
+        check.relative(std::string(name) + "narrow first grid: xi [1e-3]", grown.creepage * 1e3,
+                       (c.tangential.longitudinal - rolling.spin * shift) * 1e3, 1e-5);
+        check.relative(std::string(name) + "narrow first grid: Fn [kN]", grown.normal_force * 1e-3, 80.,
+                       1e-12);
         area_before     = area;
         pressure_before = p_max;
       }
+
+    check.that("narrow first grid: grew, with a note, on the crown and beside it", n_grown >= 3);
 
     std::printf("\n--- two patches: a flat-bottomed valley, loaded as one body\n");
     const Grid    grid = centred_grid(6e-3, 16e-3, 0.4e-3);
@@ -272,6 +307,41 @@ namespace
       }
   }
 
+  void frictionless(tread::tests::Check &check)
+  {
+    std::printf("\n--- without friction\n");
+    for (const bool alike : {true, false})
+      {
+        RollingCase c;
+        c.curvature_x     = 10.;
+        c.curvature_y     = 6.;
+        c.normal_force    = 1e3;
+        c.speed           = 20.;
+        c.wheel           = alike ? Elastic{} : Elastic{70e9, 0.33};
+        c.element_size    = 0.1e-3;
+        c.prescribe_force = false;
+        c.creepage        = 2e-3;
+        c.spin            = 0.1;
+        const std::string   name(alike ? "like bodies: " : "unlike bodies: ");
+        const RollingResult none   = solve_rolling(c);
+        c.friction                 = 1e-7;
+        const RollingResult hardly = solve_rolling(c);
+        check.below(name + "shear [MPa]", none.max_shear * 1e-6, 0.);
+        check.below(name + "adhesion share", none.adhesion_share, 0.);
+        check.relative(name + "p_max as with friction 1e-7 [MPa]", none.max_pressure * 1e-6,
+                       hardly.max_pressure * 1e-6, 1e-7);
+        // the tractions of friction 1e-7 shift the slip by some 1e-7 p/G = 1e-9 of the creepage's 2e-3
+        double difference = 0.;
+        for (std::size_t e = 0; e < none.x.size(); ++e)
+          difference = std::max(
+            difference, std::hypot(none.slip_x[e] - hardly.slip_x[e], none.slip_y[e] - hardly.slip_y[e]));
+        check.below(name + "slip as with friction 1e-7, over the largest", difference / hardly.max_slip,
+                    1e-5);
+        check.that(name + "stretching by pressure is part of the slip of unlike bodies only",
+                   (std::abs(none.slip_x[none.x.size() / 2] / (c.speed * c.creepage) - 1.) < 1e-9) == alike);
+      }
+  }
+
   void bad_input(tread::tests::Check &check)
   {
     std::printf("\n--- bad input: one line that names the argument and what is allowed\n");
@@ -309,7 +379,9 @@ namespace
             with([](RollingCase &c) { c.traction_coefficient = -0.6; }));
     refused("force equal to f N", "traction_coefficient",
             with([](RollingCase &c) { c.traction_coefficient = 0.5; }));
-    refused("no friction", "friction", with([](RollingCase &c) { c.friction = 0.; }));
+    refused("negative friction", "friction", with([](RollingCase &c) { c.friction = -0.1; }));
+    refused("force without friction", "traction_coefficient",
+            with([](RollingCase &c) { c.friction = 0., c.traction_coefficient = 0.1; }));
     refused("no curvature", "curvature_y", with([](RollingCase &c) { c.curvature_y = 0.; }));
     refused("NaN creepage", "creepage",
             with([](RollingCase &c) { c.prescribe_force = false, c.creepage = NAN; }));
@@ -379,6 +451,7 @@ int main()
   rail_head(check);
   unlike_bodies(check);
   steady_is_steady(check);
+  frictionless(check);
   bad_input(check);
   return check.exit_code();
 }

@@ -65,6 +65,9 @@ namespace tread
     /// A body's contact surface with pressure, shear, slip and state. Collective.
     void write_surface(const ExplicitDynamics &dynamics, const Contact &contact, const unsigned int body);
 
+    /// The square elements of a half-space answer with the same fields.
+    void write_surface(const std::vector<PatchNode> &elements, const double element_size);
+
   private:
     /// On rank 0. @returns what is wrong, in one line; empty if the folder is this run's.
     std::string take_lock();

@@ -19,6 +19,9 @@ namespace tread
       json[name] = value;
     }
 
+    /// A figure that is also a line of the table. @param scale from SI to the unit shown there.
+    void show(const std::string &name, const std::string &label, const double scale, const double value);
+
     /// A figure with its reference: stands under "reference" in the file and as a line of the table.
     /// @param scale from SI to the unit shown in the table.
     void compare(const std::string &name,
@@ -33,13 +36,13 @@ namespace tread
       return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
 
-    /// Computed, reference and difference, one line a figure.
+    /// Computed, reference and difference, one line a figure; a column for each reference.
     std::string table() const;
 
   private:
     struct Line
     {
-      std::string label, source;
+      std::string label, source; // no source: nothing to compare with
       double      value, reference;
     };
     nlohmann::ordered_json json;

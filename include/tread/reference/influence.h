@@ -132,6 +132,10 @@ namespace tread::reference
                     const ElasticPair                        &pair,
                     const std::vector<std::array<double, 2>> &weights_and_offsets) const;
 
+    /// Replace a real, even spectrum by that of its factor F which moves values towards +x only: half of the
+    /// logarithm's transform along x, exponentiated. Smaller values than `least` > 0 are raised to it.
+    void factorise(Spectrum &spectrum, double least) const;
+
     std::size_t spectrum_size() const
     {
       return static_cast<std::size_t>(padded[0] / 2 + 1) * padded[1];
@@ -171,14 +175,33 @@ namespace tread::reference
                        const std::vector<std::array<double, 2>> &weights_and_offsets);
     /// Arrays of two blocks (x, then y), one entry per selected element.
     void apply(const double *traction, double *displacement) const;
-    /// Replace the spectrum by its pointwise inverse: the inverse operator if the padded grid were periodic
-    /// and all of it selected, and a preconditioner as it is. No frequency may be singular.
-    void invert();
 
   private:
     const FourierGrid            &fourier;
-    FourierGrid::Spectrum         xx, xy, yy;
+    const FourierGrid::Spectrum   xx, xy, yy;
     mutable FourierGrid::Spectrum work_x, work_y;
+  };
+
+  /// Approximate inverse of the tangential displacement (u_x by p_x, u_y by p_y; the other axis' share is
+  /// left out) in two factors. The displacement is a product A = F B of a convolution F that only moves
+  /// values towards +x and its mirror image B that only moves them towards -x (Wiener & Hopf 1931). Each
+  /// factor restricted to a half-plane has the restricted inverse of the whole plane as its exact inverse,
+  /// which A itself has not: so B^-1 (restrict) F^-1 knows of the edge at which a patch ends towards +x.
+  class FactoredInverse
+  {
+  public:
+    FactoredInverse(const FourierGrid &fourier, const ElasticPair &pair);
+    /// F^-1 [Pa/m]^(1/2), in place: two blocks (x, then y), one entry per selected element.
+    void apply_forward(double *values) const;
+    /// B^-1, likewise.
+    void apply_backward(double *values) const;
+
+  private:
+    void apply(double *values, bool forward) const;
+
+    const FourierGrid                   &fourier;
+    std::array<FourierGrid::Spectrum, 2> inverse; // of F
+    mutable FourierGrid::Spectrum        work;
   };
 
   /// The coupling of normal and tangential problem for unlike bodies.

@@ -4,6 +4,7 @@
 
 #include <tread/reference/elastic.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,22 +20,26 @@ namespace tread::reference
   /// so that `creepage` is NEGATIVE for a driving wheel.
   struct RollingCase
   {
-    double curvature_x =
-      0.; ///< A of the undeformed gap A x^2 + B y^2 [1/m], > 0 (A = 1/(2 R) for a wheel of radius R)
-    double curvature_y = 0.; ///< B of the undeformed gap A x^2 + B y^2 [1/m], > 0
+    // The undeformed gap A x^2 + B y^2.
+    double curvature_x = 0.; ///< A [1/m], > 0 (1/(2 R) for a wheel of radius R)
+    double curvature_y = 0.; ///< B [1/m], > 0
+    /// Any other undeformed gap [m] at (x, y) [m]; A and B then only choose the first grid.
+    std::function<double(double, double)> gap;
 
     double normal_force = 0.; ///< Fn [N], > 0
-    double friction     = 0.; ///< Coulomb's friction coefficient f [-], > 0
+    double friction     = 0.; ///< Coulomb's friction coefficient f [-], >= 0; 0: no shear at all
     double speed        = 1.; ///< rolling speed v [m/s], > 0; scales slip and frictional power only
 
     Elastic wheel; ///< upper body
     Elastic rail;  ///< lower body
 
-    bool   prescribe_force      = true; ///< true: Fx is given; false: the creepage is given
-    double traction_coefficient = 0.;   ///< Fx/Fn [-], |Fx/Fn| < f; used if prescribe_force
-    double creepage             = 0.;   ///< longitudinal creepage [-]; used if not prescribe_force
-    double lateral_creepage     = 0.;   ///< [-], always prescribed
-    double spin                 = 0.;   ///< [rad/m], always prescribed
+    /// true: Fx is given; false: the creepage is given. Without friction Fx = 0 leaves the creepage open; it
+    /// is taken as zero.
+    bool   prescribe_force      = true;
+    double traction_coefficient = 0.; ///< Fx/Fn [-], |Fx/Fn| < f; used if prescribe_force
+    double creepage             = 0.; ///< longitudinal creepage [-]; used if not prescribe_force
+    double lateral_creepage     = 0.; ///< [-], always prescribed
+    double spin                 = 0.; ///< [rad/m], always prescribed
 
     double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
   };
@@ -97,8 +102,8 @@ namespace tread::reference
   /// Solve a case with the half-space solver. Chooses the grid itself: Hertz's patch with a margin, the
   /// centre element at (0, 0); if the patch reaches the border the grid grows and `note` says so.
   ///
-  /// Errors: std::invalid_argument for non-positive curvatures, force, friction, speed or element size,
-  /// |Fx| >= f Fn, or an element size that gives fewer than 3 elements along a semi-axis
+  /// Errors: std::invalid_argument for non-positive curvatures, force, speed or element size, negative
+  /// friction, |Fx| >= f Fn > 0, or an element size that gives fewer than 3 elements along a semi-axis
   /// or more than two million elements; std::runtime_error if the solver does not converge.
   RollingResult solve_rolling(const RollingCase &rolling_case);
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_reference_only_h
+#define tread_reference_only_h
+
+#include <tread/scene.h>
+
+#include <mpi.h>
+
+#include <string>
+
+namespace tread
+{
+  /// The half-space answer of a scene, printed and written in the formats of a run: summary.json, patch.csv,
+  /// surface.pvd, parameters.prm; and subsurface.csv. No mesh is made.
+  /// @param folder of the results
+  /// @throws SceneError where the scene has no such answer; std::runtime_error if a file cannot be written
+  void run_reference_only(const Scene &scene, const std::string &folder, const MPI_Comm comm);
+} // namespace tread
+
+#endif

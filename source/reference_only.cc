@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/version.h>
+#include <tread/output/progress.h>
+#include <tread/output/run_folder.h>
+#include <tread/reference/subsurface.h>
+#include <tread/reference_only.h>
+#include <tread/references.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    using reference::Body;
+    using reference::Stress;
+    using Point = std::array<double, 3>; // x, y, depth
+
+    /// The stresses of one body under the tractions of a half-space answer.
+    class BodyStress
+    {
+    public:
+      BodyStress(const reference::RollingResult &answer, const Body body, const double poisson)
+        : answer(answer)
+        , grid{answer.n_x, answer.n_y, answer.element_size, answer.element_size, answer.x[0], answer.y[0]}
+        , body(body)
+        , poisson(poisson)
+      {
+      }
+
+      std::vector<Stress> at(const std::vector<Point> &points) const
+      {
+        return reference::subsurface_stress(grid, poisson, answer.pressure, answer.shear_x, answer.shear_y,
+                                            body, points);
+      }
+
+      /// Where von Mises' stress is largest on the plane y = 0, not nearer to the surface than
+      /// `shallowest`: above that the kinks of the shear stress decide, which depend on the element size.
+      Point most_stressed(const double half_length, const double shallowest, const double deepest) const
+      {
+        std::vector<Point> points;
+        for (int i = -6; i <= 6; ++i)
+          for (int k = 0; k <= 7; ++k)
+            points.push_back({i / 6. * half_length, 0., shallowest * std::pow(deepest / shallowest, k / 7.)});
+        Point  best    = points[0];
+        double largest = 0.;
+        for (double step = 0.5;; step *= 0.5)
+          {
+            const std::vector<Stress> stress = at(points);
+            for (std::size_t i = 0; i < points.size(); ++i)
+              if (stress[i].von_mises() > largest)
+                {
+                  largest = stress[i].von_mises();
+                  best    = points[i];
+                }
+            if (step < 0.01)
+              return best;
+            points.clear();
+            for (const int i : {-1, 0, 1})
+              for (const int k : {-1, 0, 1})
+                if (i != 0 || k != 0)
+                  points.push_back(
+                    {best[0] + i * step * half_length / 6., 0.,
+                     std::max(shallowest, best[2] * std::pow(deepest / shallowest, k * step / 7.))});
+          }
+      }
+
+    private:
+      const reference::RollingResult &answer;
+      const reference::Grid           grid;
+      const Body                      body;
+      const double                    poisson;
+    };
+
+    /// Stresses down to three times the smaller semi-axis, under the patch centre and at the x of the
+    /// largest von Mises stress, in both bodies; the largest go into the summary. They are those of elements
+    /// twice as large: four times faster, and within 0.4 % from a twentieth of the smaller semi-axis on.
+    std::string depth_lines(const Scene &scene, Summary &summary)
+    {
+      reference::RollingCase coarse = half_space_case(scene);
+      coarse.element_size *= 2.;
+      const reference::RollingResult answer = reference::solve_rolling(coarse);
+      const double                   a = answer.hertz_semi_x, smaller = std::min(a, answer.hertz_semi_y);
+      std::ostringstream             table;
+      table
+        << "body,line,x_mm,y_mm,depth_mm,von_mises_MPa,mean_stress_MPa,xx_MPa,yy_MPa,zz_MPa,xy_MPa,xz_MPa,"
+           "yz_MPa\n"
+        << std::setprecision(7);
+      for (const Body body : {Body::wheel, Body::rail})
+        {
+          const std::string name = body == Body::wheel ? "wheel" : "rail";
+          const double      nu =
+            (body == Body::wheel ? scene.wheel_material : scene.rail_material).si().poisson_ratio;
+          const BodyStress stress(answer, body, nu);
+          const Point      worst     = stress.most_stressed(1.2 * a, 0.05 * smaller, 1.5 * smaller);
+          const double     von_mises = stress.at({worst})[0].von_mises();
+          summary.show(name + "_max_von_mises_Pa", "von Mises maximum, " + name + ", MPa", 1e-6, von_mises);
+          summary.set(name + "_max_von_mises_x_m", worst[0]);
+          summary.show(name + "_max_von_mises_depth_m", "its depth, " + name + ", mm", 1e3, worst[2]);
+          // On the surface stresses are singular on element edges, so lines go through element centres.
+          const double nearest = std::round(worst[0] / answer.element_size) * answer.element_size;
+          for (const auto &[line, x] : {std::pair<const char *, double>{"centre", 0.}, {"maximum", nearest}})
+            {
+              std::vector<Point> points;
+              for (unsigned int k = 0; k <= 60; ++k)
+                points.push_back({x, 0., smaller * (k <= 40 ? 0.025 * k : 1. + 0.1 * (k - 40))});
+              const std::vector<Stress> stresses = stress.at(points);
+              for (std::size_t k = 0; k < points.size(); ++k)
+                {
+                  const Stress &s = stresses[k];
+                  table << name << ',' << line << ',' << 1e3 * x << ",0," << 1e3 * points[k][2];
+                  for (const double value : {s.von_mises(), s.mean(), s.xx, s.yy, s.zz, s.xy, s.xz, s.yz})
+                    table << ',' << 1e-6 * value;
+                  table << '\n';
+                }
+            }
+        }
+      return table.str();
+    }
+  } // namespace
+
+
+  void run_reference_only(const Scene &scene, const std::string &path, const MPI_Comm comm)
+  {
+    Progress                 progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    reference::RollingResult half_space;
+    try
+      {
+        half_space = reference::solve_rolling(half_space_case(scene));
+      }
+    catch (const std::exception &error)
+      {
+        throw SceneError(std::string("no half-space answer: ") + error.what());
+      }
+
+    Summary summary;
+    summarise(summary, scene, "half-space solver", contact_answer(half_space), true);
+    const std::string subsurface = depth_lines(scene, summary);
+    summary.set("approach_m", half_space.approach);
+    summary.set("element_size_m", half_space.element_size);
+    summary.set("elements", std::count_if(half_space.state.begin(), half_space.state.end(), [](const auto s) {
+                  return s != reference::ElementState::exterior;
+                }));
+    summary.set("normal_iterations", half_space.normal_iterations);
+    summary.set("normal_residual", half_space.normal_residual);
+    summary.set("tangential_iterations", half_space.tangential_iterations);
+    summary.set("tangential_residual", half_space.tangential_residual);
+    if (!half_space.note.empty())
+      summary.set("note", half_space.note);
+    summary.set("wall_s", progress.seconds());
+    summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
+    summary.set("version", version());
+
+    RunFolder          folder(path, comm);
+    std::ostringstream effective;
+    scene.print(effective, true);
+    folder.remove_results();
+    folder.write("parameters.prm", effective.str());
+    folder.write_patch("patch.csv", patch_nodes(half_space));
+    folder.write_surface(patch_nodes(half_space), half_space.element_size);
+    folder.write("subsurface.csv", subsurface);
+    folder.write("summary.json", summary.text());
+
+    progress.say("tread " + version() + (scene.title.empty() ? "" : ": " + scene.title));
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "half-space solver: elements of %.3g mm, normal force %.2f kN, approach %.2f um, traction "
+                  "coefficient %.4f\n",
+                  1e3 * half_space.element_size, 1e-3 * half_space.normal_force, 1e6 * half_space.approach,
+                  half_space.traction_coefficient);
+    progress.say(text);
+    progress.say(summary.table());
+    if (!half_space.note.empty())
+      progress.say("note: " + half_space.note);
+    std::snprintf(text, sizeof text, "finished in %.2f s. Results in ", progress.seconds());
+    progress.say(text + folder.path("") +
+                 ": summary.json, patch.csv, subsurface.csv; for ParaView: surface.pvd");
+  }
+} // namespace tread

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/geometry/rail_profile.h>
+#include <tread/references.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    RailProfile rail_profile(const Scene &scene)
+    {
+      return scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1();
+    }
+  } // namespace
+
+
+  reference::RollingCase half_space_case(const Scene &scene,
+                                         const double normal_force,
+                                         const double traction_coefficient)
+  {
+    reference::RollingCase c;
+    c.curvature_x     = 0.5 / (1e-3 * scene.radius_mm);
+    c.curvature_y     = 0.5 / scene.crown_radius();
+    c.normal_force    = normal_force;
+    c.friction        = scene.friction;
+    c.speed           = scene.speed();
+    c.wheel           = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
+    c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
+    c.prescribe_force = true;
+    c.traction_coefficient = traction_coefficient;
+    if (scene.rail_shape == "head")
+      c.gap = [curvature_x = c.curvature_x, profile = rail_profile(scene)](const double x, const double y) {
+        const double edge = 0.999 * profile.head_half_width(), y_on_head = std::clamp(y, -edge, edge);
+        return curvature_x * x * x - profile.z_top(y_on_head) + std::abs(y - y_on_head);
+      };
+    // 100 elements along a patch, or as many elements in a wide one: fine enough for creepages within 0.5 %
+    // of the limit.
+    const reference::HertzEllipse ellipse = reference::hertz_ellipse(
+      c.curvature_x, c.curvature_y, reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
+    const double a = ellipse.semi_axis_x, b = ellipse.semi_axis_y;
+    c.element_size = std::min(std::max(a, std::sqrt(a * b)) / 50., std::min(a, b) / 7.);
+    return c;
+  }
+
+
+  reference::RollingCase half_space_case(const Scene &scene)
+  {
+    const bool             creepage_given = scene.drive == "creepage" && scene.creepage != "predicted";
+    reference::RollingCase c =
+      half_space_case(scene, scene.static_load(), creepage_given ? 0. : scene.traction_coefficient);
+    c.prescribe_force = !creepage_given;
+    if (creepage_given)
+      c.creepage = -std::stod(scene.creepage);
+    return c;
+  }
+
+
+  reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
+  {
+    const reference::RollingCase c = half_space_case(scene, normal_force, 0.);
+    return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
+                                    reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
+  }
+
+
+  double half_space_stretch(const Scene &scene)
+  {
+    const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+    const auto                    stretch = [&](const ElasticMaterial &material) {
+      const double nu = material.poisson_ratio;
+      return -(1. + nu) * (1. - 2. * nu) / material.young_modulus * ellipse.semi_axis_y /
+             (ellipse.semi_axis_x + ellipse.semi_axis_y) * 0.75 * ellipse.max_pressure;
+    };
+    return stretch(scene.rail_material.si()) - stretch(scene.wheel_material.si());
+  }
+
+
+  std::vector<PatchNode> patch_nodes(const reference::RollingResult &half_space)
+  {
+    std::vector<PatchNode> nodes;
+    for (std::size_t i = 0; i < half_space.x.size(); ++i)
+      if (half_space.state[i] != reference::ElementState::exterior)
+        nodes.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.},
+                         half_space.element_size * half_space.element_size,
+                         half_space.pressure[i],
+                         {half_space.shear_x[i], half_space.shear_y[i]},
+                         {half_space.slip_x[i], half_space.slip_y[i]},
+                         half_space.state[i] == reference::ElementState::adhesion});
+    return nodes;
+  }
+
+
+  ContactAnswer contact_answer(const reference::RollingResult &half_space)
+  {
+    ContactAnswer answer;
+    answer.force = Row{half_space.longitudinal_force, half_space.lateral_force, half_space.normal_force, 0.};
+    answer.creepage               = 0. - half_space.creepage;
+    answer.patch                  = measure(patch_nodes(half_space));
+    answer.patch.frictional_power = half_space.power_balance;
+    return answer;
+  }
+
+
+  void summarise(Summary             &summary,
+                 const Scene         &scene,
+                 const std::string   &method,
+                 const ContactAnswer &answer,
+                 const bool           completed)
+  {
+    const double         normal = answer.force[2];
+    const PatchMeasures &patch  = answer.patch;
+    summary.set("title", scene.title);
+    summary.set("method", method);
+    summary.set("completed", completed);
+    summary.set("normal_force_N", normal);
+    summary.set("longitudinal_force_N", answer.force[0]);
+    summary.set("lateral_force_N", answer.force[1]);
+    summary.set("traction_coefficient", answer.force[0] / normal);
+    summary.set("friction_coefficient", scene.friction);
+
+    const reference::HertzEllipse ellipse = hertz(scene, normal);
+    const auto with_hertz = [&](const char *name, const char *label, const double scale, const double value,
+                                const double reference) {
+      summary.compare(name, label, scale, value, "Hertz", reference);
+    };
+    with_hertz("max_pressure_Pa", "maximum pressure, MPa", 1e-6, patch.max_pressure, ellipse.max_pressure);
+    with_hertz("patch_area_m2", "patch area, mm2", 1e6, patch.area, ellipse.area);
+    with_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, patch.semi_axis_x, ellipse.semi_axis_x);
+    with_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, patch.semi_axis_y, ellipse.semi_axis_y);
+    with_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, patch.pressure_semi_axis_x,
+               ellipse.semi_axis_x);
+    with_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, patch.pressure_semi_axis_y,
+               ellipse.semi_axis_y);
+
+    summary.show("creepage", "creepage, 1e-3", 1e3, answer.creepage);
+    summary.show("adhesion_share", "adhesion share, %", 1e2, patch.adhesion_share);
+    summary.show("max_shear_Pa", "maximum shear stress, MPa", 1e-6, patch.max_shear);
+    summary.show("max_slip_m_per_s", "maximum micro-slip, m/s", 1., patch.max_slip);
+    summary.show("frictional_power_W", "frictional power, W", 1., patch.frictional_power);
+  }
+
+
+  void compare(Summary                        &summary,
+               const ContactAnswer            &answer,
+               const reference::RollingResult &half_space,
+               const bool                      forces_given)
+  {
+    const ContactAnswer reference       = contact_answer(half_space);
+    const auto          with_half_space = [&](const char *name, const char *label, const double scale,
+                                     const double value, const double reference) {
+      summary.compare(name, label, scale, value, "half-space", reference);
+    };
+    with_half_space("max_pressure_Pa", "maximum pressure, MPa", 1e-6, answer.patch.max_pressure,
+                    reference.patch.max_pressure);
+    if (forces_given)
+      with_half_space("creepage", "creepage, 1e-3", 1e3, answer.creepage, reference.creepage);
+    else
+      with_half_space("traction_coefficient", "traction coefficient", 1., answer.force[0] / answer.force[2],
+                      reference.force[0] / reference.force[2]);
+    with_half_space("adhesion_share", "adhesion share, %", 1e2, answer.patch.adhesion_share,
+                    reference.patch.adhesion_share);
+    with_half_space("max_shear_Pa", "maximum shear stress, MPa", 1e-6, answer.patch.max_shear,
+                    reference.patch.max_shear);
+    with_half_space("max_slip_m_per_s", "maximum micro-slip, m/s", 1., answer.patch.max_slip,
+                    reference.patch.max_slip);
+    with_half_space("frictional_power_W", "frictional power, W", 1., answer.patch.frictional_power,
+                    reference.patch.frictional_power);
+  }
+} // namespace tread

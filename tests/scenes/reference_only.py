@@ -1,0 +1,176 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""tread --reference-only: against CONTACT, for every kind of scene, in the files of a run, and bad input."""
+
+import csv
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+from tread_runner import ROOT, Check, command, environment, run
+
+program = sys.argv[1]
+check = Check()
+SCENE = "smooth-rolling.prm"
+CONTACT = os.path.join(ROOT, "contrib", "reference")
+
+
+def script(name, *arguments):
+    result = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", *name.split("/")), *arguments],
+                            capture_output=True, text=True)
+    print(result.stdout, result.stderr)
+    return result
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    numbers = iter(range(1000))
+
+    def reference_only(*settings, scene=SCENE, ranks=1, output=None):
+        return run(program, scene, output or path(str(next(numbers))), settings, ranks, ["--reference-only"])
+
+    # Against CONTACT with elements of 0.1 mm; the program's own are 0.155 mm here.
+    with open(os.path.join(CONTACT, "contact_summary.csv"), encoding="utf-8") as stream:
+        table = list(csv.DictReader(stream))
+    for row in table:
+        mu = f"{float(row['traction_coefficient']):.2f}"
+        spent = resource.getrusage(resource.RUSAGE_CHILDREN)
+        answer = reference_only(scene=f"verification/half-space-0.63-mu{mu}.prm", output=path(mu))
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds = used.ru_utime - spent.ru_utime + used.ru_stime - spent.ru_stime
+        name = f"traction coefficient {mu}"
+        check.relative(f"{name}: normal force, N", answer["normal_force_N"], float(row["normal_force_N"]), 1e-6)
+        check.relative(f"{name}: traction coefficient", answer["traction_coefficient"], float(mu), 1e-6)
+        check.relative(f"{name}: maximum pressure, MPa", 1e-6 * answer["max_pressure_Pa"], float(row["max_pressure_MPa"]), 0.003)
+        check.relative(f"{name}: patch area, mm2", 1e6 * answer["patch_area_m2"], float(row["patch_area_mm2"]), 0.003)
+        check.relative(f"{name}: creepage, 1e-3", 1e3 * answer["creepage"], 1e3 * float(row["creepage"]), 0.003)
+        check.absolute(f"{name}: adhesion share, %", 100 * answer["adhesion_share"], 100 * float(row["adhesion_share"]), 0.5)
+        check.relative(f"{name}: maximum shear stress, MPa", 1e-6 * answer["max_shear_Pa"], float(row["max_shear_MPa"]), 0.003)
+        check.relative(f"{name}: maximum micro-slip, m/s", answer["max_slip_m_per_s"], float(row["max_slip_m_per_s"]), 0.01)
+        check.relative(f"{name}: frictional power, W", answer["frictional_power_W"], float(row["frictional_power_W"]), 0.003)
+        # asked for: a second. Processor time, for the machine may be busy, which can still double it.
+        check.below(f"{name}: processor time, s", seconds, 2.)
+
+        measures = path("measures.json")
+        compared = script("plot/compare-contact.py", path(mu), os.path.join(CONTACT, row["file"]), "--json", measures)
+        check.that(f"{name}: compare-contact.py reads it", compared.returncode == 0)
+        with open(measures, encoding="utf-8") as stream:
+            fields = json.load(stream)
+        # The grids differ, so values near the edge are interpolated: the largest error is half an element there.
+        check.below(f"{name}: pressure, RMS over the maximum", fields["pressure_rms_over_max"], 0.005)
+        check.below(f"{name}: shear stress, RMS over the maximum", fields["shear_rms_over_max"], 0.0125)
+        check.below(f"{name}: micro-slip, RMS over the maximum", fields["micro_slip_rms_over_max"], 0.01)
+
+    # Below the surface: CONTACT's depth lines of the same case, in both bodies under the patch centre. Stresses are those
+    # of elements of 0.31 mm, so depths from there on (a twentieth of the smaller semi-axis).
+    with open(os.path.join(ROOT, "tests", "data", "contact_subsurface.csv"), encoding="utf-8") as stream:
+        contact = [row for row in csv.DictReader(line for line in stream if not line.startswith("#"))
+                   if row["case"] == "mu030" and row["line"] == "x0" and 0.29 < float(row["depth_mm"]) < 17.]
+    with open(os.path.join(path("0.30"), "subsurface.csv"), encoding="utf-8") as stream:
+        own = [row for row in csv.DictReader(stream) if row["line"] == "centre"]
+    for body in ("wheel", "rail"):
+        line = [(float(row["depth_mm"]), float(row["von_mises_MPa"])) for row in own if row["body"] == body]
+        worst = 0.
+        reference = [(float(row["depth_mm"]), float(row["von_mises_MPa"])) for row in contact if row["body"] == body]
+        for depth, value in reference:
+            upper = next(i for i, (z, _) in enumerate(line) if z >= depth)
+            (z0, s0), (z1, s1) = line[upper - 1], line[upper]
+            worst = max(worst, abs(s0 + (s1 - s0) * (depth - z0) / (z1 - z0) - value) / value)
+        check.that(f"{body}: a line of depths to compare with", len(reference) > 20)
+        check.below(f"{body}: von Mises under the centre, largest relative difference", worst, 0.01)
+
+    # The files of a run, and nothing else touched.
+    files = sorted(os.listdir(path("0.30")))
+    check.that("the files of a run", files == ["parameters.prm", "patch.csv", "subsurface.csv", "summary.json",
+                                               "surface-0000.vtu", "surface.pvd"])
+    check.that("plot-run.py draws it", script("plot/plot-run.py", path("0.30")).returncode == 0 and
+               sorted(os.listdir(os.path.join(path("0.30"), "pictures"))) == ["axis.png", "depth.png", "map.png", "vectors.png"])
+    paraview = script("paraview/tread.py", path("0.30"))
+    check.that("tread.py reads it", paraview.returncode == 0 and "pressure_MPa" in paraview.stdout)
+    results = path("results")
+    os.mkdir(results)
+    with open(os.path.join(results, "summary.json"), "w", encoding="utf-8") as stream:
+        stream.write("kept")
+    subprocess.run(command(program, [os.path.join(ROOT, "prm", SCENE), "--reference-only", "-s", f"Output/Directory={results}"]),
+                   env=environment(), check=True, capture_output=True)
+    with open(os.path.join(results, "summary.json"), encoding="utf-8") as stream:
+        check.that("without --output a run's results are kept", stream.read() == "kept")
+    check.that("without --output it writes beside them", os.path.exists(results + "-reference/summary.json"))
+
+    # A folder that held a run: what it wrote is removed, its history is not of this answer.
+    again = path("again")
+    os.mkdir(again)
+    open(os.path.join(again, "history.csv"), "w", encoding="utf-8").close()
+    two = reference_only(output=again, ranks=2)
+    check.that("no history of an earlier run is left", not os.path.exists(os.path.join(again, "history.csv")))
+
+    # Every kind of scene.
+    base = reference_only()
+    for key in ("creepage", "max_pressure_Pa", "wheel_max_von_mises_Pa"):
+        check.relative(f"2 ranks: {key}", two[key], base[key], 1e-12)
+    check.relative("predicted creepage: the traction asked for", base["traction_coefficient"], 0.3, 1e-6)
+    given = reference_only(f"Motion/Creepage={base['creepage']}")
+    check.relative("creepage given: the same traction", given["traction_coefficient"], 0.3, 1e-4)
+    check.relative("creepage given: the same adhesion share", given["adhesion_share"], base["adhesion_share"], 1e-3)
+    torque = reference_only("Motion/Drive=torque", "Motion/Creepage=0", "Motion/Hold distance (mm)=10")
+    check.relative("torque: its traction, whatever the start", torque["creepage"], base["creepage"], 1e-9)
+    brake = reference_only("Motion/Traction coefficient=-0.3")
+    check.relative("braking: the opposite creepage", brake["creepage"], -base["creepage"], 1e-5)
+    slide = reference_only("Motion/Creepage=0.1")
+    check.relative("creepage 0.1: traction is friction", slide["traction_coefficient"], 0.5, 1e-3)
+    check.below("creepage 0.1: adhesion share", slide["adhesion_share"], 0.)
+    smooth = reference_only("Contact/Friction coefficient=0", "Motion/Traction coefficient=0", "Motion/Creepage=0.002")
+    check.below("no friction: shear stress, MPa", 1e-6 * smooth["max_shear_Pa"], 0.)
+    check.relative("no friction: slip is creepage times speed", smooth["max_slip_m_per_s"], 0.002 * 140 / 3.6, 1e-9)
+    for key in smooth:
+        check.that(f"the same keys in every answer: {key}", all(key in other for other in (base, given, torque, slide)))
+    # The head's crown arc holds the patch; it is a circle, the block's gap a parabola: (b/R)^2/4 of the gap, 1e-4.
+    block = reference_only("Rail/Shape=block", "Rail/Crown radius (mm)=300")
+    check.relative("head and block of the same crown: creepage", block["creepage"], base["creepage"], 1e-3)
+    check.relative("head and block of the same crown: maximum pressure", block["max_pressure_Pa"], base["max_pressure_Pa"], 1e-3)
+    # A load that presses the patch of 54E1 beyond the crown's 10 mm: the 80 mm arc falls away from the crown's extension,
+    # which a block has.
+    heavy = ["Vehicle/Sprung mass (kg)=150000", "Mesh/Fine half width (mm)=16", "Motion/Traction coefficient=0.1"]
+    wide, crown = reference_only(*heavy), reference_only(*heavy, "Rail/Shape=block", "Rail/Crown radius (mm)=300")
+    check.relative("crown of a block: semi-axis b against Hertz", crown["semi_axis_y_m"],
+                   crown["reference"]["semi_axis_y_m"]["Hertz"]["value"], 0.02)
+    check.that("patch beyond the crown of a head: narrower by more than 5 %",
+               wide["semi_axis_y_m"] < 0.95 * crown["semi_axis_y_m"])
+    check.that("patch beyond the crown of a head: higher pressure, by more than 0.3 %",
+               wide["max_pressure_Pa"] > 1.003 * crown["max_pressure_Pa"])
+    check.relative("patch beyond the crown: normal force, N", wide["normal_force_N"], 150900 * 9.81, 1e-9)
+    aluminium = reference_only("Wheel/Young's modulus (GPa)=70", "Wheel/Poisson's ratio=0.33", "Mesh/Fine half width (mm)=10")
+    softer = base["reference"]["max_pressure_Pa"]["Hertz"]["value"]
+    check.that("aluminium wheel: lower pressure", aluminium["max_pressure_Pa"] < 0.8 * softer)
+    check.relative("aluminium wheel: traction", aluminium["traction_coefficient"], 0.3, 1e-5)
+
+    # Bad input: one line, no files.
+    def must_fail(what, arguments, words):
+        output = path("bad")
+        result = subprocess.run(command(program, [os.path.join(ROOT, "prm", SCENE), "--reference-only", "--output", output]
+                                        + arguments), env=environment(), capture_output=True, text=True)
+        lines = result.stderr.strip().splitlines()
+        check.that(f"{what}: exit code not 0", result.returncode in (1, 2))
+        check.that(f"{what}: one line that names it", len(lines) == 1 and all(word in lines[0] for word in words))
+        check.that(f"{what}: nothing written", not os.path.exists(output))
+        print("   ", *lines)
+
+    def setting(*values):
+        return [argument for value in values for argument in ("-s", value)]
+
+    must_fail("no load", setting("Vehicle/Gravity (m per s2)=0"), ["Gravity", "nothing loads the contact"])
+    must_fail("negative load", setting("Wheel/Mass (kg)=-900"), ["Wheel/Mass (kg)", "allowed"])
+    must_fail("traction beyond friction", setting("Motion/Traction coefficient=0.6"), ["Motion/Traction coefficient", "below"])
+    must_fail("torque beyond friction", setting("Motion/Drive=torque", "Motion/Traction coefficient=-0.5"),
+              ["Motion/Traction coefficient", "below"])
+    must_fail("traction without friction", setting("Contact/Friction coefficient=0"), ["Motion/Traction coefficient", "below"])
+    must_fail("negative friction", setting("Contact/Friction coefficient=-0.1"), ["Contact/Friction coefficient", "allowed"])
+    must_fail("creepage that is no number", setting("Motion/Creepage=much"), ["Motion/Creepage", "predicted"])
+    must_fail("incompressible rail", setting("Rail/Poisson's ratio=0.5"), ["Rail/Poisson's ratio", "allowed"])
+    must_fail("with --resume", ["--resume"], ["--resume", "--reference-only"])
+    must_fail("with --dry-run", ["--dry-run"], ["--dry-run", "--reference-only"])
+
+check.exit()
