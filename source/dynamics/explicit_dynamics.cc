@@ -17,7 +17,7 @@ namespace tread
 
     /// Part of the way that the steady share of slow cells' forces goes to their present value when these are
     /// evaluated.
-    constexpr double follow = 0.1;
+    constexpr double follow = 0.5;
 
     class Stopwatch
     {
@@ -386,9 +386,15 @@ namespace tread
             solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {level, level, true});
             for (SlowShare &share : slow_shares[level])
               {
-                const Row now = (1. / factor) * (force[share.node] - share.before);
-                share.steady  = slow_shares_known ? share.steady + follow * (now - share.steady) : now;
+                const Row    now    = (1. / factor) * (force[share.node] - share.before);
+                const Row    change = slow_shares_known ? follow * (now - share.steady) : now;
+                const double own    = std::ldexp(1., level_of_node[share.node]);
+                share.steady += change;
                 force[share.node] -= factor * share.steady;
+                // The steady part acts on average half of (factor - own) steps late: what that takes from a
+                // force that changes is given at once, or motion would be fed with energy.
+                if (slow_shares_known)
+                  force[share.node] += 0.5 * (factor - own) * change;
               }
           }
         for (const SlowShare &share : slow_shares[level])

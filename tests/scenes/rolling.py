@@ -77,6 +77,10 @@ with tempfile.TemporaryDirectory() as folder:
         one = run(program, "smooth-rolling.prm", path("1"), tight)
         for ranks in (2, 3):
             same(f"{ranks} ranks against 1", run(program, "smooth-rolling.prm", path(str(ranks)), tight, ranks), one, 1e-8)
+        levels = tight + ["Time stepping/Levels=3"]
+        one_of_levels = run(program, "smooth-rolling.prm", path("levels-1"), levels)
+        same("levels of time steps, 2 ranks against 1", run(program, "smooth-rolling.prm", path("levels-2"), levels, 2),
+             one_of_levels, 1e-8)
 
     elif what == "resume":
         settings = SHORT + ["Output/Checkpoint interval (minutes)=0"]
@@ -159,11 +163,16 @@ with tempfile.TemporaryDirectory() as folder:
         soft = run(program, "smooth-rolling.prm", path("soft"), base + ["Motion/Traction coefficient=0", "Mesh/Fine half width (mm)=11",
                                                                         "Rail/Young's modulus (GPa)=70"], 2)
         check.absolute("unlike bodies, free rolling: traction coefficient", soft["traction_coefficient"], 0., 0.02)
-        fast = run(program, "smooth-rolling.prm", path("scaled"), base + ["Scene/Density scale=9"], 2)
-        check.relative("density x 9: a third of the steps", fast["steps"] / drive["steps"], 1. / 3., 0.01)
-        check.relative("density x 9: maximum pressure", fast["max_pressure_Pa"], drive["max_pressure_Pa"], 0.005)
-        check.relative("density x 9: traction coefficient", fast["traction_coefficient"], drive["traction_coefficient"], 0.02)
-        check.below("density x 9: energy residual, share of the work", fast["energy_residual_share"], 1e-3)
+        plain = run(program, "smooth-rolling.prm", path("plain"), base + ["Scene/Density scale=1"], 2)
+        check.relative("density x 9: a third of the steps", drive["steps"] / plain["steps"], 1. / 3., 0.01)
+        check.relative("density x 9: normal force", drive["normal_force_N"], plain["normal_force_N"], 0.001)
+        check.relative("density x 9: maximum pressure", drive["max_pressure_Pa"], plain["max_pressure_Pa"], 0.002)
+        check.relative("density x 9: traction coefficient", drive["traction_coefficient"], plain["traction_coefficient"], 0.005)
+        check.below("density 1: energy residual, share of the work", plain["energy_residual_share"], 1e-3)
+        levels = run(program, "smooth-rolling.prm", path("levels"), base + ["Time stepping/Levels=4"], 2)
+        for key in ("max_pressure_Pa", "patch_area_m2", "max_shear_Pa", "adhesion_share", "traction_coefficient"):
+            check.relative(f"four levels of time steps: {key}", levels[key], drive[key], 0.002)
+        check.below("four levels of time steps: energy residual, share of the work", levels["energy_residual_share"], 1e-3)
         full = run(program, "smooth-rolling.prm", path("full"),
                    SHORT + ["Solid/Element=fully-integrated"], 2)
         one = run(program, "smooth-rolling.prm", path("one"), SHORT, 2)

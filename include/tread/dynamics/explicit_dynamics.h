@@ -48,10 +48,12 @@ namespace tread
 
   /// Central differences for all bodies, the wheel's hub and the contact between them.
   ///
-  /// With levels of cells (SolidParameters::max_level) the cells of level l push their nodes only every
-  /// 2^l-th step, 2^l times as hard, and nodes move with the step of their fastest cell: an asynchronous
-  /// variational integrator (Lew, Marsden, Ortiz & West 2003; Tuckerman, Berne & Martyna 1992), which keeps
-  /// momentum and, up to oscillations, energy. Nodes of the contact surfaces are of level 0.
+  /// With levels of cells (SolidParameters::max_level) the cells of level l are evaluated every 2^l-th step
+  /// only, and nodes move with the step of their fastest cell. Nodes between levels feel the slow cells'
+  /// forces steadily, corrected by a push when these are evaluated: an asynchronous variational integrator
+  /// (Lew, Marsden, Ortiz & West 2003) in which the steady part of the slow forces belongs to the fast ones.
+  /// Needs some stiffness damping (0.1): without it these integrators resonate (Fong, Darve & Lew 2008).
+  /// Nodes of the contact surfaces and of the hub are of level 0.
   ///
   /// v^(n+1/2) = v^(n-1/2) + dt M^-1 (f_int(x^n + beta v^(n-1/2)) + f_ext + G^T P/dt),
   /// x^(n+1) = x^n + dt v^(n+1/2), with the impulses P such that gaps at n+1 are closed or open
