@@ -103,25 +103,29 @@ namespace tread
           if (marks[i][0] > 0.)
             level_of_node[i] = level;
       }
+    // Forces on hanging nodes are their parents'.
+    std::vector<const Mesh::HangingNode *> hangs(x.size(), nullptr);
     for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      {
-        level_of_node[h.node] = max_level;
-        for (const unsigned int parent : h.parents)
-          level_of_node[h.node] = std::min(level_of_node[h.node], level_of_node[parent]);
-      }
-
+      hangs[h.node] = &h;
     slow_shares.assign(max_level + 1, {});
     for (unsigned int level = 1; level <= max_level; ++level)
       {
         std::vector<char> seen(x.size(), false);
+        const auto        add = [&](const unsigned int i) {
+          if (level_of_node[i] < level && !seen[i])
+            slow_shares[level].push_back({i, Row{}, Row{}});
+          seen[i] = true;
+        };
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
-              if (level_of_node[i] < level && !seen[i])
-                {
-                  seen[i] = true;
-                  slow_shares[level].push_back({i, Row{}, Row{}});
-                }
+              {
+                if (!hangs[i])
+                  add(i);
+                else
+                  for (const unsigned int parent : hangs[i]->parents)
+                    add(parent);
+              }
       }
     nodes_of_level.assign(max_level + 1, Runs());
     for (unsigned int begin = 0; begin < level_of_node.size();)
@@ -376,6 +380,7 @@ namespace tread
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
     solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {0, 0, true});
+    mesh.condense_hanging_nodes(force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
         const double factor = std::ldexp(1., level);
@@ -384,6 +389,7 @@ namespace tread
             for (SlowShare &share : slow_shares[level])
               share.before = force[share.node];
             solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {level, level, true});
+            mesh.condense_hanging_nodes(force.data());
             for (SlowShare &share : slow_shares[level])
               {
                 const Row    now    = (1. / factor) * (force[share.node] - share.before);
@@ -424,7 +430,6 @@ namespace tread
         }
     };
     add_forces_due(due);
-    mesh.condense_hanging_nodes(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
     times.communication += watch.lap();
@@ -575,6 +580,7 @@ namespace tread
     // the strain energy. What is not the cells' adds as much to the work.
     NodalField cell_force(x.size(), Row{});
     solid.add_internal_forces(x.data(), v.data(), cell_force.data());
+    mesh.condense_hanging_nodes(cell_force.data());
     double energy = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       {
