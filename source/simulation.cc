@@ -157,7 +157,7 @@ namespace tread
   Simulation::Simulation(const Scene &scene, const MPI_Comm comm)
     : scene(scene)
     , comm(comm)
-    , mesh(comm, make_bodies(scene))
+    , mesh(comm, make_bodies(scene), scene.time_levels - 1)
     , solid(mesh, {scene.rail_material.si(), scene.wheel_material.si()}, solid_parameters(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))

@@ -8,7 +8,9 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -85,15 +87,36 @@ namespace tread
       throw std::runtime_error(
         "mesh: a body asks for cells more than 2^12 times finer than its coarse blocks");
     }
+
+    /// Ranks get equal shares of work when cells 2^l times as large as the smallest take only every 2^l-th
+    /// step.
+    void balance(Triangulation &triangulation, const unsigned int max_level)
+    {
+      double smallest = std::numeric_limits<double>::max();
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          smallest = std::min(smallest, cell->minimum_vertex_distance());
+      smallest = dealii::Utilities::MPI::min(smallest, triangulation.get_communicator());
+      triangulation.signals.weight.connect(
+        [=](const Triangulation::cell_iterator &cell, const Triangulation::CellStatus) -> unsigned int {
+          unsigned int level = 0;
+          while (level < max_level && cell->minimum_vertex_distance() > 0.9 * std::ldexp(smallest, level + 1))
+            ++level;
+          return 1000u >> level;
+        });
+      triangulation.repartition();
+    }
   } // namespace
 
 
-  Mesh::Mesh(const MPI_Comm comm, const std::vector<Body> &bodies)
+  Mesh::Mesh(const MPI_Comm comm, const std::vector<Body> &bodies, const unsigned int max_level)
     : comm(comm)
   {
     Triangulation triangulation(comm);
     make_coarse_mesh(triangulation, bodies);
     refine(triangulation, bodies);
+    if (max_level > 0)
+      balance(triangulation, max_level);
 
     const dealii::FE_Q<3> fe(1);
     dealii::DoFHandler<3> dof_handler(triangulation);

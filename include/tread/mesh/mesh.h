@@ -59,8 +59,9 @@ namespace tread
     std::array<long long, 4> node_key(const unsigned int node) const;
 
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
+    /// @param max_level of time steps that the cells will be run with: what ranks share fairly.
     /// @throws std::runtime_error when a body has a cell that is turned inside out.
-    Mesh(const MPI_Comm comm, const std::vector<Body> &bodies);
+    Mesh(const MPI_Comm comm, const std::vector<Body> &bodies, const unsigned int max_level = 0);
 
     /// Parents receive the forces (or masses) of their hanging nodes.
     void condense_hanging_nodes(Row *field) const
