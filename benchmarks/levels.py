@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What time steps in levels gain, beside what they could gain at best, and what they change in the answer.
 
-Runs the smooth scene and the long rail with 1 to 4 levels, the runs with 3 levels over 1e5 steps too, and fills the
-table of doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
+Runs the smooth scene and the long rail with 1 to 4 levels, with 2 and 3 over 1e5 steps too, and fills the table
+of doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
 """
 
 import argparse
@@ -13,12 +13,14 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
 
 from doc_tables import ROOT, available_ranks, dry_run, fill, markdown, number, provenance, run_scene, run_script
+from run_data import DataError
 
 SCENES = {"smooth": "smooth-rolling.prm", "long rail": "benchmarks/long-rail.prm"}
 LEVELS = (1, 2, 3, 4)
-# Levels and changes with which a scene takes 1e5 steps: true density, hence short steps, and a slow wheel.
-LONG = {"smooth": (3, {"Scene/Density scale": 1, "Motion/Speed (km per h)": 24}),
-        "long rail": (3, {"Scene/Density scale": 1, "Motion/Speed (km per h)": 12})}
+# Changes with which a scene takes 1e5 steps: true density, hence short steps, and a slow wheel.
+LONG_LEVELS = (2, 3)
+LONG = {"smooth": {"Scene/Density scale": 1, "Motion/Speed (km per h)": 24},
+        "long rail": {"Scene/Density scale": 1, "Motion/Speed (km per h)": 12}}
 
 # What must not change by more than 0.2 %.
 PATCH = ("normal_force_N", "longitudinal_force_N", "patch_area_m2", "max_pressure_Pa", "max_shear_Pa", "adhesion_share",
@@ -60,11 +62,18 @@ def main():
                          f"{rolling_seconds(base) / rolling_seconds(summary):.2f}", number(summary["seconds"]),
                          "-" if levels == 1 else f"{judged(changed[worst], ALLOWED_CHANGE)} ({worst})",
                          judged(100 * summary["energy_residual_share"], ALLOWED_RESIDUAL)])
-    for name, (levels, changes) in LONG.items():
-        summary, ideal = run(name, levels, changes, f"{name} 1e5 steps")
-        rows.append([f"{name}, 1e5 steps", str(levels), number(summary["cells"]), number(summary["steps"]),
-                     f"{ideal:.2f}", "-", "-", number(summary["seconds"]), "-",
-                     judged(100 * summary["energy_residual_share"], ALLOWED_RESIDUAL)])
+    for name, changes in LONG.items():
+        for levels in LONG_LEVELS:
+            row = [f"{name}, 1e5 steps", str(levels)]
+            try:
+                summary, ideal = run(name, levels, changes, f"{name} 1e5 steps")
+            except DataError as error:  # a scheme that is not stable shows here
+                print(error)
+                rows.append(row + ["-"] * 7 + ["**FAIL**: did not end"])
+                continue
+            rows.append(row + [number(summary["cells"]), number(summary["steps"]), f"{ideal:.2f}", "-", "-",
+                               number(summary["seconds"]), "-",
+                               judged(100 * summary["energy_residual_share"], ALLOWED_RESIDUAL)])
 
     fill("performance.md", "levels", markdown(
         ["scene", "levels", "cells", "steps", "ideal gain", "gain, internal forces", "gain, rolling", "seconds",

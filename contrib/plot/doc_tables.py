@@ -60,7 +60,9 @@ def run_scene(scene, folder, settings=None, ranks=None):
             seconds = time.monotonic() - began
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
-            raise DataError(f"{scene} ended with {process.returncode}, see {output.name}")
+            with open(output.name, encoding="utf-8") as stream:
+                said = [text.strip() for text in stream if text.startswith("tread: ")]
+            raise DataError(f"{scene} ended with {process.returncode} ({' '.join(said)}), see {output.name}")
         cost = {"command": line, "seconds": seconds, "peak_bytes": 1024 * usage.ru_maxrss}
         with open(cost_file, "w", encoding="utf-8") as stream:
             json.dump(cost, stream, indent=2)
