@@ -95,10 +95,13 @@ def draw(found, file):
                 for x, y, size in points:
                     axis.annotate(f"{size:g} mm", (x, y), xytext=(6, 6), textcoords="offset points", fontsize=8)
         axis.set(xscale="log", yscale="log", xlabel="start to summary.json [s]",
-                 ylabel=f"error of the {label} [{unit}]")
+                 ylabel=f"{label} [{unit}]")
+        for numbers in (axis.xaxis, axis.yaxis):
+            numbers.set_major_formatter("{x:g}")
+            numbers.set_minor_formatter(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "235" else "")
         axis.grid(True, which="both", color="#E3E3E3", lw=0.6)
         axis.spines[["top", "right"]].set_visible(False)
-    axes[0].set_title("to the left and down is better", fontsize=9, loc="left")
+    axes[0].set_title("difference from CONTACT; to the left and down is better", fontsize=9, loc="left")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, frameon=False, fontsize=9)
     figure.tight_layout(rect=(0, 0.12, 1, 1))
     figure.savefig(file, dpi=130)
