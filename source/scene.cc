@@ -192,7 +192,7 @@ namespace tread
                       Double(1., 1000.));
     prm.add_parameter("Margin (mm)", rail_margin_mm,
                       "Rail beyond the rolled distance, at each end. At least three contact semi-axes.",
-                      Double(0., 2000.));
+                      Double(0., 20000.));
     declare_material(rail_material);
     prm.leave_subsection();
 
@@ -434,9 +434,9 @@ namespace tread
     const auto            hertz =
       reference::hertz_ellipse(500. / radius_mm, 0.5 / crown_radius(), pair.hertz_modulus(), static_load());
     const double a_mm = 1e3 * hertz.semi_axis_x, b_mm = 1e3 * hertz.semi_axis_y;
-    require(finest_mm <= 0.4 * std::min(a_mm, b_mm),
+    require(finest_mm <= 0.45 * std::min(a_mm, b_mm),
             "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
-              number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.4 * std::min(a_mm, b_mm)));
+              number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.45 * std::min(a_mm, b_mm)));
     require(fine_half_width_mm >= 1.1 * b_mm + finest_mm,
             "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
               " must hold the patch of semi-axis " + number(b_mm) + " mm; at least " +

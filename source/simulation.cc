@@ -192,6 +192,13 @@ namespace tread
   }
 
 
+  double Simulation::memory_of_cells_and_nodes() const
+  {
+    const double on_this_rank = solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.);
+    return dealii::Utilities::MPI::sum(on_this_rank, comm);
+  }
+
+
   void Simulation::estimate()
   {
     const double        step  = scene.courant_number * dynamics.critical_time_step();
@@ -203,9 +210,8 @@ namespace tread
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
       solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data());
     const double seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
-    const double memory  = dealii::Utilities::MPI::sum(
-       static_cast<double>(solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.)), comm);
-    const double relaxation_steps = 2000., gain = dynamics.ideal_gain_of_levels();
+    const double memory = memory_of_cells_and_nodes(), relaxation_steps = 2000.,
+                 gain = dynamics.ideal_gain_of_levels();
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
@@ -546,6 +552,7 @@ namespace tread
     summary.set("wall_s_nodes", max(times.nodes, comm));
     summary.set("element_updates_per_s",
                 mesh.n_global_cells * steps / std::max(1e-9, max(times.internal_forces, comm)));
+    summary.set("cells_and_nodes_bytes", memory_of_cells_and_nodes());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
     folder.write("summary.json", summary.text());

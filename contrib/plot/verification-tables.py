@@ -8,15 +8,10 @@ results go to RESULTS/<name of the parameter file>). Tables whose results are mi
 
 import argparse
 import glob
-import json
 import os
-import re
-import subprocess
-import sys
 
-from run_data import DataError, read_patch, read_summary, reference_value
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from doc_tables import ROOT, contact_measures, fill, is_complete, markdown, number, run_scene, run_script
+from run_data import read_patch, read_summary, reference_value
 
 # Errors allowed by cell size: (key of compare-contact.py, row, factor, unit, 0.63 mm, 0.33 mm).
 MEASURES = (("max_pressure_relative_difference", "largest pressure", 100, "%", 1.2, 0.8),
@@ -43,26 +38,11 @@ SIZES = (0.33, 0.63, 1.3)
 
 
 def run_missing(results):
-    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    launch = ["mpirun", "-np", "2", "--use-hwthread-cpus", "--bind-to", "none"] if (os.cpu_count() or 1) > 1 else []
-    for scene in sorted(glob.glob(os.path.join(ROOT, "prm/verification/half-space-*.prm"))
-                        + glob.glob(os.path.join(ROOT, "prm/thesis/3.1-*.prm"))):
-        folder = os.path.join(results, os.path.basename(scene)[:-len(".prm")])
-        if os.path.exists(os.path.join(folder, "summary.json")):
-            continue
-        subprocess.run(launch + [os.path.join(ROOT, "build/source/tread"), scene, "--output", folder],
-                       check=True, env=environment)
-
-
-def markdown(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
-
-
-def number(value):
-    if value is None:
-        return "-"
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+    for pattern in ("verification/half-space-*.prm", "thesis/3.1-*.prm"):
+        for scene in sorted(glob.glob(pattern, root_dir=os.path.join(ROOT, "prm"))):
+            folder = os.path.join(results, os.path.basename(scene)[:-len(".prm")])
+            if not is_complete(folder):
+                run_scene(scene, folder)
 
 
 def half_space_table(results):
@@ -72,18 +52,7 @@ def half_space_table(results):
         if not os.path.exists(os.path.join(run, "summary.json")):
             print(f"note: no results in {run}")
             continue
-        contact = os.path.join(ROOT, f"contrib/reference/contact_F127_mu{round(100 * float(traction)):03d}_dx010.csv.gz")
-        measures = os.path.join(run, "contact.json")
-        subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib/plot/compare-contact.py"), run, contact,
-                        "--json", measures], check=True, stdout=subprocess.DEVNULL)
-        summary = read_summary(run)
-        with open(measures, encoding="utf-8") as stream:
-            found = json.load(stream)
-        # The summary's share is the mean over rolling one cell: finer than the nodes of one instant. Its ripple
-        # is that of every step, not of the means in history.csv.
-        found["adhesion_share_difference_points"] += 100 * (summary["adhesion_share"] - found["adhesion_share"])
-        found["normal_force_ripple_last_10_mm"] = summary["normal_force_ripple_share"]
-        columns.append((size, traction, found, summary))
+        columns.append((size, traction, contact_measures(run, float(traction)), read_summary(run)))
     if not columns:
         return None
     rows = []
@@ -135,36 +104,18 @@ def published_table(results):
         "|" + "---|" * len(header), "|" + "---|" * (1 + 3 * len(runs)))
 
 
-def fill(text, name, table):
-    pattern = re.compile(rf"(<!-- begin table {name} -->\n).*?(<!-- end table {name} -->)", re.DOTALL)
-    if not pattern.search(text):
-        raise DataError(f"doc/verification.md: no place for table '{name}'")
-    return pattern.sub(lambda match: match[1] + table + "\n" + match[2], text)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no results yet")
     arguments = parser.parse_args()
-    page = os.path.join(ROOT, "doc/verification.md")
-    try:
-        if arguments.run:
-            run_missing(arguments.results)
-        with open(page, encoding="utf-8") as stream:
-            text = stream.read()
-        for name, make in (("half-space", half_space_table), ("published", published_table)):
-            table = make(arguments.results)
-            if table is not None:
-                text = fill(text, name, table)
-                print(f"doc/verification.md: table '{name}' filled")
-        with open(page, "w", encoding="utf-8") as stream:
-            stream.write(text)
-    except (DataError, OSError) as error:
-        sys.exit(f"verification-tables.py: {error}")
-    except subprocess.CalledProcessError as error:
-        sys.exit(f"verification-tables.py: {' '.join(map(str, error.cmd))} ended with {error.returncode}")
+    if arguments.run:
+        run_missing(arguments.results)
+    for name, make in (("half-space", half_space_table), ("published", published_table)):
+        table = make(arguments.results)
+        if table is not None:
+            fill("verification.md", name, table)
 
 
 if __name__ == "__main__":
-    main()
+    run_script(main)

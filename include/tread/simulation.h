@@ -44,6 +44,7 @@ namespace tread
       return hub.motion.x;
     }
     std::uint64_t remaining_steps() const;
+    double        memory_of_cells_and_nodes() const; // bytes, of all ranks
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 

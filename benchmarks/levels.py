@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What time steps in levels gain, beside what they could gain at best, and what they change in the answer.
+
+Runs the smooth scene and the long rail with 1 to 4 levels, with 2 and 3 over 1e5 steps too, and fills the table
+of doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
+"""
+
+import argparse
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
+
+from doc_tables import ROOT, available_ranks, dry_run, fill, markdown, number, provenance, run_scene, run_script
+from run_data import DataError
+
+SCENES = {"smooth": "smooth-rolling.prm", "long rail": "benchmarks/long-rail.prm"}
+LEVELS = (1, 2, 3, 4)
+# Changes with which a scene takes 1e5 steps: true density, hence short steps, and a slow wheel.
+LONG_LEVELS = (2, 3)
+LONG = {"smooth": {"Scene/Density scale": 1, "Motion/Speed (km per h)": 24},
+        "long rail": {"Scene/Density scale": 1, "Motion/Speed (km per h)": 12}}
+
+# What must not change by more than 0.2 %.
+PATCH = ("normal_force_N", "longitudinal_force_N", "patch_area_m2", "max_pressure_Pa", "max_shear_Pa", "adhesion_share",
+         "max_slip_m_per_s")
+ALLOWED_CHANGE, ALLOWED_RESIDUAL = 0.2, 0.1  # %
+
+
+def judged(value, allowed):
+    return number(value) + ("" if abs(value) <= allowed else " **FAIL**")
+
+
+def rolling_seconds(summary):
+    return summary["wall_s"] - summary["wall_s_start"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/levels"))
+    arguments = parser.parse_args()
+
+    rows, summaries = [], []
+
+    def run(name, levels, changes, label):
+        settings = {"Time stepping/Levels": levels, "Output/Write volume": "false", **changes}
+        folder = os.path.join(arguments.results, f"{label.replace(' ', '-')}-{levels}")
+        summary = run_scene(SCENES[name], folder, settings)
+        summaries.append(summary)
+        return summary, dry_run(SCENES[name], settings)["ideal gain of levels"]
+
+    for name in SCENES:
+        for levels in LEVELS:
+            summary, ideal = run(name, levels, {}, name)
+            if levels == 1:
+                base = summary
+            changed = {key: 100 * (summary[key] / base[key] - 1) for key in PATCH}
+            worst = max(changed, key=lambda key: abs(changed[key]))
+            rows.append([name, str(levels), number(summary["cells"]), number(summary["steps"]), f"{ideal:.2f}",
+                         f"{base['wall_s_internal_forces'] / summary['wall_s_internal_forces']:.2f}",
+                         f"{rolling_seconds(base) / rolling_seconds(summary):.2f}", number(summary["seconds"]),
+                         "-" if levels == 1 else f"{judged(changed[worst], ALLOWED_CHANGE)} ({worst})",
+                         judged(100 * summary["energy_residual_share"], ALLOWED_RESIDUAL)])
+    for name, changes in LONG.items():
+        for levels in LONG_LEVELS:
+            row = [f"{name}, 1e5 steps", str(levels)]
+            try:
+                summary, ideal = run(name, levels, changes, f"{name} 1e5 steps")
+            except DataError as error:  # a scheme that is not stable shows here
+                print(error)
+                rows.append(row + ["-"] * 7 + ["**FAIL**: did not end"])
+                continue
+            rows.append(row + [number(summary["cells"]), number(summary["steps"]), f"{ideal:.2f}", "-", "-",
+                               number(summary["seconds"]), "-",
+                               judged(100 * summary["energy_residual_share"], ALLOWED_RESIDUAL)])
+
+    fill("performance.md", "levels", markdown(
+        ["scene", "levels", "cells", "steps", "ideal gain", "gain, internal forces", "gain, rolling", "seconds",
+         f"largest change, % (allowed {ALLOWED_CHANGE})", f"energy residual, % (allowed {ALLOWED_RESIDUAL})"], rows)
+        + f"\n\n{available_ranks()} ranks. " + provenance("benchmarks/levels.py", summaries))
+
+
+if __name__ == "__main__":
+    run_script(main)

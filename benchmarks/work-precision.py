@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Wall time against the error beside CONTACT: which setting pays.
+
+Runs the half-space verification scenes of prm/verification at several cell sizes with a plain setting (density as it
+is, one time step for all cells), with one change at a time, and with all that pays together. Fills the table of
+doc/performance.md and draws doc/pictures/work-precision.png. Runs that have complete results are not repeated; remove
+RESULTS to measure anew.
+"""
+
+import argparse
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
+
+from doc_tables import (ROOT, available_ranks, contact_measures, fill, markdown, number, provenance, run_scene,
+                        run_script)
+
+# Okabe and Ito's colours, which the colour-blind can tell apart.
+BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"
+
+# Cells of 2.6 mm are larger than those scenes have: the scene of 1.3 mm, with more room beside the patch.
+SIZES = {2.6: ("verification/half-space-1.3-mu0.30.prm",
+               {"Mesh/Finest cell (mm)": 2.6, "Mesh/Fine half width (mm)": 10.4}),
+         1.3: ("verification/half-space-1.3-mu0.30.prm", {}),
+         0.63: ("verification/half-space-0.63-mu0.30.prm", {}),
+         0.33: ("verification/half-space-0.33-mu0.30.prm", {})}
+TRACTION = 0.30
+
+PLAIN = {"Scene/Density scale": 1, "Time stepping/Levels": 1, "Output/Write volume": "false"}
+# name: (what is changed, colour, marker)
+SETTINGS = {
+    "plain": ({}, "black", "o"),
+    "density 4": ({"Scene/Density scale": 4}, SKY, "v"),
+    "density 9": ({"Scene/Density scale": 9}, BLUE, "^"),
+    "density 25": ({"Scene/Density scale": 25}, PURPLE, "D"),
+    "3 levels": ({"Time stepping/Levels": 3}, GREEN, "s"),
+    "contact tolerance 1e-4": ({"Contact/Tolerance": 1e-4}, ORANGE, "P"),
+    "fully integrated": ({"Solid/Element": "fully-integrated"}, "#999999", "X"),
+    "best": ({"Scene/Density scale": 25, "Time stepping/Levels": 3, "Contact/Tolerance": 1e-4}, RED, "*")}
+SLOW = {"fully integrated": 0.63}  # only cells of at least so many mm
+
+# (key of compare-contact.py, label, factor, unit)
+MEASURES = (("max_pressure_relative_difference", "largest pressure", 100, "%"),
+            ("pressure_rms_over_max", "pressure RMS", 100, "%"),
+            ("shear_rms_over_max", "shear RMS", 100, "%"),
+            ("adhesion_share_difference_points", "adhesion share", 1, "points"),
+            ("creepage_at_this_traction_relative_difference", "creepage", 100, "%"))
+DRAWN = MEASURES[2:]
+
+
+def measure(results, sizes):
+    """{(size, setting): (summary with cost, measures)}"""
+    found = {}
+    for size in sizes:
+        scene, mesh = SIZES[size]
+        for name, (changes, *_) in SETTINGS.items():
+            if size < SLOW.get(name, 0):
+                continue
+            folder = os.path.join(results, f"{size}-{name.replace(' ', '-')}")
+            summary = run_scene(scene, folder, {**PLAIN, **mesh, **changes})
+            found[size, name] = summary, contact_measures(folder, TRACTION)
+    return found
+
+
+def table(found):
+    header = ["cells, mm", "setting", "cells", "steps", "seconds", "times plain"] + [
+        f"{label}, {unit}" for _, label, _, unit in MEASURES] + ["energy residual, %"]
+    rows = []
+    for (size, name), (summary, measures) in found.items():
+        plain = found[size, "plain"][0]["seconds"]
+        rows.append([f"{size:g}", name, number(summary["cells"]), number(summary["steps"]),
+                     number(summary["seconds"]), f"{plain / summary['seconds']:.1f}"]
+                    + [number(factor * measures[key]) for key, _, factor, _ in MEASURES]
+                    + [f"{100 * summary['energy_residual_share']:.2g}"])
+    return markdown(header, rows)
+
+
+def draw(found, file):
+    figure, axes = plt.subplots(1, len(DRAWN), figsize=(4.4 * len(DRAWN), 4.6), sharex=True)
+    for axis, (key, label, factor, unit) in zip(axes, DRAWN):
+        for name, (_, colour, marker) in SETTINGS.items():
+            points = [(summary["seconds"], abs(factor * measures[key]), size)
+                      for (size, setting), (summary, measures) in found.items() if setting == name]
+            main_line = name in ("plain", "best")
+            axis.plot(*zip(*[point[:2] for point in points]), color=colour, marker=marker, label=name,
+                      lw=2.2 if main_line else 1.0, ms=10 if marker == "*" else 6, zorder=3 if main_line else 2)
+            if name == "plain":
+                for x, y, size in points:
+                    axis.annotate(f"{size:g} mm", (x, y), xytext=(6, 6), textcoords="offset points", fontsize=8)
+        axis.set(xscale="log", yscale="log", xlabel="start to summary.json [s]",
+                 ylabel=f"{label} [{unit}]")
+        for numbers in (axis.xaxis, axis.yaxis):
+            numbers.set_major_formatter("{x:g}")
+            numbers.set_minor_formatter(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "235" else "")
+        axis.grid(True, which="both", color="#E3E3E3", lw=0.6)
+        axis.spines[["top", "right"]].set_visible(False)
+    axes[0].set_title("difference from CONTACT; to the left and down is better", fontsize=9, loc="left")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.12, 1, 1))
+    figure.savefig(file, dpi=130)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="RESULTS", nargs="?",
+                        default=os.path.join(ROOT, "results/work-precision"))
+    parser.add_argument("--fine", action="store_true", help="cells of 0.33 mm too")
+    arguments = parser.parse_args()
+    found = measure(arguments.results, [size for size in SIZES if size > 0.5 or arguments.fine])
+    script = "benchmarks/work-precision.py" + (" --fine" if arguments.fine else "")
+    fill("performance.md", "work-precision", table(found) + f"\n\n{available_ranks()} ranks. "
+         + provenance(script, [summary for summary, _ in found.values()]))
+    draw(found, os.path.join(ROOT, "doc/pictures/work-precision.png"))
+
+
+if __name__ == "__main__":
+    run_script(main)

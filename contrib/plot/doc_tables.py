@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the scripts that fill the tables of doc/ share: running scenes, comparing them, writing between marks."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+
+from run_data import DataError, read_summary
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PROGRAM = os.path.join(ROOT, "build/source/tread")
+
+
+def command(arguments, ranks):
+    """The program on so many ranks; one rank needs no mpirun."""
+    launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
+    return launch + [PROGRAM] + arguments
+
+
+def environment():
+    settings = {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+    if os.getuid() == 0:
+        settings.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return dict(os.environ, **settings)
+
+
+def arguments_of(scene, settings):
+    result = [os.path.join(ROOT, "prm", scene)]
+    for name, value in settings.items():
+        result += ["-s", f"{name}={value}"]
+    return result
+
+
+def available_ranks():
+    return min(2, os.cpu_count() or 1)
+
+
+def run_scene(scene, folder, settings=None, ranks=None):
+    """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command.
+
+    Beside the summary's figures: `seconds` from the start of the program to its end, and `peak_bytes`, the
+    memory of its largest process.
+    """
+    line = command(arguments_of(scene, settings or {}) + ["--output", folder], ranks or available_ranks())
+    cost_file = os.path.join(folder, "cost.json")
+    cost = {}
+    if is_complete(folder) and os.path.exists(cost_file):
+        with open(cost_file, encoding="utf-8") as stream:
+            cost = json.load(stream)
+    if cost.get("command") != line:
+        print(" ".join(line), flush=True)
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as output:
+            began = time.monotonic()
+            process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT)
+            _, status, usage = os.wait4(process.pid, 0)
+            seconds = time.monotonic() - began
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            with open(output.name, encoding="utf-8") as stream:
+                said = [text.strip() for text in stream if text.startswith("tread: ")]
+            raise DataError(f"{scene} ended with {process.returncode} ({' '.join(said)}), see {output.name}")
+        cost = {"command": line, "seconds": seconds, "peak_bytes": 1024 * usage.ru_maxrss}
+        with open(cost_file, "w", encoding="utf-8") as stream:
+            json.dump(cost, stream, indent=2)
+    return dict(read_summary(folder), **cost)
+
+
+def is_complete(folder):
+    try:
+        return read_summary(folder).get("completed") is True
+    except DataError:
+        return False
+
+
+def dry_run(scene, settings, ranks=1):
+    """What --dry-run says: {what: number}."""
+    line = command(arguments_of(scene, settings) + ["--dry-run"], ranks)
+    result = subprocess.run(line, env=environment(), capture_output=True, text=True)
+    if result.returncode != 0:
+        raise DataError(f"{' '.join(line)} ended with {result.returncode}: {result.stderr.strip()}")
+    found = {what.strip(): float(value) for what, value in
+             re.findall(r"^(\S[^\d\n]*?)\s{2,}([\d.eE+-]+)", result.stdout, re.MULTILINE)}
+    gain = re.search(r"fall to 1/([\d.]+)", result.stdout)
+    found["ideal gain of levels"] = float(gain[1]) if gain else 1.0
+    return found
+
+
+def contact_measures(run, traction):
+    """The measures of compare-contact.py against CONTACT at a traction coefficient, as doc/ states them."""
+    contact = os.path.join(ROOT, f"contrib/reference/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")
+    measures = os.path.join(run, "contact.json")
+    subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/compare-contact.py"), run, contact,
+                    "--json", measures], check=True, stdout=subprocess.DEVNULL)
+    summary = read_summary(run)
+    with open(measures, encoding="utf-8") as stream:
+        found = json.load(stream)
+    # The summary's share is the mean over rolling one cell: finer than the nodes of one instant. Its ripple
+    # is that of every step, not of the means in history.csv.
+    found["adhesion_share_difference_points"] += 100 * (summary["adhesion_share"] - found["adhesion_share"])
+    found["normal_force_ripple_last_10_mm"] = summary["normal_force_ripple_share"]
+    return found
+
+
+def machine():
+    """Processor, its cores and widest vectors."""
+    with open("/proc/cpuinfo", encoding="utf-8") as stream:
+        text = stream.read()
+    model = re.search(r"^model name\s*:\s*(.+)$", text, re.MULTILINE)
+    vectors = next((name for flag, name in (("avx512f", "AVX-512"), ("avx2", "AVX2")) if f" {flag}" in text), "SSE2")
+    cores = os.cpu_count()
+    return f"{model[1] if model else 'unknown processor'}, {cores} core{'s' if cores != 1 else ''}, {vectors}"
+
+
+def provenance(script, summaries):
+    """The line under a table: machine, version, command."""
+    versions = ", ".join(sorted({summary["version"] for summary in summaries}))
+    return f"{machine()}; tread {versions}; `{script}`."
+
+
+def markdown(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def number(value):
+    if value is None:
+        return "-"
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def fill(page, name, table):
+    """Put a table between its marks on a page of doc/."""
+    path = os.path.join(ROOT, "doc", page)
+    with open(path, encoding="utf-8") as stream:
+        text = stream.read()
+    pattern = re.compile(rf"(<!-- begin table {name} -->\n).*?(<!-- end table {name} -->)", re.DOTALL)
+    if not pattern.search(text):
+        raise DataError(f"doc/{page}: no place for table '{name}'")
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(pattern.sub(lambda match: match[1] + table + "\n" + match[2], text))
+    print(f"doc/{page}: table '{name}' filled")
+
+
+def run_script(main):
+    """main(), with what goes wrong on one line."""
+    try:
+        main()
+    except (DataError, OSError) as error:
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {error}")
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {' '.join(map(str, error.cmd))} ended with {error.returncode}")
