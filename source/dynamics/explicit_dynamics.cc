@@ -43,6 +43,7 @@ namespace tread
                                      const DynamicsParameters &parameters)
     : x(mesh.nodes.size())
     , v(mesh.nodes.size(), Row{})
+    , history(solid.virgin())
     , mesh(mesh)
     , solid(solid)
     , parameters(parameters)
@@ -247,7 +248,7 @@ namespace tread
     start_kinetic              = kinetic_energy();
     const NodalField positions = positions_with_velocities();
     start_potential            = body_potential(positions);
-    start_strain               = solid.strain_energy(positions.data());
+    start_strain               = solid.strain_energy(positions.data(), history);
     start_strain.strain        = dealii::Utilities::MPI::sum(start_strain.strain, mesh.comm);
     start_strain.hourglass     = dealii::Utilities::MPI::sum(start_strain.hourglass, mesh.comm);
     start_hub_work             = hub ? hub->external_work() : 0.;
@@ -288,7 +289,7 @@ namespace tread
     Stopwatch watch;
     if (n_steps >= last_damping_step + steps_between_damping_samples)
       sample_damping();
-    solid.add_internal_forces(x_damped.data(), v.data(), force.data());
+    totals.plastic += solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history);
     mesh.condense_hanging_nodes(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
@@ -397,10 +398,10 @@ namespace tread
     if (parameters.damping_steps > 0. || solid.needs_velocity())
       {
         NodalField with(x.size(), Row{}), without(x.size(), Row{}), no_velocity;
-        solid.add_internal_forces(x_damped.data(), v.data(), with.data());
+        solid.add_internal_forces(x_damped.data(), v.data(), with.data(), history);
         if (solid.needs_velocity())
           no_velocity.assign(x.size(), Row{});
-        solid.add_internal_forces(x.data(), no_velocity.data(), without.data());
+        solid.add_internal_forces(x.data(), no_velocity.data(), without.data(), history);
         for (unsigned int i = 0; i < x.size(); ++i)
           power += dot(v[i], without[i] - with[i]);
       }
@@ -458,6 +459,7 @@ namespace tread
     sample_damping();
     EnergyLedger now           = totals;
     now.damping                = sum(totals.damping, mesh.comm);
+    now.plastic                = sum(totals.plastic, mesh.comm);
     now.external_work          = sum(totals.external_work, mesh.comm);
     now.gross_work             = sum(totals.gross_work, mesh.comm);
     const NodalField positions = positions_with_velocities();
@@ -470,7 +472,7 @@ namespace tread
         now.gross_work += hub->gross_work() - start_hub_gross;
       }
     now.kinetic               = kinetic_energy() - start_kinetic;
-    const StrainEnergy energy = solid.strain_energy(positions.data());
+    const StrainEnergy energy = solid.strain_energy(positions.data(), history);
     now.strain                = sum(energy.strain, mesh.comm) - start_strain.strain;
     now.hourglass             = sum(energy.hourglass, mesh.comm) - start_strain.hourglass;
     return now;

@@ -58,14 +58,19 @@ namespace tread
 
   Solid::Solid(const Mesh                         &mesh,
                const std::vector<ElasticMaterial> &materials,
-               const SolidParameters              &parameters)
+               const SolidParameters              &parameters,
+               const std::vector<PlasticZone>     &zones)
     : parameters(parameters)
+    , plastic_cells(mesh, materials, zones, parameters.hourglass_coefficient)
+    , virgin_history(plastic_cells.virgin_history())
     , materials(materials)
     , n_cells(mesh.cells.size())
   {
     const bool full = parameters.element_type == ElementType::fully_integrated;
     if (full && needs_velocity())
       throw std::invalid_argument("bulk viscosity is for one-point cells only");
+    if (!zones.empty() && (full || needs_velocity()))
+      throw std::invalid_argument("plastic zones are for one-point cells without bulk viscosity");
     frequencies.resize(n_cells);
     masses.resize(n_cells);
 
@@ -92,6 +97,8 @@ namespace tread
                 highest_frequency_bound(integrals, material, stiffness, full, parameters.density_scale);
               for (unsigned int a = 0; a < 8; ++a)
                 masses[c][a] = material.density * integrals.node_volume[a];
+              if (plastic_cells.contains(c))
+                continue;
 
               if (lane == n_lanes)
                 {
@@ -238,7 +245,7 @@ namespace tread
   }
 
 
-  void Solid::add_internal_forces(const Row *x, const Row *v, Row *force) const
+  void Solid::add_elastic_forces(const Row *x, const Row *v, Row *force) const
   {
     for (const BodyRange &range : ranges)
       if (parameters.element_type == ElementType::fully_integrated)
@@ -250,7 +257,7 @@ namespace tread
   }
 
 
-  StrainEnergy Solid::strain_energy(const Row *x) const
+  StrainEnergy Solid::strain_energy(const Row *x, const PlasticHistory &history) const
   {
     Lanes strain_sum{}, hourglass_sum{};
     for (const BodyRange &range : ranges)
@@ -288,7 +295,8 @@ namespace tread
                   }
             }
         }
-    StrainEnergy energy;
+    const auto [plastic_strain, plastic_hourglass] = plastic_cells.energies(x, history);
+    StrainEnergy energy{plastic_strain, plastic_hourglass};
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
         energy.strain += strain_sum[l];
@@ -298,7 +306,7 @@ namespace tread
   }
 
 
-  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row *x) const
+  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row *x, const PlasticHistory &history) const
   {
     std::vector<std::array<double, 6>> stress(n_cells);
     for (const BodyRange &range : ranges)
@@ -341,12 +349,14 @@ namespace tread
                   }
               }
         }
+    plastic_cells.cauchy_stress(x, history, stress);
     return stress;
   }
 
 
   std::size_t Solid::memory_consumption() const
   {
-    return batches.size() * sizeof(Batch) + point_batches.size() * sizeof(BatchOfPoints);
+    return batches.size() * sizeof(Batch) + point_batches.size() * sizeof(BatchOfPoints) +
+           plastic_cells.memory_consumption();
   }
 } // namespace tread

@@ -30,10 +30,11 @@ namespace tread
     double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far
+    double plastic = 0.;                              ///< work on plastic strain so far
 
     double residual() const
     {
-      return external_work - (kinetic + strain + hourglass + friction + contact + damping);
+      return external_work - (kinetic + strain + hourglass + friction + contact + damping + plastic);
     }
     double residual_share() const;
   };
@@ -61,7 +62,8 @@ namespace tread
     std::vector<unsigned int> support_nodes(const unsigned int body) const;
 
     /// Carry the support nodes of a body by a rigid hub. The centrifugal force of density that is
-    /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes the hub's.
+    /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes
+    /// the hub's.
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
 
     void attach_contact(Contact &contact);
@@ -80,7 +82,9 @@ namespace tread
 
     /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
     /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with
-    /// masses that give every cell the same frequency. Contact is frictionless here.
+    /// masses that give every cell the same frequency. Contact is frictionless here. Cells of plastic zones
+    /// yield in one step, from their history before to the equilibrium: what is passed on the way to it
+    /// leaves no trace.
     /// @param tolerance of the force balance, share of the largest force.
     /// @returns the number of iterations. @throws std::runtime_error if max_iterations do not do.
     unsigned int relax(const double                                     tolerance,
@@ -93,11 +97,13 @@ namespace tread
     /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
     void check_stability() const;
 
-    NodalField    x, v;           ///< positions, m, and velocities (half a step back), m/s
-    NodalField    external_force; ///< N, by node; empty if none
-    double        time = 0., time_step = 0.;
-    std::uint64_t n_steps = 0;
-    StepTimes     times;
+    NodalField x, v;           ///< positions, m, and velocities (half a step back), m/s
+    NodalField external_force; ///< N, by node; empty if none
+    /// Of the cells of plastic zones, at x + beta v of the last step.
+    PlasticHistory history;
+    double         time = 0., time_step = 0.;
+    std::uint64_t  n_steps = 0;
+    StepTimes      times;
 
     const std::vector<double> &inverse_masses() const
     {

@@ -1,0 +1,2 @@
+# Yielding: material point, cells, and structures with known answers.
+tread_add_test(NAME material_plastic SOURCE material_plastic.cc)
