@@ -20,7 +20,7 @@ namespace tread
 {
   namespace
   {
-    const std::string format_name = "tread checkpoint 1";
+    const std::string format_name = "tread checkpoint 2";
 
     /// A node of any rank under its name.
     struct StoredNode
@@ -138,6 +138,7 @@ namespace tread
     d.totals.damping              = dealii::Utilities::MPI::sum(kept.damping, comm);
     d.totals.external_work        = dealii::Utilities::MPI::sum(kept.external_work, comm);
     d.totals.gross_work           = dealii::Utilities::MPI::sum(kept.gross_work, comm);
+    d.totals.plastic              = dealii::Utilities::MPI::sum(kept.plastic, comm);
     d.last_damping_power          = dealii::Utilities::MPI::sum(kept_power, comm);
 
     std::vector<StoredNode> own;
@@ -145,7 +146,9 @@ namespace tread
       if (mesh.shared_nodes.is_owned(i))
         own.push_back(
           {mesh.node_key(i), {d.x[i][0], d.x[i][1], d.x[i][2]}, {d.v[i][0], d.v[i][1], d.v[i][2]}});
-    std::vector<std::vector<StoredNode>> nodes = dealii::Utilities::MPI::gather(comm, own, 0);
+    std::vector<std::vector<StoredNode>>        nodes = dealii::Utilities::MPI::gather(comm, own, 0);
+    const std::vector<std::vector<CellHistory>> cells =
+      dealii::Utilities::MPI::gather(comm, simulation.solid.plastic().stored(d.history), 0);
 
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -159,7 +162,7 @@ namespace tread
               std::string                     text = fingerprint(simulation);
               archive << format_name << text;
               state(archive, simulation);
-              archive << nodes;
+              archive << nodes << cells;
             }
           catch (const std::exception &)
             {
@@ -189,8 +192,9 @@ namespace tread
     if (!(last >> name))
       throw SceneError("--resume: no checkpoint in '" + folder.path("") + "'");
     next_slot = name.back() == '0' ? 1 : 0;
-    std::ifstream                        file(folder.path(name), std::ios::binary);
-    std::vector<std::vector<StoredNode>> nodes;
+    std::ifstream                         file(folder.path(name), std::ios::binary);
+    std::vector<std::vector<StoredNode>>  nodes;
+    std::vector<std::vector<CellHistory>> cells;
     try
       {
         boost::archive::binary_iarchive archive(file);
@@ -210,7 +214,7 @@ namespace tread
               new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
           }
         state(archive, simulation);
-        archive >> nodes;
+        archive >> nodes >> cells;
       }
     catch (const SceneError &error)
       {
@@ -224,7 +228,8 @@ namespace tread
       }
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
-      d.totals.damping = d.totals.external_work = d.totals.gross_work = d.last_damping_power = 0.;
+      d.totals.damping = d.totals.external_work = d.totals.gross_work = d.totals.plastic =
+        d.last_damping_power                                          = 0.;
 
     std::map<std::array<long long, 4>, const StoredNode *> by_key;
     for (const auto &list : nodes)
@@ -238,6 +243,11 @@ namespace tread
         d.x[i] = Row{entry->second->x[0], entry->second->x[1], entry->second->x[2], 0.};
         d.v[i] = Row{entry->second->v[0], entry->second->v[1], entry->second->v[2], 0.};
       }
+    std::size_t n_restored = 0;
+    for (const std::vector<CellHistory> &list : cells)
+      n_restored += simulation.solid.plastic().restore(list, d.history);
+    if (n_restored != simulation.solid.plastic().n_cells())
+      throw SceneError("--resume: '" + folder.path(name) + "' belongs to another mesh");
     d.set_inertia();
   }
 } // namespace tread

@@ -159,6 +159,40 @@ namespace tread
       return p;
     }
 
+    /// Cells under the contact path that may yield, on both bodies.
+    std::vector<PlasticZone> plastic_zones(const Scene &scene)
+    {
+      std::vector<PlasticZone> zones;
+      const double             rolled = 1e-3 * scene.rolled_mm, radius = 1e-3 * scene.radius_mm;
+      const double             patch = 1.4 * hertz(scene, scene.static_load()).semi_axis_x;
+      for (const bool wheel : {false, true})
+        {
+          const Scene::Material &material   = wheel ? scene.wheel_material : scene.rail_material;
+          const double           half_width = 1e-3 * material.plastic_half_width_mm;
+          // Distance along the path and below the surface; of the wheel along its tread, from the lowest
+          // point in the reference position.
+          const auto add = [&](const double begin, const double end, const double depth,
+                               const double yield_MPa, const double tangent_GPa) {
+            zones.push_back(
+              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa), [=](const dealii::Point<3> &p) {
+                 const double dx = p[0] + rolled, dz = p[2] - radius;
+                 const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
+                 const double below = wheel ? radius - std::hypot(dx, dz) : -p[2];
+                 return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
+               }});
+          };
+          const double depth = 1e-3 * material.plastic_depth_mm;
+          const double begin = -(wheel ? 0. : rolled) - patch - depth,
+                       end   = (wheel ? rolled : 0.) + patch + depth;
+          if (material.yield_stress_MPa > 0.)
+            add(begin, end, depth, material.yield_stress_MPa, material.tangent_modulus_GPa);
+          for (const Scene::Material::Zone &zone : material.zones())
+            add(1e-3 * zone.begin_mm, 1e-3 * zone.end_mm, 1e-3 * zone.depth_mm, zone.yield_stress_MPa,
+                zone.tangent_modulus_GPa);
+        }
+      return zones;
+    }
+
     WheelHubParameters hub_parameters(const Scene &scene)
     {
       WheelHubParameters p;
@@ -195,7 +229,10 @@ namespace tread
     : scene(scene)
     , comm(comm)
     , mesh(comm, make_bodies(scene))
-    , solid(mesh, {scene.rail_material.si(), scene.wheel_material.si()}, solid_parameters(scene))
+    , solid(mesh,
+            {scene.rail_material.si(), scene.wheel_material.si()},
+            solid_parameters(scene),
+            plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
@@ -343,6 +380,8 @@ namespace tread
     solution_patch = patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
     solution_taken = true;
     folder.write_patch("patch.csv", solution_patch);
+    if (scene.table_depth_mm > 0.)
+      folder.write_rail_tables(dynamics, rail_body, 1e-3 * scene.table_depth_mm);
     std::vector<Row> positions;
     contact.surfaces.replicate(dynamics.x.data(), positions);
     folder.write_surface(contact, rail_body, positions, dynamics.time, dynamics.time_step);
@@ -563,11 +602,13 @@ namespace tread
                                                       {"gross_work_J", energy.gross_work},
                                                       {"frictional_work_J", energy.friction},
                                                       {"damping_work_J", energy.damping},
+                                                      {"plastic_work_J", energy.plastic},
                                                       {"contact_loss_J", energy.contact},
                                                       {"energy_residual_J", energy.residual()}})
       summary.set(name, value);
     summary.set("contact_unconverged_steps", contact.n_unconverged_steps());
     summary.set("cells", mesh.n_global_cells);
+    summary.set("plastic_cells", dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm));
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
     summary.set("steps", dynamics.n_steps);
     summary.set("time_step_s", dynamics.time_step);

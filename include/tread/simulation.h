@@ -68,7 +68,7 @@ namespace tread
     std::vector<PatchNode> solution_patch;
     Row                    last_force_sum{}; ///< over the last 10 mm before the solution instant
     double                 last_force_low = 1e300, last_force_high = -1e300;
-    std::uint64_t          last_steps = 0;
+    std::uint64_t          last_steps         = 0;
     double                 relaxation_seconds = 0., relaxation_iterations = 0.;
 
     friend class Checkpoint;

@@ -21,7 +21,8 @@ namespace tread
              "creepage,"
              "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_"
              "energy_J,"
-             "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,energy_residual_J\n";
+             "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,plastic_work_J,energy_"
+             "residual_J\n";
     }
   } // namespace
 
@@ -58,7 +59,9 @@ namespace tread
       {
         const std::string       name = entry.path().filename();
         static const std::regex own(
-          "(summary\\.json|history\\.csv|patch\\.csv|patch_averaged\\.csv|reference_patch\\.csv|"
+          "(summary\\.json|history\\.csv|patch\\.csv|patch_averaged\\.csv|reference_patch\\.csv|rail_cells\\."
+          "csv|"
+          "rail_surface\\.csv|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
@@ -139,8 +142,8 @@ namespace tread
             << row.force[1] << ',' << (row.force[2] > 0. ? row.force[0] / row.force[2] : 0.) << ','
             << row.creepage << ',' << row.patch.area << ',' << row.patch.adhesion_share << ','
             << row.patch.max_pressure << ',' << e.external_work << ',' << e.kinetic << ',' << e.strain << ','
-            << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.residual()
-            << '\n'
+            << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.plastic
+            << ',' << e.residual() << '\n'
             << std::flush;
     if (!history)
       throw std::runtime_error("cannot write '" + path("history.csv") + "': is the disk full?");

@@ -45,6 +45,13 @@ namespace tread
 
     void write_patch(const std::string &name, const std::vector<PatchNode> &patch) const;
 
+    /// rail_cells.csv: reference position, stress and plastic strain of the cells of a body whose top is at
+    /// z = 0, down to the depth (m) and as wide as it is deep; rail_surface.csv: reference position and
+    /// displacement of the nodes of its contact surface. Collective.
+    void write_rail_tables(const ExplicitDynamics &dynamics,
+                           const unsigned int      body,
+                           const double            depth) const;
+
     /// Begin history.csv anew, or (when resuming) go on after the last row not later than time.
     void open_history(const bool resume, const double time);
     void append(const HistoryRow &row);
