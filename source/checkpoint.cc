@@ -103,6 +103,7 @@ namespace tread
     bytes(archive, s.next_surface);
     bytes(archive, s.next_volume);
     byte_vector(archive, s.solution_patch);
+    byte_vector(archive, s.passages);
     bytes(archive, s.last_force_sum);
     bytes(archive, s.last_force_low);
     bytes(archive, s.last_force_high);

@@ -363,6 +363,11 @@ namespace tread
       "Hold distance (mm)", hold_mm,
       "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",
       Double(0., 10000.));
+    prm.add_parameter(
+      "Passages", passages,
+      "Wheels that roll over the same rail, one after the other: the rail keeps its stress and strain, each "
+      "wheel comes new. Above 1 passages.csv has a row for each. Cost grows in proportion.",
+      Integer(1, 10000));
     prm.leave_subsection();
 
     prm.enter_subsection("Time stepping");

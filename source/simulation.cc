@@ -390,6 +390,68 @@ namespace tread
   }
 
 
+  void Simulation::end_passage(RunFolder &folder)
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::sum;
+    const double middle = -0.5e-3 * scene.rolled_mm, half_length = 5e-3, on_line = 1e-6;
+    double       settled = 0., shifted = 0., n_nodes = 0., strain = 0., residual = 0.;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (const dealii::Point<3> &p = mesh.nodes[i];
+          mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
+          std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
+        {
+          settled += p[2] - dynamics.x[i][2];
+          shifted += dynamics.x[i][0] - p[0];
+          n_nodes += 1.;
+        }
+    const std::vector<std::array<double, 6>> stress =
+      solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+    const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
+          std::abs(mesh.nodes[mesh.cells[c].nodes[0]][0] - middle) <= half_length)
+        {
+          strain   = std::max(strain, strains[c]);
+          residual = std::max(residual, von_mises(stress[c]));
+        }
+    n_nodes                   = std::max(1., sum(n_nodes, comm));
+    const EnergyLedger energy = dynamics.ledger();
+    const double       pressure =
+      measure(solution_taken ? solution_patch
+                             : patch_nodes(contact.active_nodes(), position(), dynamics.time_step))
+        .max_pressure;
+    passages.push_back({sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes, max(strain, comm),
+                        max(residual, comm), energy.plastic, energy.friction,
+                        last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0., pressure,
+                        energy.residual_share()});
+    folder.write_passages(passages);
+  }
+
+
+  void Simulation::next_wheel(Progress &progress)
+  {
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (mesh.node_bodies[i] == wheel_body)
+        dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    solid.plastic().forget(wheel_body, dynamics.history);
+    hub.motion = WheelHub::Motion();
+    hub.place(-1e-3 * scene.rolled_mm, 1e-3 * scene.radius_mm);
+    hub.motion.angular_velocity = scene.speed() / (1e-3 * scene.radius_mm);
+    contact.scale_impulses(0.);
+    torque_released = solution_taken = false;
+    next_history                     = -1e-3 * (scene.rolled_mm - scene.history_mm);
+    next_surface    = scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300;
+    next_volume     = scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300;
+    average         = PatchAverage();
+    last_force_sum  = Row{};
+    last_force_low  = 1e300;
+    last_force_high = -1e300;
+    last_steps      = 0;
+    prepare_start(progress);
+  }
+
+
   bool Simulation::run(const std::string &path, const bool resume)
   {
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
@@ -442,7 +504,8 @@ namespace tread
       folder.remove_results();
     folder.open_history(resume, dynamics.time);
 
-    const std::uint64_t n_steps = dynamics.n_steps + remaining_steps(), first_step = dynamics.n_steps;
+    std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
+    const std::uint64_t first_step = dynamics.n_steps;
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - first_step), 1e3 * (end_position - position())));
     const double           loop_began           = progress.seconds();
@@ -506,9 +569,28 @@ namespace tread
                                      spent / done * (n_steps - dynamics.n_steps)));
               }
           }
+        if (dynamics.n_steps == n_steps && passages.size() + 1 < scene.passages)
+          {
+            end_passage(folder);
+            progress.say(format("passage %u of %u: settlement %.2f um, largest plastic strain %.3f %%",
+                                unsigned(passages.size()), scene.passages, 1e6 * passages.back().settlement,
+                                100. * passages.back().plastic_strain));
+            try
+              {
+                next_wheel(progress);
+              }
+            catch (const Interruption &)
+              {
+                progress.say("INTERRUPTED between two passages: --resume goes on from the last checkpoint");
+                return false;
+              }
+            n_steps = dynamics.n_steps + remaining_steps();
+          }
       }
     if (stopped)
       checkpoint.write(*this);
+    else if (scene.passages > 1)
+      end_passage(folder);
     finish(folder, !stopped, progress.seconds());
     return !stopped;
   }
@@ -614,6 +696,7 @@ namespace tread
     summary.set("time_step_s", dynamics.time_step);
     summary.set("density_scale", scene.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
+    summary.set("passages", scene.passages);
     summary.set("rolled_m", position() + 1e-3 * scene.rolled_mm);
     const StepTimes &times = dynamics.times;
     summary.set("wall_s", max(wall_seconds, comm));

@@ -85,9 +85,10 @@ namespace tread
     double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500.,
            gravity = 9.81;
     // Motion
-    double      speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
-    std::string drive = "creepage", creepage = "predicted";
-    double      traction_coefficient = 0.3;
+    double       speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
+    std::string  drive = "creepage", creepage = "predicted";
+    double       traction_coefficient = 0.3;
+    unsigned int passages             = 1;
     // Time stepping
     double courant_number = 0.9;
     // Start

@@ -101,6 +101,24 @@ namespace tread
   }
 
 
+  void RunFolder::write_passages(const std::vector<Passage> &passages) const
+  {
+    std::ostringstream text;
+    text << "passage,settlement_um,shift_um,equivalent_plastic_strain_percent,residual_von_mises_MPa,"
+            "plastic_work_J,frictional_work_J,traction_coefficient,max_pressure_MPa,energy_residual_share\n"
+         << std::setprecision(9);
+    for (std::size_t i = 0; i < passages.size(); ++i)
+      {
+        const Passage &p = passages[i];
+        text << i + 1 << ',' << 1e6 * p.settlement << ',' << 1e6 * p.shift << ',' << 100. * p.plastic_strain
+             << ',' << 1e-6 * p.residual_stress << ',' << p.plastic_work << ',' << p.frictional_work << ','
+             << p.traction_coefficient << ',' << 1e-6 * p.max_pressure << ',' << p.energy_residual_share
+             << '\n';
+      }
+    write("passages.csv", text.str());
+  }
+
+
   void RunFolder::open_history(const bool resume, const double time)
   {
     if (resume)
