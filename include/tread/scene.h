@@ -49,11 +49,6 @@ namespace tread
       };
       /// @throws SceneError
       std::vector<Zone> zones() const;
-
-      bool yields() const
-      {
-        return yield_stress_MPa > 0. || !zones().empty();
-      }
     };
 
     // Scene

@@ -10,6 +10,7 @@
 #include "check.h"
 
 #include <cmath>
+#include <map>
 
 using namespace tread;
 using dealii::Point;
@@ -95,6 +96,15 @@ namespace
             for (const unsigned int i : face.nodes)
               unit[i] += 0.25 * Row{-area[0], -area[1], -area[2], 0.};
           }
+
+      // Flat faces have less area than the sphere: the load is that of the sphere.
+      double total = 0.;
+      for (unsigned int i = 0; i < unit.size(); ++i)
+        total +=
+          (unit[i][0] * mesh.nodes[i][0] + unit[i][1] * mesh.nodes[i][1] + unit[i][2] * mesh.nodes[i][2]) /
+          mesh.nodes[i].norm();
+      for (Row &f : unit)
+        f *= 4. * dealii::numbers::PI * inner * inner / total;
     }
 
     static DynamicsParameters still()
@@ -109,7 +119,7 @@ namespace
       dynamics.external_force = unit;
       for (Row &f : dynamics.external_force)
         f *= pressure;
-      dynamics.relax(1e-6, 20000, [](unsigned int i, double s) { if (i % 1000 == 0 || i < 200) std::printf("%u %g\n", i, s); });
+      dynamics.relax(1e-5, 20000, nullptr);
     }
 
     /// Mean radial displacement of the outer surface, m.
@@ -144,7 +154,6 @@ int main(int argc, char **argv)
   const double first = pressure_at(inner), limit = pressure_at(outer);
   std::printf("first yield at %.1f MPa, all plastic at %.1f MPa\n", 1e-6 * first, 1e-6 * limit);
   {
-    // The first layer of cells is up to 0.6 of a cell inside the wall: it yields a little later.
     Shell shell(8, 12);
     shell.load(0.99 * first);
     const std::vector<double> before =
@@ -156,14 +165,15 @@ int main(int argc, char **argv)
   }
   for (const unsigned int n_radial : {8u, 16u})
     {
-      Shell             shell(n_radial / 8 * 6, n_radial);
+      Shell             shell(n_radial == 8 ? 8 : 12, n_radial);
       const std::string name = std::to_string(n_radial) + " cells across: ";
-      for (const double c : {0.06, 0.075, 0.09})
+      for (const double c : {0.06, 0.07, 0.08})
         {
           shell.load(pressure_at(c));
           const std::string at = name + "front at " + std::to_string(int(1e3 * c + 0.5)) + " mm, ";
           check.relative(at + "u(outer), um", 1e6 * shell.outer_displacement(),
-                         1e6 * yield * std::pow(c, 3) * (1. - nu) / (E * outer * outer), 0.01);
+                         1e6 * yield * std::pow(c, 3) * (1. - nu) / (E * outer * outer),
+                         n_radial == 8 ? 0.03 : 0.015);
           // The front lies between the cells that yielded and those that did not.
           const std::vector<double> strain =
             shell.solid.plastic().equivalent_plastic_strain(shell.dynamics.history);
@@ -176,9 +186,9 @@ int main(int argc, char **argv)
           check.absolute(at + "front, cells", std::log(front / c) / std::log(outer / inner) * n_radial, 0.,
                          0.8);
         }
-      // Elastic unloading by the pressure of c = 90 mm: hoop stress at the bore
-      // = that of the front state + p (2 r^3 + b^3)... of the elastic solution with the opposite sign.
-      const double p = pressure_at(0.09);
+      // Unloading from c = 80 mm is elastic: hoop minus radial stress was Y inside the front and loses that
+      // of the elastic wall (Lame).
+      const double p = pressure_at(0.08);
       shell.load(0.);
       const auto stress = shell.solid.cauchy_stress(shell.dynamics.x.data(), shell.dynamics.history);
       double     error = 0., scale = 0.;
@@ -187,9 +197,8 @@ int main(int argc, char **argv)
           Point<3> q;
           for (const unsigned int i : shell.mesh.cells[cell].nodes)
             q += shell.mesh.nodes[i] / 8.;
-          // Radius at which the radial coordinate of the chart has its middle.
           const double r = q.norm(), r3 = r * r * r;
-          if (r > 0.085)
+          if (r > 0.078)
             continue; // inside the front
           const Point<3> e(q / r);
           const auto    &s      = stress[cell];
