@@ -201,6 +201,11 @@ with tempfile.TemporaryDirectory() as folder:
         ranks = run(program, "smooth-rolling.prm", path("ranks"), settings, 3)
         same("3 ranks against 1", ranks, whole, 1e-6)
         check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
+        levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=3"])
+        check.below("levels of time steps: energy residual, share of the work", levels["energy_residual_share"], 3e-3)
+        check.relative("levels of time steps: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 0.03)
+        for key in ("settlement_um", "residual_von_mises_MPa"):
+            check.relative(f"levels of time steps: {key}", float(rows("levels")[1][key]), float(second[key]), 5e-3)
 
         # Stopped while the second wheel rolls.
         arguments = [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", path("parts")]
