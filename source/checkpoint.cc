@@ -54,10 +54,10 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-2";
-        for (const std::size_t n :
-             {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
-              sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures)})
+        std::string text = "tread-checkpoint-3";
+        for (const std::size_t n : {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy),
+                                    sizeof(StepTimes), sizeof(WheelHub), sizeof(PatchNode),
+                                    sizeof(PatchMeasures), sizeof(CellHistory), sizeof(Passage)})
           text += "." + std::to_string(n);
         return text;
       }
@@ -132,6 +132,7 @@ namespace tread
     bytes(archive, s.next_surface);
     bytes(archive, s.next_volume);
     byte_vector(archive, s.solution_patch);
+    byte_vector(archive, s.passages);
     bytes(archive, s.last_force_sum);
     bytes(archive, s.last_force_low);
     bytes(archive, s.last_force_high);
@@ -168,6 +169,7 @@ namespace tread
     d.totals.damping              = dealii::Utilities::MPI::sum(kept.damping, comm);
     d.totals.external_work        = dealii::Utilities::MPI::sum(kept.external_work, comm);
     d.totals.gross_work           = dealii::Utilities::MPI::sum(kept.gross_work, comm);
+    d.totals.plastic              = dealii::Utilities::MPI::sum(kept.plastic, comm);
     d.last_damping_power          = dealii::Utilities::MPI::sum(kept_power, comm);
     for (double StepTimes::*time : {&StepTimes::internal_forces, &StepTimes::contact, &StepTimes::search,
                                     &StepTimes::communication, &StepTimes::nodes})
@@ -183,6 +185,10 @@ namespace tread
           nodes.append(reinterpret_cast<const char *>(&node), sizeof node);
         }
     nodes = folder.gather(nodes);
+    std::string cells;
+    for (const CellHistory &cell : simulation.solid.plastic().stored(d.history))
+      cells.append(reinterpret_cast<const char *>(&cell), sizeof cell);
+    cells = folder.gather(cells);
 
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -194,7 +200,7 @@ namespace tread
             std::string                     text = fingerprint(simulation);
             archive << text;
             state(archive, simulation);
-            archive << nodes;
+            archive << nodes << cells;
           }
           const Header       header(content.str());
           std::ostringstream file;
@@ -266,11 +272,12 @@ namespace tread
                          new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
       }
     state(archive, simulation);
-    std::string nodes;
-    archive >> nodes;
+    std::string nodes, cells;
+    archive >> nodes >> cells;
 
     if (!reads)
-      d.totals.damping = d.totals.external_work = d.totals.gross_work = d.last_damping_power = 0.;
+      d.totals.damping = d.totals.external_work = d.totals.gross_work = d.totals.plastic =
+        d.last_damping_power                                          = 0.;
 
     std::map<std::array<long long, 4>, StoredNode> by_key;
     for (std::size_t i = 0; i < nodes.size(); i += sizeof(StoredNode))
@@ -288,6 +295,11 @@ namespace tread
         }
       else
         missing = true;
+    std::vector<CellHistory> histories(cells.size() / sizeof(CellHistory));
+    if (!histories.empty())
+      std::memcpy(histories.data(), cells.data(), histories.size() * sizeof(CellHistory));
+    const PlasticCells &plastic = simulation.solid.plastic();
+    missing                     = plastic.restore(histories, d.history) != plastic.n_cells() || missing;
     if (dealii::Utilities::MPI::logical_or(missing, comm))
       throw SceneError("--resume: '" + path + "' belongs to another mesh");
     d.set_inertia();

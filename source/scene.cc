@@ -34,6 +34,13 @@ namespace tread
       return line;
     }
 
+    std::string number(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
+    }
+
     std::size_t edit_distance(const std::string &a, const std::string &b)
     {
       std::vector<std::size_t> row(b.size() + 1);
@@ -123,6 +130,56 @@ namespace tread
   }
 
 
+  PlasticMaterial Scene::Material::plastic(const double yield_MPa, const double tangent_GPa) const
+  {
+    PlasticMaterial material;
+    material.yield_stress = 1e6 * yield_MPa;
+    if (yield_MPa == 0.)
+      return material;
+    if (hardening == "Armstrong-Frederick")
+      {
+        const auto numbers = [](const std::string &list) {
+          return dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(list));
+        };
+        const std::vector<double> moduli     = numbers(backstress_moduli_GPa),
+                                  recoveries = numbers(backstress_recoveries);
+        for (std::size_t i = 0; i < moduli.size(); ++i)
+          material.backstresses.push_back({1e9 * moduli[i], recoveries[i]});
+        return material;
+      }
+    const double modulus = hardening_modulus(1e9 * young_modulus_GPa, 1e9 * tangent_GPa);
+    if (hardening == "isotropic")
+      material.isotropic_modulus = modulus;
+    else
+      material.backstresses = {{modulus, 0.}};
+    return material;
+  }
+
+
+  std::vector<Scene::Material::Zone> Scene::Material::zones() const
+  {
+    std::vector<Zone> list;
+    for (const std::string &text : dealii::Utilities::split_string_list(plastic_zones))
+      {
+        const std::vector<std::string> parts = dealii::Utilities::split_string_list(text, ':');
+        std::vector<double>            values;
+        try
+          {
+            values = dealii::Utilities::string_to_double(parts);
+          }
+        catch (const dealii::ExceptionBase &)
+          {
+            values.clear();
+          }
+        if (values.size() != 5)
+          throw SceneError("'Plastic zones' cannot be '" + text +
+                           "'; allowed: begin:end:depth:yield stress:tangent modulus, in mm, MPa and GPa");
+        list.push_back({values[0], values[1], values[2], values[3], values[4]});
+      }
+    return list;
+  }
+
+
   void Scene::declare()
   {
     dealii::ParameterHandler &prm = handler;
@@ -142,6 +199,39 @@ namespace tread
       prm.add_parameter("Poisson's ratio", material.poisson_ratio, "From 0 to 0.49.", Double(0., 0.49));
       prm.add_parameter("Density (kg per m3)", material.density, "Above 0. Inertia of the cells.",
                         Double(1., 1e5));
+      prm.add_parameter("Yield stress (MPa)", material.yield_stress_MPa,
+                        "Of von Mises, at first yield. 0: elastic. The static load may well be above yield.",
+                        Double(0.));
+      prm.add_parameter("Tangent modulus (GPa)", material.tangent_modulus_GPa,
+                        "Slope of the uniaxial stress over strain beyond yield, for isotropic and kinematic "
+                        "hardening. From 0 "
+                        "to below Young's modulus.",
+                        Double(0.));
+      prm.add_parameter(
+        "Hardening", material.hardening,
+        "isotropic: the yield surface grows; it shakes down. kinematic: it moves, in a straight line. "
+        "Armstrong-Frederick: it moves and saturates, by one to three backstresses; it ratchets.",
+        Selection("isotropic|kinematic|Armstrong-Frederick"));
+      prm.add_parameter("Backstress moduli (GPa)", material.backstress_moduli_GPa,
+                        "Of Armstrong-Frederick hardening: C of each backstress, separated by commas; "
+                        "da = 2/3 C de - gamma a dp.",
+                        dealii::Patterns::List(Double(0.), 1, PlasticMaterial::max_backstresses));
+      prm.add_parameter("Backstress recoveries", material.backstress_recoveries,
+                        "Of the same: gamma of each backstress, no unit; it saturates at C/gamma.",
+                        dealii::Patterns::List(Double(0.), 1, PlasticMaterial::max_backstresses));
+      prm.add_parameter("Plastic depth (mm)", material.plastic_depth_mm,
+                        "Cells under the contact path yield down to here; those below stay elastic and cost "
+                        "less. A patch length is enough.",
+                        Double(tiny));
+      prm.add_parameter("Plastic half width (mm)", material.plastic_half_width_mm,
+                        "Cells yield from the middle to here, at both sides.", Double(tiny));
+      prm.add_parameter(
+        "Plastic zones", material.plastic_zones,
+        "Parts with another yield stress, such as a weld or a hardened layer: begin and end along the path "
+        "(mm; of the wheel along the tread, from where it touches at the start), depth (mm), yield stress "
+        "(MPa), tangent modulus (GPa), separated by colons, as in -30:-20:8:400:21. Several: separated by "
+        "commas; where they overlap the last counts.",
+        dealii::Patterns::Anything());
     };
 
     prm.enter_subsection("Wheel");
@@ -287,6 +377,11 @@ namespace tread
       "Hold distance (mm)", hold_mm,
       "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",
       Double(0., 10000.));
+    prm.add_parameter(
+      "Passages", passages,
+      "Wheels that roll over the same rail, one after the other: the rail keeps its stress and strain, each "
+      "wheel comes new. Above 1 passages.csv has a row for each. Cost grows in proportion.",
+      Integer(1, 10000));
     prm.leave_subsection();
 
     prm.enter_subsection("Time stepping");
@@ -318,6 +413,11 @@ namespace tread
     prm.add_parameter("Volume interval (mm)", volume_mm,
                       "Rolled distance between pictures of the bodies; 0: the solution instant only.",
                       Double(0.));
+    prm.add_parameter(
+      "Table depth (mm)", table_depth_mm,
+      "At the solution instant rail_cells.csv lists stress and plastic strain of the rail's cells under the "
+      "contact path down to this depth, and rail_surface.csv the displacement of its surface. 0: neither.",
+      Double(0.));
     prm.add_parameter("Write volume", write_volume, "Whether pictures of the bodies are written at all.");
     prm.add_parameter("Checkpoint interval (minutes)", checkpoint_minutes,
                       "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.",
@@ -386,11 +486,6 @@ namespace tread
     const auto require = [](const bool holds, const std::string &line) {
       if (!holds)
         throw SceneError(line);
-    };
-    const auto number = [](const double value) {
-      std::ostringstream text;
-      text << value;
-      return text.str();
     };
     require(mass_damping == 0. || quasi_static,
             "'Solid/Mass damping (1 per s)' must be 0 when 'Scene/Quasi-static' is false: it slows waves "
@@ -494,6 +589,60 @@ namespace tread
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' fully-integrated");
+    check_plasticity("Wheel", wheel_material,
+                     wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm,
+                     0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm), -sector_margin_mm,
+                     rolled_mm + sector_margin_mm);
+    check_plasticity("Rail", rail_material,
+                     rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
+                     rail_half_width_mm, -rolled_mm - rail_margin_mm, rail_margin_mm);
+  }
+
+
+  void Scene::check_plasticity(const std::string &section,
+                               const Material    &material,
+                               const double       thickness_mm,
+                               const double       half_width_mm,
+                               const double       begin_mm,
+                               const double       end_mm) const
+  {
+    const auto require = [&](const bool holds, const std::string &name, const std::string &rest) {
+      if (!holds)
+        throw SceneError("'" + section + "/" + name + "' " + rest);
+    };
+    if (material.plastic_zones.empty() && material.yield_stress_MPa == 0.)
+      return;
+    const bool bilinear = material.hardening != "Armstrong-Frederick";
+    const auto below    = [&](const double tangent_GPa) {
+      return !bilinear || (tangent_GPa >= 0. && tangent_GPa < material.young_modulus_GPa);
+    };
+    require(element == "one-point" && linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.,
+            "Yield stress (MPa)", "needs 'Solid/Element' one-point and no bulk viscosity");
+    require(below(material.tangent_modulus_GPa), "Tangent modulus (GPa)",
+            number(material.tangent_modulus_GPa) + " must be below Young's modulus, " +
+              number(material.young_modulus_GPa));
+    require(bilinear || dealii::Utilities::split_string_list(material.backstress_moduli_GPa).size() ==
+                          dealii::Utilities::split_string_list(material.backstress_recoveries).size(),
+            "Backstress moduli (GPa)", "has not as many entries as '" + section + "/Backstress recoveries'");
+    require(material.plastic_depth_mm <= thickness_mm, "Plastic depth (mm)",
+            number(material.plastic_depth_mm) + " leaves the mesh; at most " + number(thickness_mm));
+    require(material.plastic_half_width_mm <= half_width_mm, "Plastic half width (mm)",
+            number(material.plastic_half_width_mm) + " leaves the mesh; at most " + number(half_width_mm));
+    for (const Material::Zone &zone : material.zones())
+      {
+        const std::string name = "Plastic zones";
+        require(begin_mm <= zone.begin_mm && zone.begin_mm < zone.end_mm && zone.end_mm <= end_mm, name,
+                "from " + number(zone.begin_mm) + " to " + number(zone.end_mm) +
+                  " mm leaves the mesh, which is from " + number(begin_mm) + " to " + number(end_mm) + " mm");
+        require(zone.depth_mm > 0. && zone.depth_mm <= thickness_mm, name,
+                "of depth " + number(zone.depth_mm) + " mm leaves the mesh; above 0 and at most " +
+                  number(thickness_mm));
+        require(zone.yield_stress_MPa > 0., name,
+                "with yield stress " + number(zone.yield_stress_MPa) + " MPa: must be above 0");
+        require(below(zone.tangent_modulus_GPa), name,
+                "with tangent modulus " + number(zone.tangent_modulus_GPa) +
+                  " GPa: must be below Young's modulus, " + number(material.young_modulus_GPa));
+      }
   }
 
 

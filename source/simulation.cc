@@ -120,6 +120,40 @@ namespace tread
       return p;
     }
 
+    /// Cells under the contact path that may yield, on both bodies.
+    std::vector<PlasticZone> plastic_zones(const Scene &scene)
+    {
+      std::vector<PlasticZone> zones;
+      const double             rolled = 1e-3 * scene.rolled_mm, radius = 1e-3 * scene.radius_mm;
+      const double             patch = 1.4 * hertz(scene, scene.static_load()).semi_axis_x;
+      for (const bool wheel : {false, true})
+        {
+          const Scene::Material &material   = wheel ? scene.wheel_material : scene.rail_material;
+          const double           half_width = 1e-3 * material.plastic_half_width_mm;
+          // Distance along the path and below the surface; of the wheel along its tread, from the lowest
+          // point in the reference position.
+          const auto add = [&](const double begin, const double end, const double depth,
+                               const double yield_MPa, const double tangent_GPa) {
+            zones.push_back(
+              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa), [=](const dealii::Point<3> &p) {
+                 const double dx = p[0] + rolled, dz = p[2] - radius;
+                 const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
+                 const double below = wheel ? radius - std::hypot(dx, dz) : -p[2];
+                 return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
+               }});
+          };
+          const double depth = 1e-3 * material.plastic_depth_mm;
+          const double begin = -(wheel ? 0. : rolled) - patch - depth,
+                       end   = (wheel ? rolled : 0.) + patch + depth;
+          if (material.yield_stress_MPa > 0.)
+            add(begin, end, depth, material.yield_stress_MPa, material.tangent_modulus_GPa);
+          for (const Scene::Material::Zone &zone : material.zones())
+            add(1e-3 * zone.begin_mm, 1e-3 * zone.end_mm, 1e-3 * zone.depth_mm, zone.yield_stress_MPa,
+                zone.tangent_modulus_GPa);
+        }
+      return zones;
+    }
+
     WheelHubParameters hub_parameters(const Scene &scene)
     {
       WheelHubParameters p;
@@ -137,7 +171,6 @@ namespace tread
       DynamicsParameters p;
       p.courant_number = scene.courant_number;
       p.damping_steps  = scene.damping_steps;
-      p.mass_damping   = scene.mass_damping;
       p.mass_damping   = scene.mass_damping;
       p.density_scale  = scene.density_scale;
       p.gravity        = scene.gravity;
@@ -158,7 +191,10 @@ namespace tread
     : scene(scene)
     , comm(comm)
     , mesh(comm, make_bodies(scene), scene.time_levels - 1)
-    , solid(mesh, {scene.rail_material.si(), scene.wheel_material.si()}, solid_parameters(scene))
+    , solid(mesh,
+            {scene.rail_material.si(), scene.wheel_material.si()},
+            solid_parameters(scene),
+            plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
@@ -317,9 +353,73 @@ namespace tread
     solution_patch = patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
     solution_taken = true;
     folder.write_patch("patch.csv", solution_patch);
+    if (scene.table_depth_mm > 0.)
+      folder.write_rail_tables(dynamics, rail_body, 1e-3 * scene.table_depth_mm);
     folder.write_surface(dynamics, contact, rail_body);
     if (scene.write_volume)
       folder.write_volume(dynamics, hub, wheel_body);
+  }
+
+
+  void Simulation::end_passage(RunFolder &folder)
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::sum;
+    const double middle = -0.5e-3 * scene.rolled_mm, half_length = 5e-3, on_line = 1e-6;
+    double       settled = 0., shifted = 0., n_nodes = 0., strain = 0., residual = 0.;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (const dealii::Point<3> &p = mesh.nodes[i];
+          mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
+          std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
+        {
+          settled += p[2] - dynamics.x[i][2];
+          shifted += dynamics.x[i][0] - p[0];
+          n_nodes += 1.;
+        }
+    const std::vector<std::array<double, 6>> stress =
+      solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+    const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
+          std::abs(mesh.nodes[mesh.cells[c].nodes[0]][0] - middle) <= half_length)
+        {
+          strain   = std::max(strain, strains[c]);
+          residual = std::max(residual, von_mises(stress[c]));
+        }
+    n_nodes                   = std::max(1., sum(n_nodes, comm));
+    const EnergyLedger energy = dynamics.ledger();
+    const double       pressure =
+      measure(solution_taken ? solution_patch
+                             : patch_nodes(contact.active_nodes(), position(), dynamics.time_step))
+        .max_pressure;
+    passages.push_back({sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes, max(strain, comm),
+                        max(residual, comm), energy.plastic, energy.friction,
+                        last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0., pressure,
+                        energy.residual_share()});
+    folder.write_passages(passages);
+  }
+
+
+  void Simulation::next_wheel(Progress &progress)
+  {
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (mesh.node_bodies[i] == wheel_body)
+        dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    solid.plastic().forget(wheel_body, dynamics.history);
+    hub.motion = WheelHub::Motion();
+    hub.place(-1e-3 * scene.rolled_mm, 1e-3 * scene.radius_mm);
+    hub.motion.angular_velocity = scene.speed() / (1e-3 * scene.radius_mm);
+    contact.scale_impulses(0.);
+    torque_released = solution_taken = false;
+    next_history                     = -1e-3 * (scene.rolled_mm - scene.history_mm);
+    next_surface    = scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300;
+    next_volume     = scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300;
+    average         = PatchAverage();
+    last_force_sum  = Row{};
+    last_force_low  = 1e300;
+    last_force_high = -1e300;
+    last_steps      = 0;
+    prepare_start(progress);
   }
 
 
@@ -385,7 +485,8 @@ namespace tread
       }
     folder.open_history(resume, dynamics.time);
 
-    const std::uint64_t n_steps = dynamics.n_steps + remaining_steps(), first_step = dynamics.n_steps;
+    std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
+    const std::uint64_t first_step = dynamics.n_steps;
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - first_step), 1e3 * (end_position - position())));
     const double loop_began   = progress.seconds();
@@ -418,6 +519,27 @@ namespace tread
           {
             folder.write_volume(dynamics, hub, wheel_body);
             next_volume += 1e-3 * scene.volume_mm;
+          }
+
+        // Before any checkpoint, so that none is made of a wheel at its end.
+        if (dynamics.n_steps == n_steps && passages.size() + 1 < scene.passages)
+          {
+            if (interval_steps > 0)
+              end_interval(folder);
+            end_passage(folder);
+            progress.say(format("passage %u of %u: settlement %.2f um, largest plastic strain %.3f %%",
+                                unsigned(passages.size()), scene.passages, 1e6 * passages.back().settlement,
+                                100. * passages.back().plastic_strain));
+            try
+              {
+                next_wheel(progress);
+              }
+            catch (const Interruption &)
+              {
+                progress.say("INTERRUPTED between two passages: --resume goes on from the last checkpoint");
+                return false;
+              }
+            n_steps = dynamics.n_steps + remaining_steps();
           }
 
         if (dynamics.n_steps >= next_signal)
@@ -469,8 +591,13 @@ namespace tread
         {
           no_checkpoint = std::current_exception(); // what was computed is kept all the same
         }
-    else if (interval_steps > 0)
-      end_interval(folder);
+    else
+      {
+        if (interval_steps > 0)
+          end_interval(folder);
+        if (scene.passages > 1)
+          end_passage(folder);
+      }
     finish(folder, !stopped);
     if (no_checkpoint)
       std::rethrow_exception(no_checkpoint);
@@ -526,16 +653,19 @@ namespace tread
                                                       {"gross_work_J", energy.gross_work},
                                                       {"frictional_work_J", energy.friction},
                                                       {"damping_work_J", energy.damping},
+                                                      {"plastic_work_J", energy.plastic},
                                                       {"contact_loss_J", energy.contact},
                                                       {"energy_residual_J", energy.residual()}})
       summary.set(name, value);
     summary.set("contact_unconverged_steps", contact.n_unconverged_steps());
     summary.set("cells", mesh.n_global_cells);
+    summary.set("plastic_cells", dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm));
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
     summary.set("steps", dynamics.n_steps);
     summary.set("time_step_s", dynamics.time_step);
     summary.set("density_scale", scene.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
+    summary.set("passages", scene.passages);
     const double rolled = position() + 1e-3 * scene.rolled_mm;
     const double patch_lengths =
       (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * hertz(scene, normal).semi_axis_x);

@@ -4,6 +4,7 @@
 
 #include <tread/geometry/rail_profile.h>
 #include <tread/material/elastic.h>
+#include <tread/material/plastic.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -29,12 +30,27 @@ namespace tread
 
     struct Material
     {
-      double young_modulus_GPa = 210., poisson_ratio = 0.3, density = 7800.;
+      double      young_modulus_GPa = 210., poisson_ratio = 0.3, density = 7800.;
+      double      yield_stress_MPa = 0., tangent_modulus_GPa = 21.;
+      std::string hardening = "isotropic", backstress_moduli_GPa = "60", backstress_recoveries = "300";
+      double      plastic_depth_mm = 8., plastic_half_width_mm = 10.;
+      std::string plastic_zones;
 
       ElasticMaterial si() const
       {
         return {young_modulus_GPa * 1e9, poisson_ratio, density};
       }
+
+      /// SI, with a yield stress and a tangent modulus of its own.
+      PlasticMaterial plastic(const double yield_MPa, const double tangent_GPa) const;
+
+      /// A part of the plastic zone that differs from the rest.
+      struct Zone
+      {
+        double begin_mm, end_mm, depth_mm, yield_stress_MPa, tangent_modulus_GPa;
+      };
+      /// @throws SceneError
+      std::vector<Zone> zones() const;
     };
 
     // Scene
@@ -66,9 +82,10 @@ namespace tread
     double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500.,
            gravity = 9.81;
     // Motion
-    double      speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
-    std::string drive = "creepage", creepage = "predicted";
-    double      traction_coefficient = 0.3;
+    double       speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
+    std::string  drive = "creepage", creepage = "predicted";
+    double       traction_coefficient = 0.3;
+    unsigned int passages             = 1;
     // Time stepping
     double       courant_number = 0.9;
     unsigned int time_levels    = 1;
@@ -76,9 +93,9 @@ namespace tread
     double       start_tolerance  = 1e-5;
     unsigned int start_iterations = 20000;
     // Output
-    std::string output     = "results";
-    double      history_mm = 0.25, surface_mm = 0., volume_mm = 0., checkpoint_minutes = 10.;
-    bool        write_volume = true;
+    std::string output = "results";
+    double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., checkpoint_minutes = 10.;
+    bool   write_volume = true;
 
     /// Read a parameter file (none: all defaults), then "Section/Name=value" settings in their order, and
     /// check that they make sense together. @throws SceneError
@@ -109,6 +126,14 @@ namespace tread
     void declare();
     void set(const std::string &setting);
     void check() const;
+    /// @param thickness_mm and the rest: how far the mesh of the body reaches from its surface, its middle
+    /// and along the path. @throws SceneError
+    void check_plasticity(const std::string &section,
+                          const Material    &material,
+                          const double       thickness_mm,
+                          const double       half_width_mm,
+                          const double       begin_mm,
+                          const double       end_mm) const;
 
     mutable dealii::ParameterHandler handler;
   };

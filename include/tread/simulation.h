@@ -37,6 +37,8 @@ namespace tread
     void   add_to_interval();
     void   end_interval(RunFolder &folder);
     void   take_solution(RunFolder &folder);
+    void   end_passage(RunFolder &folder);
+    void   next_wheel(Progress &progress);
     void   finish(RunFolder &folder, const bool completed);
     bool   interrupted() const;
     double position() const
@@ -69,7 +71,8 @@ namespace tread
     std::vector<PatchNode> solution_patch;
     Row                    last_force_sum{}; ///< over the last 10 mm before the solution instant
     double                 last_force_low = 1e300, last_force_high = -1e300;
-    std::uint64_t          last_steps         = 0;
+    std::uint64_t          last_steps = 0;
+    std::vector<Passage>   passages;
     double                 relaxation_seconds = 0., relaxation_iterations = 0.;
     double                 wall_seconds = 0.; ///< those before resuming included
 

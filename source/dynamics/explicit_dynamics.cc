@@ -47,6 +47,7 @@ namespace tread
                                      const DynamicsParameters &parameters)
     : x(mesh.nodes.size())
     , v(mesh.nodes.size(), Row{})
+    , history(solid.virgin())
     , mesh(mesh)
     , solid(solid)
     , parameters(parameters)
@@ -287,7 +288,7 @@ namespace tread
             moved[i] = reference[i] + mode[i];
             f[i]     = Row{};
           }
-        solid.add_internal_forces(moved.data(), at_rest.data(), f.data(), {first_level});
+        solid.add_internal_forces(moved.data(), at_rest.data(), f.data(), Levels{first_level});
         mesh.condense_hanging_nodes(f.data());
         mesh.shared_nodes.sum(f.data());
         double stiffness = 0.;
@@ -379,7 +380,8 @@ namespace tread
 
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
-    solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {0, 0, true});
+    totals.plastic +=
+      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true});
     mesh.condense_hanging_nodes(force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
@@ -388,7 +390,7 @@ namespace tread
           {
             for (SlowShare &share : slow_shares[level])
               share.before = force[share.node];
-            solid.add_internal_forces(x_damped.data(), v.data(), force.data(), {level, level, true});
+            solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
             mesh.condense_hanging_nodes(force.data());
             for (SlowShare &share : slow_shares[level])
               {
@@ -561,10 +563,10 @@ namespace tread
     if (parameters.damping_steps > 0. || solid.needs_velocity())
       {
         NodalField with(x.size(), Row{}), without(x.size(), Row{}), no_velocity;
-        solid.add_internal_forces(x_damped.data(), v.data(), with.data());
+        solid.add_internal_forces(x_damped.data(), v.data(), with.data(), history);
         if (solid.needs_velocity())
           no_velocity.assign(x.size(), Row{});
-        solid.add_internal_forces(x.data(), no_velocity.data(), without.data());
+        solid.add_internal_forces(x.data(), no_velocity.data(), without.data(), history);
         for (unsigned int i = 0; i < x.size(); ++i)
           power += dot(v[i], without[i] - with[i]);
       }
@@ -579,7 +581,7 @@ namespace tread
     // The product of the velocities half a step before and after now: central differences keep its sum with
     // the strain energy. What is not the cells' adds as much to the work.
     NodalField cell_force(x.size(), Row{});
-    solid.add_internal_forces(x.data(), v.data(), cell_force.data());
+    solid.add_internal_forces(x.data(), v.data(), cell_force.data(), history);
     mesh.condense_hanging_nodes(cell_force.data());
     double energy = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -595,7 +597,7 @@ namespace tread
 
   StrainEnergy ExplicitDynamics::strain_energy() const
   {
-    StrainEnergy energy = solid.strain_energy(x.data());
+    StrainEnergy energy = solid.strain_energy(x.data(), history);
     energy.strain       = dealii::Utilities::MPI::sum(energy.strain, mesh.comm);
     energy.hourglass    = dealii::Utilities::MPI::sum(energy.hourglass, mesh.comm);
     return energy;
@@ -631,6 +633,7 @@ namespace tread
     sample_damping();
     EnergyLedger now  = totals;
     now.damping       = sum(totals.damping, mesh.comm);
+    now.plastic       = sum(totals.plastic, mesh.comm);
     now.external_work = sum(totals.external_work, mesh.comm);
     now.gross_work    = sum(totals.gross_work, mesh.comm);
     const double fall = start_potential - body_potential();

@@ -67,7 +67,7 @@ namespace tread
     for (; iteration <= max_iterations; ++iteration)
       {
         std::fill(force.begin(), force.end(), Row{});
-        solid.add_internal_forces(x.data(), at_rest.data(), force.data());
+        solid.add_internal_forces(x.data(), at_rest.data(), force.data(), history);
         mesh.condense_hanging_nodes(force.data());
         mesh.shared_nodes.sum(force.data());
 
@@ -152,6 +152,7 @@ namespace tread
       throw std::runtime_error(
         "no equilibrium at the start within " + std::to_string(max_iterations) +
         " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
+    solid.update_internal_forces(x.data(), at_rest.data(), force.data(), history);
     std::fill(force.begin(), force.end(), Row{});
     std::fill(v.begin(), v.end(), Row{});
     if (hub)

@@ -28,7 +28,8 @@ namespace tread
              "creepage,"
              "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_"
              "energy_J,"
-             "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,energy_residual_J\n";
+             "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,plastic_work_J,energy_"
+             "residual_J\n";
     }
   } // namespace
 
@@ -105,7 +106,8 @@ namespace tread
       {
         const std::string       name = entry.path().filename();
         static const std::regex own(
-          "(summary\\.json|history\\.csv|(patch|patch_averaged|reference_patch|subsurface)\\.csv|"
+          "(summary\\.json|history\\.csv|(patch|patch_averaged|reference_patch|subsurface|rail_cells|"
+          "rail_surface|passages)\\.csv|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
@@ -173,6 +175,24 @@ namespace tread
   }
 
 
+  void RunFolder::write_passages(const std::vector<Passage> &passages) const
+  {
+    std::ostringstream text;
+    text << "passage,settlement_um,shift_um,equivalent_plastic_strain_percent,residual_von_mises_MPa,"
+            "plastic_work_J,frictional_work_J,traction_coefficient,max_pressure_MPa,energy_residual_share\n"
+         << std::setprecision(9);
+    for (std::size_t i = 0; i < passages.size(); ++i)
+      {
+        const Passage &p = passages[i];
+        text << i + 1 << ',' << 1e6 * p.settlement << ',' << 1e6 * p.shift << ',' << 100. * p.plastic_strain
+             << ',' << 1e-6 * p.residual_stress << ',' << p.plastic_work << ',' << p.frictional_work << ','
+             << p.traction_coefficient << ',' << 1e-6 * p.max_pressure << ',' << p.energy_residual_share
+             << '\n';
+      }
+    write("passages.csv", text.str());
+  }
+
+
   void RunFolder::open_history(const bool resume, const double time)
   {
     if (!writes_tables)
@@ -213,8 +233,8 @@ namespace tread
             << row.force[1] << ',' << (row.force[2] > 0. ? row.force[0] / row.force[2] : 0.) << ','
             << row.creepage << ',' << row.patch.area << ',' << row.patch.adhesion_share << ','
             << row.patch.max_pressure << ',' << e.external_work << ',' << e.kinetic << ',' << e.strain << ','
-            << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.residual()
-            << '\n'
+            << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.plastic
+            << ',' << e.residual() << '\n'
             << std::flush;
     if (!history)
       throw std::runtime_error("cannot write '" + path("history.csv") + "': is the disk full?");

@@ -56,12 +56,6 @@ namespace tread
         patch.data(first + d, vertex) = value[d];
     }
 
-    double von_mises(const std::array<double, 6> &s)
-    {
-      const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-      return std::sqrt(0.5 * (a * a + b * b + c * c) + 3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-    }
-
     struct SurfaceValues
     {
       double pressure = 0., state = 0.; // MPa; 0 apart, 1 adhesion, 2 slip
@@ -138,8 +132,17 @@ namespace tread
     output.add_vector("velocity_m_per_s");
     for (const char *name : {"von_mises_MPa", "mean_stress_MPa", "body"})
       output.names.emplace_back(name);
-    const std::vector<std::array<double, 6>> stress = dynamics.solid.cauchy_stress(dynamics.x.data());
-    const Row                                axle_at_start{hub.start_x(), 0., hub.start_z(), 0.};
+    const std::vector<std::array<double, 6>> stress =
+      dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+    // What remains of the stress behind the wheel is the residual stress.
+    const bool plastic = !dynamics.history.values.empty();
+    const bool yields  = dealii::Utilities::MPI::logical_or(plastic, comm); // the same data on all ranks
+    const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+    if (yields)
+      for (const char *name : {"equivalent_plastic_strain_percent", "stress_xx_MPa", "stress_yy_MPa",
+                               "stress_zz_MPa", "stress_xy_MPa", "stress_yz_MPa", "stress_zx_MPa"})
+        output.names.emplace_back(name);
+    const Row axle_at_start{hub.start_x(), 0., hub.start_z(), 0.};
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         ArrayOutput<3>::Patch patch;
@@ -160,6 +163,12 @@ namespace tread
             patch.data(6, v) = 1e-6 * von_mises(stress[c]);
             patch.data(7, v) = 1e-6 / 3. * (stress[c][0] + stress[c][1] + stress[c][2]);
             patch.data(8, v) = mesh.cells[c].body;
+            if (yields)
+              {
+                patch.data(9, v) = strain.empty() ? 0. : 100. * strain[c];
+                for (unsigned int k = 0; k < 6; ++k)
+                  patch.data(10 + k, v) = 1e-6 * stress[c][k];
+              }
           }
         output.patches.push_back(std::move(patch));
       }

@@ -62,14 +62,19 @@ namespace tread
 
   Solid::Solid(const Mesh                         &mesh,
                const std::vector<ElasticMaterial> &materials,
-               const SolidParameters              &parameters)
+               const SolidParameters              &parameters,
+               const std::vector<PlasticZone>     &zones)
     : parameters(parameters)
+    , plastic_cells(mesh, materials, zones, parameters.hourglass_coefficient)
+    , virgin_history(plastic_cells.virgin_history())
     , materials(materials)
     , n_cells(mesh.cells.size())
   {
     const bool full = parameters.element_type == ElementType::fully_integrated;
     if (full && needs_velocity())
       throw std::invalid_argument("bulk viscosity is for one-point cells only");
+    if (!zones.empty() && (full || needs_velocity()))
+      throw std::invalid_argument("plastic zones are for one-point cells without bulk viscosity");
     frequencies.resize(n_cells);
     masses.resize(n_cells);
     levels_of_cells.assign(n_cells, 0);
@@ -94,7 +99,7 @@ namespace tread
       }
     highest = dealii::Utilities::MPI::max(highest, mesh.comm);
     for (unsigned int c = 0; c < n_cells; ++c)
-      while (levels_of_cells[c] < parameters.max_level &&
+      while (levels_of_cells[c] < parameters.max_level && !plastic_cells.contains(c) &&
              std::ldexp(frequencies[c], levels_of_cells[c] + 1) <= 1.1 * highest)
         ++levels_of_cells[c];
 
@@ -111,7 +116,7 @@ namespace tread
           range.wave_speed  = material.pressure_wave_speed();
           unsigned int lane = n_lanes;
           for (unsigned int c = 0; c < n_cells; ++c)
-            if (mesh.cells[c].body == body && levels_of_cells[c] == level)
+            if (mesh.cells[c].body == body && levels_of_cells[c] == level && !plastic_cells.contains(c))
               {
                 const HexahedronIntegrals integrals = integrals_of(c);
                 if (lane == n_lanes)
@@ -269,7 +274,7 @@ namespace tread
   }
 
 
-  void Solid::add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels) const
+  void Solid::add_elastic_forces(const Row *x, const Row *v, Row *force, const Levels levels) const
   {
     for (const BodyRange &range : ranges)
       if (range.level >= levels.first && range.level <= levels.last)
@@ -285,7 +290,7 @@ namespace tread
   }
 
 
-  StrainEnergy Solid::strain_energy(const Row *x) const
+  StrainEnergy Solid::strain_energy(const Row *x, const PlasticHistory &history) const
   {
     Lanes strain_sum{}, hourglass_sum{};
     for (const BodyRange &range : ranges)
@@ -323,7 +328,8 @@ namespace tread
                   }
             }
         }
-    StrainEnergy energy;
+    const auto [plastic_strain, plastic_hourglass] = plastic_cells.energies(x, history);
+    StrainEnergy energy{plastic_strain, plastic_hourglass};
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
         energy.strain += strain_sum[l];
@@ -333,7 +339,7 @@ namespace tread
   }
 
 
-  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row *x) const
+  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row *x, const PlasticHistory &history) const
   {
     std::vector<std::array<double, 6>> stress(n_cells);
     for (const BodyRange &range : ranges)
@@ -376,12 +382,14 @@ namespace tread
                   }
               }
         }
+    plastic_cells.cauchy_stress(x, history, stress);
     return stress;
   }
 
 
   std::size_t Solid::memory_consumption() const
   {
-    return batches.size() * sizeof(Batch) + point_batches.size() * sizeof(BatchOfPoints);
+    return batches.size() * sizeof(Batch) + point_batches.size() * sizeof(BatchOfPoints) +
+           plastic_cells.memory_consumption();
   }
 } // namespace tread

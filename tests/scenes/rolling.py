@@ -185,6 +185,48 @@ with tempfile.TemporaryDirectory() as folder:
         check.that("Courant number 1.3 stops with a clear line",
                    unstable.returncode == 2 and "Courant number" in unstable.stderr)
 
+    elif what == "plastic":
+        # Two wheels over a rail that yields, with a weld in it.
+        settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Contact/Tolerance=1e-12", "Motion/Passages=2",
+                            "Output/Write volume=false", "Rail/Yield stress (MPa)=500", "Wheel/Yield stress (MPa)=500",
+                            "Rail/Hardening=Armstrong-Frederick", "Rail/Plastic zones=-7:-5:8:350:10"]
+        rows = lambda name: list(csv.DictReader(open(os.path.join(path(name), "passages.csv"), encoding="utf-8")))
+        whole = run(program, "smooth-rolling.prm", path("whole"), settings)
+        check.below("energy residual, share of the work", whole["energy_residual_share"], 3e-3)
+        check.that("work is lost to friction and to plastic strain",
+                   whole["plastic_work_J"] > 0. and whole["frictional_work_J"] > 0.)
+        first, second = rows("whole")
+        check.that("the second wheel adds less settlement than the first",
+                   0. < float(second["settlement_um"]) - float(first["settlement_um"]) < 0.5 * float(first["settlement_um"]))
+        ranks = run(program, "smooth-rolling.prm", path("ranks"), settings, 3)
+        same("3 ranks against 1", ranks, whole, 1e-6)
+        check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
+        levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=3"])
+        check.below("levels of time steps: energy residual, share of the work", levels["energy_residual_share"], 3e-3)
+        check.relative("levels of time steps: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 0.03)
+        for key in ("settlement_um", "residual_von_mises_MPa"):
+            check.relative(f"levels of time steps: {key}", float(rows("levels")[1][key]), float(second[key]), 5e-3)
+
+        # Stopped while the second wheel rolls.
+        arguments = [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", path("parts")]
+        for setting in settings:
+            arguments += ["-s", setting]
+        process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE)
+        deadline = time.time() + 600
+        history = os.path.join(path("parts"), "history.csv")
+        while time.time() < deadline and process.poll() is None:
+            if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 65:
+                break
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.wait(timeout=120)
+        check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
+        resumed = run(program, "smooth-rolling.prm", path("parts"), settings, ranks=2, more=["--resume"])
+        same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3)
+        for key in ("settlement_um", "equivalent_plastic_strain_percent", "residual_von_mises_MPa"):
+            check.relative(f"resumed: {key}", float(rows("parts")[1][key]), float(second[key]), 2e-3)
+
     elif what == "full-wheel":
         wheel = run(program, "tutorial/full-wheel.prm", path("wheel"), ["Motion/Rolled distance (mm)=60"], 2)
         # The rim swings on the web after the sudden start: the traction is still far from steady after 60 mm.

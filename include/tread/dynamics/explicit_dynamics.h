@@ -32,10 +32,11 @@ namespace tread
     double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far
+    double plastic = 0.;                              ///< work on plastic strain so far
 
     double residual() const
     {
-      return external_work - (kinetic + strain + hourglass + friction + contact + damping);
+      return external_work - (kinetic + strain + hourglass + friction + contact + damping + plastic);
     }
     double residual_share() const;
   };
@@ -53,7 +54,7 @@ namespace tread
   /// forces steadily, corrected by a push when these are evaluated: an asynchronous variational integrator
   /// (Lew, Marsden, Ortiz & West 2003) in which the steady part of the slow forces belongs to the fast ones.
   /// Needs some stiffness damping (0.1): without it these integrators resonate (Fong, Darve & Lew 2008).
-  /// Nodes of the contact surfaces and of the hub are of level 0.
+  /// Nodes of the contact surfaces and of the hub and cells of plastic zones are of level 0.
   ///
   /// v^(n+1/2) = v^(n-1/2) + dt M^-1 (f_int(x^n + beta v^(n-1/2)) + f_ext + G^T P/dt),
   /// x^(n+1) = x^n + dt v^(n+1/2), with the impulses P such that gaps at n+1 are closed or open
@@ -105,7 +106,9 @@ namespace tread
 
     /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
     /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with
-    /// masses that give every cell the same frequency. Contact is frictionless here.
+    /// masses that give every cell the same frequency. Contact is frictionless here. Cells of plastic zones
+    /// yield in one step, from their history before to the equilibrium: what is passed on the way to it
+    /// leaves no trace.
     /// @param tolerance of the force balance, share of the largest force.
     /// @returns the number of iterations. @throws std::runtime_error if max_iterations do not do.
     unsigned int relax(const double                                     tolerance,
@@ -118,11 +121,13 @@ namespace tread
     /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
     void check_stability() const;
 
-    NodalField    x, v;           ///< positions, m, and velocities (half a step back), m/s
-    NodalField    external_force; ///< N, by node; empty if none
-    double        time = 0., time_step = 0.;
-    std::uint64_t n_steps = 0;
-    StepTimes     times;
+    NodalField x, v;           ///< positions, m, and velocities (half a step back), m/s
+    NodalField external_force; ///< N, by node; empty if none
+    /// Of the cells of plastic zones, at x + beta v of the last step.
+    PlasticHistory history;
+    double         time = 0., time_step = 0.;
+    std::uint64_t  n_steps = 0;
+    StepTimes      times;
 
     const std::vector<double> &inverse_masses() const
     {

@@ -2,6 +2,7 @@
 #ifndef tread_material_elastic_h
 #define tread_material_elastic_h
 
+#include <array>
 #include <cmath>
 
 namespace tread
@@ -33,6 +34,13 @@ namespace tread
       return std::sqrt(shear_modulus() / density);
     }
   };
+
+  /// Equivalent stress of von Mises, of xx, yy, zz, xy, yz, zx.
+  inline double von_mises(const std::array<double, 6> &s)
+  {
+    const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+    return std::sqrt(0.5 * (a * a + b * b + c * c) + 3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  }
 
   /// St. Venant-Kirchhoff: second Piola-Kirchhoff stress S = lambda tr(E) 1 + 2 mu E, for
   /// small strain under any rotation. T is double or a vector of lanes; symmetric tensors

@@ -24,6 +24,20 @@ namespace tread
     EnergyLedger  energy;
   };
 
+  /// What a wheel left behind it on the rail, SI units: means over the nodes in the middle of the rolled
+  /// distance, 10 mm long and on the line y = 0, and the largest of the cells under them.
+  struct Passage
+  {
+    double settlement, shift;     ///< of the surface since the virgin state: downwards, along x (m)
+    double plastic_strain;        ///< largest equivalent plastic strain
+    double residual_stress;       ///< largest equivalent (von Mises) stress
+    double plastic_work;          ///< of rail and wheel in this passage, J
+    double frictional_work;       ///< J
+    double traction_coefficient;  ///< mean over the last 10 mm
+    double max_pressure;          ///< at the solution instant, Pa
+    double energy_residual_share; ///< of the work done in this passage
+  };
+
   /// The folder of a run and the files in it, all written by rank 0.
   /// Every write is checked: a full disk is an error, not a short file.
   class RunFolder
@@ -54,6 +68,16 @@ namespace tread
     std::string gather(const std::string &bytes) const;
 
     void write_patch(const std::string &name, const std::vector<PatchNode> &patch) const;
+
+    /// rail_cells.csv: reference position, stress and plastic strain of the cells of a body whose top is at
+    /// z = 0, down to the depth (m) and as wide as it is deep; rail_surface.csv: reference position and
+    /// displacement of the nodes of its contact surface. Collective.
+    void write_rail_tables(const ExplicitDynamics &dynamics,
+                           const unsigned int      body,
+                           const double            depth) const;
+
+    /// passages.csv: one row a passage of a wheel so far.
+    void write_passages(const std::vector<Passage> &passages) const;
 
     /// Begin history.csv anew, or (when resuming) go on after the last row not later than time.
     void open_history(const bool resume, const double time);

@@ -5,6 +5,7 @@
 #include <tread/base/simd.h>
 #include <tread/material/elastic.h>
 #include <tread/mesh/mesh.h>
+#include <tread/solid/plastic_cells.h>
 
 #include <cstdint>
 
@@ -49,18 +50,73 @@ namespace tread
   class Solid
   {
   public:
-    /// @param materials one a body.
-    Solid(const Mesh &mesh, const std::vector<ElasticMaterial> &materials, const SolidParameters &parameters);
+    /// @param materials one a body. @param zones of cells that may yield; the others are elastic.
+    Solid(const Mesh                         &mesh,
+          const std::vector<ElasticMaterial> &materials,
+          const SolidParameters              &parameters,
+          const std::vector<PlasticZone>     &zones = {});
 
     /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and,
-    /// for bulk viscosity, move at v (m/s). Hanging nodes are the caller's affair.
-    void add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const;
+    /// for bulk viscosity, move at v (m/s). Hanging nodes are the caller's affair. Cells of plastic zones
+    /// are not in it.
+    void add_elastic_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const;
+
+    /// Forces of all cells; those of plastic zones, which are of level 0, go to x from where the history was
+    /// last updated. The history stays.
+    void add_internal_forces(const Row            *x,
+                             const Row            *v,
+                             Row                  *force,
+                             const PlasticHistory &history,
+                             const Levels          levels = {}) const
+    {
+      add_elastic_forces(x, v, force, levels);
+      if (levels.first == 0)
+        plastic_cells.add_forces(x, force, history);
+    }
+
+    /// The same of cells that were never loaded.
+    void add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const
+    {
+      add_internal_forces(x, v, force, virgin_history, levels);
+    }
+
+    /// Forces of all cells, and the history follows to x: once a step, with the cells of level 0. @returns
+    /// the plastic work done on this rank, J.
+    double update_internal_forces(const Row      *x,
+                                  const Row      *v,
+                                  Row            *force,
+                                  PlasticHistory &history,
+                                  const Levels    levels = {}) const
+    {
+      add_elastic_forces(x, v, force, levels);
+      return levels.first == 0 ? plastic_cells.update(x, force, history) : 0.;
+    }
 
     /// Energies stored in the cells of this rank at x.
-    StrainEnergy strain_energy(const Row *x) const;
+    StrainEnergy strain_energy(const Row *x, const PlasticHistory &history) const;
+    StrainEnergy strain_energy(const Row *x) const
+    {
+      return strain_energy(x, virgin_history);
+    }
 
     /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x.
-    std::vector<std::array<double, 6>> cauchy_stress(const Row *x) const;
+    std::vector<std::array<double, 6>> cauchy_stress(const Row *x, const PlasticHistory &history) const;
+    std::vector<std::array<double, 6>> cauchy_stress(const Row *x) const
+    {
+      return cauchy_stress(x, virgin_history);
+    }
+
+    /// The cells that may yield.
+    const PlasticCells &plastic() const
+    {
+      return plastic_cells;
+    }
+
+    /// History of cells that were never loaded.
+    const PlasticHistory &virgin() const
+    {
+      return virgin_history;
+    }
 
     /// Upper bound of each cell's highest angular frequency, rad/s, with its own share of the
     /// (scaled) mass. The bound of the whole mesh is the maximum (Rayleigh quotient; Belytschko 1983).
@@ -71,7 +127,7 @@ namespace tread
 
     /// Level of each cell: the largest whole l, up to max_level, with 2^l times its frequency not above
     /// that of the fastest cell of all ranks (a tenth more passes, as cells of an octree's levels differ a
-    /// little in shape).
+    /// little in shape). Cells of plastic zones are of level 0: they yield in the smallest steps.
     const std::vector<unsigned int> &cell_levels() const
     {
       return levels_of_cells;
@@ -125,6 +181,8 @@ namespace tread
                                      const double     factor) const;
 
     SolidParameters                                parameters;
+    PlasticCells                                   plastic_cells;
+    PlasticHistory                                 virgin_history;
     std::vector<ElasticMaterial>                   materials;
     AlignedVector<Batch>                           batches;
     AlignedVector<BatchOfPoints>                   point_batches;

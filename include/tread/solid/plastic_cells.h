@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_solid_plastic_cells_h
+#define tread_solid_plastic_cells_h
+
+#include <tread/base/simd.h>
+#include <tread/material/plastic.h>
+#include <tread/mesh/mesh.h>
+
+#include <functional>
+
+namespace tread
+{
+  /// Cells of one body that may yield.
+  struct PlasticZone
+  {
+    unsigned int    body;
+    PlasticMaterial material;
+    /// Whether a cell with its centre at this reference position (m) belongs to the zone.
+    std::function<bool(const dealii::Point<3> &)> contains;
+  };
+
+  /// What the cells of all plastic zones of a rank remember. Part of the state of a run, as positions are.
+  struct PlasticHistory
+  {
+    AlignedVector<Lanes> values;
+  };
+
+  /// What one cell remembers, wherever it is stored: for checkpoints.
+  struct CellHistory
+  {
+    std::array<long long, 4> key; ///< body and centre in the reference position, nm
+    std::array<double, 19 + 6 * PlasticMaterial::max_backstresses> values;
+  };
+
+  /// One-point hexahedra that yield: the part of a Solid that remembers. Elastic cells are not here.
+  ///
+  /// History of a cell: the inverse G of its plastic right Cauchy-Green tensor (6), the equivalent plastic
+  /// strain, the plastic part of its hourglass amplitudes (12), its backstresses (6 each). All of it refers
+  /// to the reference configuration, so that rotation leaves it alone.
+  class PlasticCells
+  {
+  public:
+    PlasticCells() = default;
+
+    /// @param materials one a body. @param zones where a cell is in several of one body, the last counts.
+    PlasticCells(const Mesh                         &mesh,
+                 const std::vector<ElasticMaterial> &materials,
+                 const std::vector<PlasticZone>     &zones,
+                 const double                        hourglass_coefficient);
+
+    bool contains(const unsigned int cell) const
+    {
+      return !zone_of_cell.empty() && zone_of_cell[cell] >= 0;
+    }
+
+    bool empty() const
+    {
+      return batches.empty();
+    }
+
+    PlasticHistory virgin_history() const;
+
+    /// Make the cells of a body as if they had never been loaded.
+    void forget(const unsigned int body, PlasticHistory &history) const;
+
+    /// Add the forces (N) that the cells exert when their nodes go from where the history was last
+    /// updated to x (m). The history stays.
+    void add_forces(const Row *x, Row *force, const PlasticHistory &history) const;
+
+    /// The same, and the history follows. @returns the plastic work done by that on this rank, J.
+    double update(const Row *x, Row *force, PlasticHistory &history) const;
+
+    /// Elastic energies of deformation and of the hourglass modes at x, J.
+    std::array<double, 2> energies(const Row *x, const PlasticHistory &history) const;
+
+    /// Write the Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) of the cells at x into a list of all cells.
+    void cauchy_stress(const Row                          *x,
+                       const PlasticHistory               &history,
+                       std::vector<std::array<double, 6>> &stress) const;
+
+    /// Equivalent plastic strain by cell of the mesh, 0 outside the zones.
+    std::vector<double> equivalent_plastic_strain(const PlasticHistory &history) const;
+
+    /// The histories of this rank's cells by key, and back. Cells that are not in the list keep theirs.
+    /// @returns how many were found.
+    std::vector<CellHistory> stored(const PlasticHistory &history) const;
+    std::size_t              restore(const std::vector<CellHistory> &list, PlasticHistory &history) const;
+
+    /// Bytes that the cells of this rank hold, their history included.
+    std::size_t memory_consumption() const;
+
+    std::size_t n_cells() const
+    {
+      return keys.size();
+    }
+
+  private:
+    struct Batch
+    {
+      unsigned int node[8][n_lanes];
+      Lanes        gradient[8][3];  ///< mean of dN_a/dX over the cell, 1/m
+      Lanes        hourglass[4][8]; ///< gamma times the square root of its stiffness
+      Lanes        volume;
+    };
+    struct Range ///< the cells of one zone
+    {
+      std::size_t     begin, end; ///< batches
+      std::size_t     history;    ///< where that of the first batch begins
+      ElasticMaterial elastic;
+      PlasticMaterial plastic;
+      unsigned int    body;
+
+      /// Lanes of history that a batch has.
+      std::size_t stride() const
+      {
+        return 19 + 6 * plastic.backstresses.size();
+      }
+    };
+    template <unsigned int n>
+    struct State;
+
+    template <unsigned int n, bool updates, typename History>
+    double add_forces(const Range &range, const Row *x, Row *force, History &history) const;
+
+    /// Call work(range, n) for each range, with the number n of its backstresses as a constant.
+    template <typename Work>
+    void for_ranges(const Work &work) const;
+
+    /// Call work(range, batch, lane, cell) for each cell.
+    template <typename Work>
+    void for_cells(const Work &work) const;
+
+    std::vector<int>                      zone_of_cell; ///< -1: none
+    std::vector<Batch>                    batches;
+    std::vector<std::array<int, n_lanes>> cell_of_lane; ///< -1: padded
+    std::vector<std::array<long long, 4>> keys;         ///< of the cells, in the order of for_cells()
+    std::vector<Range>                    ranges;
+  };
+} // namespace tread
+
+#endif

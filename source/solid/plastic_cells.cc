@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/solid/hexahedron.h>
+#include <tread/solid/plastic_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+
+namespace tread
+{
+  namespace
+  {
+    // Where the parts of a cell's history begin.
+    constexpr unsigned int strain_at = 6, hourglass_at = 7, backstress_at = 19;
+  } // namespace
+
+
+  PlasticCells::PlasticCells(const Mesh                         &mesh,
+                             const std::vector<ElasticMaterial> &materials,
+                             const std::vector<PlasticZone>     &zones,
+                             const double                        hourglass_coefficient)
+  {
+    if (zones.empty())
+      return;
+    zone_of_cell.assign(mesh.cells.size(), -1);
+    std::vector<dealii::Point<3>> centers(mesh.cells.size());
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        for (const unsigned int i : mesh.cells[c].nodes)
+          centers[c] += mesh.nodes[i] / 8.;
+        for (unsigned int z = 0; z < zones.size(); ++z)
+          if (zones[z].body == mesh.cells[c].body && zones[z].contains(centers[c]))
+            zone_of_cell[c] = zones[z].material.yield_stress > 0. ? z : -1;
+      }
+
+    std::size_t size = 0;
+    for (unsigned int z = 0; z < zones.size(); ++z)
+      {
+        if (zones[z].material.backstresses.size() > PlasticMaterial::max_backstresses)
+          throw std::invalid_argument("a material has at most three backstresses");
+        Range range{batches.size(), 0, size, materials[zones[z].body], zones[z].material, zones[z].body};
+        unsigned int lane = n_lanes;
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (zone_of_cell[c] == static_cast<int>(z))
+            {
+              std::array<dealii::Point<3>, 8> corners;
+              for (unsigned int a = 0; a < 8; ++a)
+                corners[a] = mesh.nodes[mesh.cells[c].nodes[a]];
+              const HexahedronIntegrals integrals(corners);
+              const double stiffness = hourglass_stiffness(integrals, range.elastic, hourglass_coefficient);
+              if (lane == n_lanes)
+                {
+                  lane = 0;
+                  cell_of_lane.emplace_back();
+                  cell_of_lane.back().fill(-1);
+                  // Padded lanes repeat the first cell, without volume and hourglass stiffness: no forces.
+                  batches.push_back(Batch{});
+                  Batch &batch = batches.back();
+                  for (unsigned int a = 0; a < 8; ++a)
+                    {
+                      std::fill(std::begin(batch.node[a]), std::end(batch.node[a]), mesh.cells[c].nodes[a]);
+                      for (unsigned int i = 0; i < 3; ++i)
+                        batch.gradient[a][i] = broadcast(integrals.gradient[a][i]);
+                    }
+                }
+              Batch &batch              = batches.back();
+              cell_of_lane.back()[lane] = c;
+              batch.volume[lane]        = integrals.volume;
+              for (unsigned int a = 0; a < 8; ++a)
+                {
+                  batch.node[a][lane] = mesh.cells[c].nodes[a];
+                  for (unsigned int i = 0; i < 3; ++i)
+                    batch.gradient[a][i][lane] = integrals.gradient[a][i];
+                  for (unsigned int m = 0; m < 4; ++m)
+                    batch.hourglass[m][a][lane] = std::sqrt(stiffness) * integrals.hourglass[m][a];
+                }
+              keys.push_back({{mesh.cells[c].body, std::llround(1e9 * centers[c][0]),
+                               std::llround(1e9 * centers[c][1]), std::llround(1e9 * centers[c][2])}});
+              ++lane;
+            }
+        range.end = batches.size();
+        size += (range.end - range.begin) * range.stride();
+        ranges.push_back(range);
+      }
+  }
+
+
+  template <typename Work>
+  void PlasticCells::for_ranges(const Work &work) const
+  {
+    for (const Range &range : ranges)
+      switch (range.plastic.backstresses.size())
+        {
+        case 0:
+          work(range, std::integral_constant<unsigned int, 0>());
+          break;
+        case 1:
+          work(range, std::integral_constant<unsigned int, 1>());
+          break;
+        case 2:
+          work(range, std::integral_constant<unsigned int, 2>());
+          break;
+        default:
+          work(range, std::integral_constant<unsigned int, 3>());
+        }
+  }
+
+
+  template <typename Work>
+  void PlasticCells::for_cells(const Work &work) const
+  {
+    std::size_t number = 0;
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          if (cell_of_lane[b][l] >= 0)
+            {
+              // Lanes of the batch's history start here.
+              const std::size_t first = range.history + (b - range.begin) * range.stride();
+              work(range, first, l, cell_of_lane[b][l], number++);
+            }
+  }
+
+
+  PlasticHistory PlasticCells::virgin_history() const
+  {
+    PlasticHistory history;
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        for (std::size_t k = 0; k < range.stride(); ++k)
+          history.values.push_back(broadcast(k < 3 ? 1. : 0.));
+    return history;
+  }
+
+
+  void PlasticCells::forget(const unsigned int body, PlasticHistory &history) const
+  {
+    for (const Range &range : ranges)
+      if (range.body == body)
+        for (std::size_t b = range.begin; b < range.end; ++b)
+          for (std::size_t k = 0; k < range.stride(); ++k)
+            history.values[range.history + (b - range.begin) * range.stride() + k] =
+              broadcast(k < 3 ? 1. : 0.);
+  }
+
+
+  /// A batch at given nodal positions.
+  template <unsigned int n>
+  struct PlasticCells::State
+  {
+    Lanes           F[3][3], R[3][3];
+    Lanes           amplitude[4][3]; ///< elastic part of the hourglass amplitudes, after the flow
+    Lanes           flowed[4][3];    ///< plastic part of the same, carried with F
+    PlasticPoint<n> point;
+
+    /// @param memory of the batch.
+    void evaluate(const YieldConstants<n> &material, const Batch &batch, const Row *x, const Lanes *memory)
+    {
+      for (auto &row : F)
+        for (Lanes &component : row)
+          component = Lanes{};
+      for (auto &mode : amplitude)
+        for (Lanes &component : mode)
+          component = Lanes{};
+      for (unsigned int a = 0; a < 8; ++a)
+        {
+          Lanes position[3];
+          gather(x, batch.node[a], position[0], position[1], position[2]);
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              F[i][j] += position[i] * batch.gradient[a][j];
+          for (unsigned int m = 0; m < 4; ++m)
+            for (unsigned int i = 0; i < 3; ++i)
+              amplitude[m][i] += batch.hourglass[m][a] * position[i];
+        }
+      Lanes G[6];
+      for (unsigned int k = 0; k < 6; ++k)
+        G[k] = memory[k];
+      point.plastic_strain = memory[strain_at];
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = 0; k < 6; ++k)
+          point.backstress[i][k] = memory[backstress_at + 6 * i + k];
+      if constexpr (n == 0)
+        point.evaluate(material, F, G);
+      else
+        {
+          polar_rotation(F, R);
+          Lanes U[3][3];
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              U[i][j] = R[0][i] * F[0][j] + R[1][i] * F[1][j] + R[2][i] * F[2][j];
+          point.evaluate(material, U, G);
+        }
+      // The hourglass modes yield with the cell: what a common plastic multiplier does to any deviatoric part
+      // of the stress in it.
+      for (unsigned int m = 0; m < 4; ++m)
+        for (unsigned int j = 0; j < 3; ++j)
+          flowed[m][j] = memory[hourglass_at + 3 * m + j];
+      Lanes inverse[3][3];
+      if constexpr (n == 0)
+        std::copy(&point.inverse[0][0], &point.inverse[0][0] + 9, &inverse[0][0]);
+      else
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            inverse[i][j] =
+              point.inverse[i][0] * R[j][0] + point.inverse[i][1] * R[j][1] + point.inverse[i][2] * R[j][2];
+      for (unsigned int m = 0; m < 4; ++m)
+        {
+          Lanes lost[3];
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              amplitude[m][i] -= F[i][0] * flowed[m][0] + F[i][1] * flowed[m][1] + F[i][2] * flowed[m][2];
+              lost[i] = point.flow.share * amplitude[m][i];
+              amplitude[m][i] -= lost[i];
+            }
+          for (unsigned int j = 0; j < 3; ++j)
+            flowed[m][j] += inverse[j][0] * lost[0] + inverse[j][1] * lost[1] + inverse[j][2] * lost[2];
+        }
+    }
+
+    Lanes hourglass_energy() const
+    {
+      Lanes sum{};
+      for (const auto &mode : amplitude)
+        for (const Lanes &component : mode)
+          sum += 0.5 * component * component;
+      return sum;
+    }
+
+    /// First Piola-Kirchhoff stress P = tau F^-T.
+    void first_piola(Lanes (&P)[3][3]) const
+    {
+      Lanes in_frame[3][3];
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          in_frame[i][j] = point.kirchhoff[symmetric_index[i][0]] * point.inverse[j][0] +
+                           point.kirchhoff[symmetric_index[i][1]] * point.inverse[j][1] +
+                           point.kirchhoff[symmetric_index[i][2]] * point.inverse[j][2];
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          if constexpr (n == 0)
+            P[i][j] = in_frame[i][j];
+          else
+            P[i][j] = R[i][0] * in_frame[0][j] + R[i][1] * in_frame[1][j] + R[i][2] * in_frame[2][j];
+    }
+  };
+
+
+  template <unsigned int n, bool updates, typename History>
+  double PlasticCells::add_forces(const Range &range, const Row *x, Row *force, History &history) const
+  {
+    const YieldConstants<n> material(range.elastic, range.plastic);
+    Lanes                   work{};
+    for (std::size_t b = range.begin; b < range.end; ++b)
+      {
+        const Batch &batch  = batches[b];
+        auto *const  memory = history.values.data() + range.history + (b - range.begin) * range.stride();
+        State<n>     state;
+        state.evaluate(material, batch, x, memory);
+        Lanes P[3][3];
+        state.first_piola(P);
+        for (auto &row : P)
+          for (Lanes &component : row)
+            component *= -batch.volume;
+        // What the amplitudes do, differentiated: their plastic part is carried with F.
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int m = 0; m < 4; ++m)
+              P[i][j] += state.amplitude[m][i] * state.flowed[m][j];
+        for (unsigned int a = 0; a < 8; ++a)
+          {
+            Lanes f[3];
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                f[i] = P[i][0] * batch.gradient[a][0] + P[i][1] * batch.gradient[a][1] +
+                       P[i][2] * batch.gradient[a][2];
+                for (unsigned int m = 0; m < 4; ++m)
+                  f[i] -= state.amplitude[m][i] * batch.hourglass[m][a];
+              }
+            scatter_add(force, batch.node[a], f[0], f[1], f[2]);
+          }
+        if constexpr (updates)
+          {
+            const auto yields = state.point.flow.strain > 0.;
+            if (any(yields))
+              {
+                Lanes G[6];
+                state.point.plastic_inverse(G);
+                for (unsigned int k = 0; k < 6; ++k)
+                  memory[k] = yields ? G[k] : memory[k];
+                memory[strain_at] = state.point.plastic_strain;
+                for (unsigned int m = 0; m < 4; ++m)
+                  for (unsigned int j = 0; j < 3; ++j)
+                    memory[hourglass_at + 3 * m + j] = state.flowed[m][j];
+                for (unsigned int i = 0; i < n; ++i)
+                  for (unsigned int k = 0; k < 6; ++k)
+                    memory[backstress_at + 6 * i + k] = state.point.backstress[i][k];
+                // Amplitudes that shrink to the share 1 - s lose 1 - (1 - s)^2 of their energy.
+                const Lanes left = 1. - state.point.flow.share;
+                work +=
+                  batch.volume * state.point.flow.work + state.hourglass_energy() * (1. / (left * left) - 1.);
+              }
+          }
+      }
+    double sum = 0.;
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      sum += work[l];
+    return sum;
+  }
+
+
+  void PlasticCells::add_forces(const Row *x, Row *force, const PlasticHistory &history) const
+  {
+    for_ranges([&](const Range &range, const auto n) { add_forces<n(), false>(range, x, force, history); });
+  }
+
+
+  double PlasticCells::update(const Row *x, Row *force, PlasticHistory &history) const
+  {
+    double work = 0.;
+    for_ranges(
+      [&](const Range &range, const auto n) { work += add_forces<n(), true>(range, x, force, history); });
+    return work;
+  }
+
+
+  std::array<double, 2> PlasticCells::energies(const Row *x, const PlasticHistory &history) const
+  {
+    Lanes strain{}, hourglass{};
+    for_ranges([&](const Range &range, const auto n) {
+      const YieldConstants<n()> material(range.elastic, range.plastic);
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          State<n()> state;
+          state.evaluate(material, batches[b], x,
+                         history.values.data() + range.history + (b - range.begin) * range.stride());
+          strain += batches[b].volume * state.point.energy;
+          hourglass += state.hourglass_energy();
+        }
+    });
+    std::array<double, 2> sums{};
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        sums[0] += strain[l];
+        sums[1] += hourglass[l];
+      }
+    return sums;
+  }
+
+
+  void PlasticCells::cauchy_stress(const Row                          *x,
+                                   const PlasticHistory               &history,
+                                   std::vector<std::array<double, 6>> &stress) const
+  {
+    for_ranges([&](const Range &range, const auto n) {
+      const YieldConstants<n()> material(range.elastic, range.plastic);
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          State<n()> state;
+          state.evaluate(material, batches[b], x,
+                         history.values.data() + range.history + (b - range.begin) * range.stride());
+          Lanes sigma[6], inverse[3][3];
+          if constexpr (n() == 0)
+            std::copy(std::begin(state.point.kirchhoff), std::end(state.point.kirchhoff), sigma);
+          else
+            congruence(state.R, state.point.kirchhoff, sigma);
+          const Lanes J = invert(state.F, inverse);
+          for (unsigned int l = 0; l < n_lanes; ++l)
+            if (cell_of_lane[b][l] >= 0)
+              for (unsigned int k = 0; k < 6; ++k)
+                stress[cell_of_lane[b][l]][k] = sigma[k][l] / J[l];
+        }
+    });
+  }
+
+
+  std::vector<double> PlasticCells::equivalent_plastic_strain(const PlasticHistory &history) const
+  {
+    std::vector<double> strain(zone_of_cell.size(), 0.);
+    for_cells([&](const Range &, const std::size_t first, const unsigned int lane, const int cell,
+                  std::size_t) { strain[cell] = history.values[first + strain_at][lane]; });
+    return strain;
+  }
+
+
+  std::vector<CellHistory> PlasticCells::stored(const PlasticHistory &history) const
+  {
+    std::vector<CellHistory> list;
+    for_cells([&](const Range &range, const std::size_t first, const unsigned int lane, int,
+                  const std::size_t number) {
+      CellHistory cell;
+      cell.key = keys[number];
+      cell.values.fill(0.);
+      for (std::size_t k = 0; k < range.stride(); ++k)
+        cell.values[k] = history.values[first + k][lane];
+      list.push_back(cell);
+    });
+    return list;
+  }
+
+
+  std::size_t PlasticCells::restore(const std::vector<CellHistory> &list, PlasticHistory &history) const
+  {
+    std::map<std::array<long long, 4>, const CellHistory *> by_key;
+    for (const CellHistory &cell : list)
+      by_key[cell.key] = &cell;
+    std::size_t n_found = 0;
+    for_cells([&](const Range &range, const std::size_t first, const unsigned int lane, int,
+                  const std::size_t number) {
+      const auto entry = by_key.find(keys[number]);
+      if (entry == by_key.end())
+        return;
+      ++n_found;
+      for (std::size_t k = 0; k < range.stride(); ++k)
+        history.values[first + k][lane] = entry->second->values[k];
+    });
+    return n_found;
+  }
+
+
+  std::size_t PlasticCells::memory_consumption() const
+  {
+    std::size_t bytes = batches.size() * sizeof(Batch);
+    for (const Range &range : ranges)
+      bytes += (range.end - range.begin) * range.stride() * sizeof(Lanes);
+    return bytes;
+  }
+} // namespace tread
