@@ -487,12 +487,12 @@ namespace tread
       if (!holds)
         throw SceneError(line);
     };
-    require(mass_damping == 0. || quasi_static,
-            "'Solid/Mass damping (1 per s)' must be 0 when 'Scene/Quasi-static' is false: it slows waves "
-            "that are part of the answer");
     require(
       density_scale == 1. || quasi_static,
       "'Scene/Density scale' must be 1 when 'Scene/Quasi-static' is false: inertia is part of the answer");
+    require(mass_damping == 0. || quasi_static,
+            "'Solid/Mass damping (1 per s)' must be 0 when 'Scene/Quasi-static' is false: it slows waves "
+            "that are part of the answer");
     require(inertia_error_estimate() <= 0.02 || !quasi_static,
             "'Scene/Density scale' " + number(density_scale) + " at " + number(speed_kmh) +
               " km/h makes an inertia error of about " + number(100. * inertia_error_estimate()) +
