@@ -40,7 +40,7 @@ namespace
           if (block == 0)
             return Point<2>(core * u, core * (2. * t - 1.));
           const double x = (1. - t) * core + t * radius * std::cos(quarter * u),
-                       y = (1. - t) * core * u + t * radius * std::sin(quarter * u);
+                       y = -(1. - t) * core * u - t * radius * std::sin(quarter * u); // right-handed with t
           return block == 1   ? Point<2>(x, y)
                  : block == 2 ? Point<2>(-y, x)
                  : block == 3 ? Point<2>(-x, -y)
