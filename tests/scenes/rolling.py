@@ -24,8 +24,10 @@ NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "cr
 
 def same(name, a, b, allowed):
     for key in NUMBERS:
-        # Damping is sampled every 50 steps; a ledger in between, as at an interruption, shifts the samples.
-        check.relative(f"{name}: {key}", a[key], b[key], 5. * allowed if key == "damping_work_J" else allowed)
+        # Damping is sampled every 50 steps; a ledger in between, as at an interruption, shifts the samples. The largest
+        # micro-slip is that of one node at the patch's end.
+        check.relative(f"{name}: {key}", a[key], b[key],
+                       5. * allowed if key in ("damping_work_J", "max_slip_m_per_s") else allowed)
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
@@ -83,7 +85,8 @@ with tempfile.TemporaryDirectory() as folder:
              one_of_levels, 1e-8)
 
     elif what == "resume":
-        settings = SHORT + ["Output/Checkpoint interval (minutes)=0"]
+        # Small steps, so that there is time for an interruption.
+        settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Scene/Density scale=1"]
         whole = run(program, "smooth-rolling.prm", path("whole"), settings)
         process, _ = interrupt(path("parts"), settings)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
@@ -124,7 +127,7 @@ with tempfile.TemporaryDirectory() as folder:
             fails(f"a {name} checkpoint is refused on all ranks in one line",
                   arguments_of(path(name), settings) + ["--resume"], [word], ranks=2)
 
-        longer = COARSE + ["Motion/Rolled distance (mm)=100"]
+        longer = COARSE + ["Motion/Rolled distance (mm)=100", "Scene/Density scale=1"]
         interrupt(path("two-ranks"), longer, ranks=2)
         part = read_summary(path("two-ranks"))
         check.that("Ctrl-C to mpirun: the summary is there", part["completed"] is False)
