@@ -245,7 +245,7 @@ with tempfile.TemporaryDirectory() as folder:
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
             dry = subprocess.run(command(program, [scene, "--dry-run"]), env=environment(), capture_output=True, text=True)
             check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
-            short = run(program, name, path("start"), SHORT[:2] + ["Motion/Rolled distance (mm)=2", "Motion/Hold distance (mm)=1",
+            short = run(program, name, path("start"), SHORT[:2] + ["Motion/Rolled distance (mm)=4", "Motion/Hold distance (mm)=1",
                                                                   "Output/Write volume=false"])
             check.that(f"{name}: starts and ends", short["completed"])
             check.below(f"{name}: energy residual, share of the work", short["energy_residual_share"], 1e-3)
@@ -265,7 +265,8 @@ with tempfile.TemporaryDirectory() as folder:
         check.that("a long history interval ends with the run", len(rows) == 1 and float(rows[0]["position_m"]) > 0.)
         check.that("4 mm are called too short to be steady", one_row["long_enough_to_be_steady"] is False)
         check.relative("patch lengths rolled", one_row["rolled_patch_lengths"],
-                       4.65 / (2e3 * one_row["reference"]["semi_axis_x_m"]["Hertz"]["value"]), 0.01)
+                       one_row["rolled_m"] / (2. * one_row["reference"]["semi_axis_x_m"]["Hertz"]["value"]), 1e-6)
+        check.absolute("rolled, mm: 4 and half a cell, in whole groups of steps", 1e3 * one_row["rolled_m"], 4.65, 0.1)
         for name in ("files", "one-row"):
             plot = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "plot", "plot-run.py"), path(name)],
                                   capture_output=True, text=True)
