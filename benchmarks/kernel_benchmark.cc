@@ -70,7 +70,7 @@ int main(int argc, char **argv)
         std::array<Boundary, 6> free;
         free.fill(Boundary::free);
         Body body =
-          tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {n, n, n}, free);
+          tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {{n, n, n}}, free);
         for (dealii::Point<3> &p : body.vertices) // general cells: no two alike
           p += 1e-2 * 0.1 / n *
                dealii::Point<3>(std::sin(1e4 * p[1]), std::sin(1e4 * p[2]), std::sin(1e4 * p[0]));
