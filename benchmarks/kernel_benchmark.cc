@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /// Internal forces alone: element updates per second and core over the number of cells, beside the
 /// bandwidth of a triad of the same size in memory. Prints a table in Markdown.
+/// Arguments: cells along the edge of the cubes, if not the usual ones.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <string>
 #include <vector>
 
 namespace
@@ -59,24 +61,40 @@ int main(int argc, char **argv)
   using namespace tread;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::printf("%u lanes of double precision, one core\n\n", n_lanes);
-  std::printf(
-    "| element | cells | updates per second | bytes a cell | stream, GB/s | triad, GB/s | share |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
-  for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
-    for (const unsigned int n : {10u, 20u, 40u, 60u, 100u})
+  std::printf("| element | shape | cells | updates per second | bytes a cell | stream, GB/s | triad, GB/s | "
+              "share |\n");
+  std::printf("|---|---|---|---|---|---|---|---|\n");
+  std::vector<unsigned int> edges; // cells along an edge of the cube
+  for (int i = 1; i < argc; ++i)
+    edges.push_back(std::stoul(argv[i]));
+  if (edges.empty())
+    edges = {10, 20, 40, 59, 126};
+  struct Kind
+  {
+    const char  *element, *shape;
+    ElementType  type;
+    unsigned int most; ///< cells along an edge of the largest cube
+  };
+  for (const Kind &kind : {Kind{"one-point", "box", ElementType::one_point, 126},
+                           Kind{"one-point", "general", ElementType::one_point, 126},
+                           Kind{"fully integrated", "general", ElementType::fully_integrated, 59}})
+    for (const unsigned int n : edges)
       {
-        if (type == ElementType::fully_integrated && n > 60)
+        if (n > kind.most)
           continue;
         std::array<Boundary, 6> free;
         free.fill(Boundary::free);
         Body body =
           tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {{n, n, n}}, free);
-        for (dealii::Point<3> &p : body.vertices) // general cells: no two alike
-          p += 1e-2 * 0.1 / n *
-               dealii::Point<3>(std::sin(1e4 * p[1]), std::sin(1e4 * p[2]), std::sin(1e4 * p[0]));
+        if (kind.shape == std::string("general")) // no two alike
+          for (dealii::Point<3> &p : body.vertices)
+            {
+              const double s[3] = {std::sin(1e4 * p[0]), std::sin(1e4 * p[1]), std::sin(1e4 * p[2])};
+              p += 1e-2 * 0.1 / n * dealii::Point<3>(s[1] * s[2], s[2] * s[0], s[0] * s[1]);
+            }
         const Mesh      mesh(MPI_COMM_SELF, {body});
         SolidParameters parameters;
-        parameters.element_type = type;
+        parameters.element_type = kind.type;
         const Solid      solid(mesh, {ElasticMaterial()}, parameters);
         ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
         NodalField       force(mesh.nodes.size(), Row{});
@@ -84,10 +102,9 @@ int main(int argc, char **argv)
           best_time([&]() { solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data()); });
         const double cells = mesh.cells.size(), bytes = solid.memory_consumption() + 96. * mesh.nodes.size();
         const double triad = triad_bandwidth(bytes);
-        std::printf("| %s | %.0f | %.1f million | %.0f | %.1f | %.1f | %.0f %% |\n",
-                    type == ElementType::one_point ? "one-point" : "fully integrated", cells,
-                    1e-6 * cells / time, solid.memory_consumption() / cells, 1e-9 * bytes / time,
-                    1e-9 * triad, 100. * bytes / time / triad);
+        std::printf("| %s | %s | %.0f | %.1f million | %.0f | %.1f | %.1f | %.0f %% |\n", kind.element,
+                    kind.shape, cells, 1e-6 * cells / time, solid.memory_consumption() / cells,
+                    1e-9 * bytes / time, 1e-9 * triad, 100. * bytes / time / triad);
       }
   return 0;
 }

@@ -54,7 +54,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-3";
+        std::string text = "tread-checkpoint-4";
         for (const std::size_t n : {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy),
                                     sizeof(StepTimes), sizeof(WheelHub), sizeof(PatchNode),
                                     sizeof(PatchMeasures), sizeof(CellHistory), sizeof(Passage)})

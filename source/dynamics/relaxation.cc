@@ -62,8 +62,9 @@ namespace tread
     const NodalField       at_rest(x.size(), Row{});
     NodalField             previous(x.size(), Row{});
     double                 keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
-    constexpr unsigned int interval  = 20;
-    unsigned int           iteration = 1;
+    constexpr unsigned int interval       = 20;
+    unsigned int           iteration      = 1;
+    double                 first_residual = 0.; // N
     for (; iteration <= max_iterations; ++iteration)
       {
         std::fill(force.begin(), force.end(), Row{});
@@ -71,8 +72,9 @@ namespace tread
         mesh.condense_hanging_nodes(force.data());
         mesh.shared_nodes.sum(force.data());
 
-        const bool measure = iteration % interval == 0, remember = iteration % interval == interval - 1;
-        if (measure)
+        const bool measure  = iteration == 1 || iteration % interval == 0,
+                   remember = iteration % interval == interval - 1;
+        if (measure && iteration > 1)
           {
             // Rayleigh quotient of the last displacement: the frequency that still moves.
             double change = 0., inertia = 0.;
@@ -139,9 +141,12 @@ namespace tread
 
         if (measure)
           {
-            residual           = std::max(residual, std::sqrt(sum(squares, mesh.comm)));
-            scale              = std::max(scale, std::sqrt(sum(load_squares, mesh.comm)));
-            const double share = scale > 0. ? residual / scale : residual;
+            residual = std::max(residual, std::sqrt(sum(squares, mesh.comm)));
+            scale    = std::max(scale, std::sqrt(sum(load_squares, mesh.comm)));
+            if (iteration == 1)
+              first_residual = residual;
+            // Without a load: of what is out of balance at the start.
+            const double share = residual / (scale > 0. ? scale : std::max(first_residual, 1e-300));
             if (progress)
               progress(iteration, share);
             if (share <= tolerance)

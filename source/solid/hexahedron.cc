@@ -12,11 +12,6 @@ namespace tread
 {
   namespace
   {
-    double corner(const unsigned int a, const unsigned int d)
-    {
-      return ((a >> d) & 1) ? 1. : -1.;
-    }
-
     /// Upper bound of the largest eigenvalue of a symmetric positive semi-definite matrix by
     /// repeated squaring: lambda_max <= (trace A^p)^(1/p), p = 64, at most n^(1/64) too large.
     template <unsigned int n>
@@ -78,6 +73,22 @@ namespace tread
   } // namespace
 
 
+  double linear_pattern(const unsigned int direction, const unsigned int node)
+  {
+    return ((node >> direction) & 1) ? 1. : -1.;
+  }
+
+
+  double hourglass_pattern(const unsigned int mode, const unsigned int node)
+  {
+    double product = 1.;
+    for (unsigned int d = 0; d < 3; ++d)
+      if (d != mode)
+        product *= linear_pattern(d, node);
+    return product;
+  }
+
+
   HexahedronIntegrals::HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes)
     : volume(0.)
     , gradient{}
@@ -87,17 +98,18 @@ namespace tread
     // Two Gauss points a direction integrate det J, N det J and cof J dN exactly.
     for (unsigned int q = 0; q < 8; ++q)
       {
-        const double         xi[3] = {gauss * corner(q, 0), gauss * corner(q, 1), gauss * corner(q, 2)};
+        const double         xi[3] = {gauss * linear_pattern(0, q), gauss * linear_pattern(1, q),
+                                      gauss * linear_pattern(2, q)};
         double               N[8], dN[8][3];
         dealii::Tensor<2, 3> jacobian;
         for (unsigned int a = 0; a < 8; ++a)
           {
-            const double f[3] = {1. + corner(a, 0) * xi[0], 1. + corner(a, 1) * xi[1],
-                                 1. + corner(a, 2) * xi[2]};
+            const double f[3] = {1. + linear_pattern(0, a) * xi[0], 1. + linear_pattern(1, a) * xi[1],
+                                 1. + linear_pattern(2, a) * xi[2]};
             N[a]              = f[0] * f[1] * f[2] / 8.;
-            dN[a][0]          = corner(a, 0) * f[1] * f[2] / 8.;
-            dN[a][1]          = corner(a, 1) * f[0] * f[2] / 8.;
-            dN[a][2]          = corner(a, 2) * f[0] * f[1] / 8.;
+            dN[a][0]          = linear_pattern(0, a) * f[1] * f[2] / 8.;
+            dN[a][1]          = linear_pattern(1, a) * f[0] * f[2] / 8.;
+            dN[a][2]          = linear_pattern(2, a) * f[0] * f[1] / 8.;
             for (unsigned int i = 0; i < 3; ++i)
               for (unsigned int j = 0; j < 3; ++j)
                 jacobian[i][j] += nodes[a][i] * dN[a][j];
@@ -129,18 +141,24 @@ namespace tread
 
     for (unsigned int m = 0; m < 4; ++m)
       {
-        double h[8], moment[3] = {0., 0., 0.};
+        moment[m].fill(0.);
         for (unsigned int a = 0; a < 8; ++a)
-          {
-            const double s[3] = {corner(a, 0), corner(a, 1), corner(a, 2)};
-            h[a] = m == 0 ? s[1] * s[2] : m == 1 ? s[2] * s[0] : m == 2 ? s[0] * s[1] : s[0] * s[1] * s[2];
-            for (unsigned int i = 0; i < 3; ++i)
-              moment[i] += h[a] * nodes[a][i];
-          }
+          for (unsigned int i = 0; i < 3; ++i)
+            moment[m][i] += hourglass_pattern(m, a) * nodes[a][i];
         for (unsigned int a = 0; a < 8; ++a)
-          hourglass[m][a] =
-            h[a] - moment[0] * gradient[a][0] - moment[1] * gradient[a][1] - moment[2] * gradient[a][2];
+          hourglass[m][a] = hourglass_pattern(m, a) - moment[m][0] * gradient[a][0] -
+                            moment[m][1] * gradient[a][1] - moment[m][2] * gradient[a][2];
       }
+  }
+
+
+  bool HexahedronIntegrals::is_parallelepiped() const
+  {
+    double largest = 0.;
+    for (const auto &vector : moment)
+      for (const double component : vector)
+        largest = std::max(largest, std::abs(component));
+    return largest < 1e-10 * std::cbrt(volume);
   }
 
 

@@ -56,26 +56,20 @@ namespace tread
                   cell_of_lane.emplace_back();
                   cell_of_lane.back().fill(-1);
                   // Padded lanes repeat the first cell, without volume and hourglass stiffness: no forces.
-                  batches.push_back(Batch{});
-                  Batch &batch = batches.back();
-                  for (unsigned int a = 0; a < 8; ++a)
+                  batches.emplace_back();
+                  for (unsigned int l = 0; l < n_lanes; ++l)
                     {
-                      std::fill(std::begin(batch.node[a]), std::end(batch.node[a]), mesh.cells[c].nodes[a]);
-                      for (unsigned int i = 0; i < 3; ++i)
-                        batch.gradient[a][i] = broadcast(integrals.gradient[a][i]);
+                      for (unsigned int a = 0; a < 8; ++a)
+                        batches.back().node[a][l] = mesh.cells[c].nodes[a];
+                      batches.back().set(l, integrals, 0.);
+                      batches.back().volume[l] = 0.;
                     }
                 }
               Batch &batch              = batches.back();
               cell_of_lane.back()[lane] = c;
-              batch.volume[lane]        = integrals.volume;
+              batch.set(lane, integrals, stiffness);
               for (unsigned int a = 0; a < 8; ++a)
-                {
-                  batch.node[a][lane] = mesh.cells[c].nodes[a];
-                  for (unsigned int i = 0; i < 3; ++i)
-                    batch.gradient[a][i][lane] = integrals.gradient[a][i];
-                  for (unsigned int m = 0; m < 4; ++m)
-                    batch.hourglass[m][a][lane] = std::sqrt(stiffness) * integrals.hourglass[m][a];
-                }
+                batch.node[a][lane] = mesh.cells[c].nodes[a];
               keys.push_back({{mesh.cells[c].body, std::llround(1e9 * centers[c][0]),
                                std::llround(1e9 * centers[c][1]), std::llround(1e9 * centers[c][2])}});
               ++lane;
@@ -158,23 +152,7 @@ namespace tread
     /// @param memory of the batch.
     void evaluate(const YieldConstants<n> &material, const Batch &batch, const Row *x, const Lanes *memory)
     {
-      for (auto &row : F)
-        for (Lanes &component : row)
-          component = Lanes{};
-      for (auto &mode : amplitude)
-        for (Lanes &component : mode)
-          component = Lanes{};
-      for (unsigned int a = 0; a < 8; ++a)
-        {
-          Lanes position[3];
-          gather(x, batch.node[a], position[0], position[1], position[2]);
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              F[i][j] += position[i] * batch.gradient[a][j];
-          for (unsigned int m = 0; m < 4; ++m)
-            for (unsigned int i = 0; i < 3; ++i)
-              amplitude[m][i] += batch.hourglass[m][a] * position[i];
-        }
+      deform(batch, x, F, amplitude);
       Lanes G[6];
       for (unsigned int k = 0; k < 6; ++k)
         G[k] = memory[k];
@@ -220,13 +198,14 @@ namespace tread
         }
     }
 
-    Lanes hourglass_energy() const
+    /// @param stiffness of the amplitudes, N/m.
+    Lanes hourglass_energy(const Lanes stiffness) const
     {
       Lanes sum{};
       for (const auto &mode : amplitude)
         for (const Lanes &component : mode)
-          sum += 0.5 * component * component;
-      return sum;
+          sum += component * component;
+      return 0.5 * stiffness * sum;
     }
 
     /// First Piola-Kirchhoff stress P = tau F^-T.
@@ -268,19 +247,12 @@ namespace tread
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int m = 0; m < 4; ++m)
-              P[i][j] += state.amplitude[m][i] * state.flowed[m][j];
-        for (unsigned int a = 0; a < 8; ++a)
-          {
-            Lanes f[3];
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                f[i] = P[i][0] * batch.gradient[a][0] + P[i][1] * batch.gradient[a][1] +
-                       P[i][2] * batch.gradient[a][2];
-                for (unsigned int m = 0; m < 4; ++m)
-                  f[i] -= state.amplitude[m][i] * batch.hourglass[m][a];
-              }
-            scatter_add(force, batch.node[a], f[0], f[1], f[2]);
-          }
+              P[i][j] += batch.stiffness * state.amplitude[m][i] * state.flowed[m][j];
+        Lanes restoring[4][3];
+        for (unsigned int m = 0; m < 4; ++m)
+          for (unsigned int i = 0; i < 3; ++i)
+            restoring[m][i] = -batch.stiffness * state.amplitude[m][i];
+        add_forces_of(batch, force, P, restoring);
         if constexpr (updates)
           {
             const auto yields = state.point.flow.strain > 0.;
@@ -299,8 +271,8 @@ namespace tread
                     memory[backstress_at + 6 * i + k] = state.point.backstress[i][k];
                 // Amplitudes that shrink to the share 1 - s lose 1 - (1 - s)^2 of their energy.
                 const Lanes left = 1. - state.point.flow.share;
-                work +=
-                  batch.volume * state.point.flow.work + state.hourglass_energy() * (1. / (left * left) - 1.);
+                work += batch.volume * state.point.flow.work +
+                        state.hourglass_energy(batches[b].stiffness) * (1. / (left * left) - 1.);
               }
           }
       }
@@ -337,7 +309,7 @@ namespace tread
           state.evaluate(material, batches[b], x,
                          history.values.data() + range.history + (b - range.begin) * range.stride());
           strain += batches[b].volume * state.point.energy;
-          hourglass += state.hourglass_energy();
+          hourglass += state.hourglass_energy(batches[b].stiffness);
         }
     });
     std::array<double, 2> sums{};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tread
 {
@@ -15,43 +16,42 @@ namespace tread
   {
     constexpr unsigned int invalid_cell = std::numeric_limits<unsigned int>::max();
 
-    /// F = sum x_a (x) B_a for n_lanes cells; columns of F by reference direction.
-    struct Deformation
+    /// Green-Lagrange strain (F^T F - 1)/2: xx, yy, zz, xy, yz, zx.
+    void green_lagrange(const Lanes (&F)[3][3], Lanes (&E)[6])
     {
-      Lanes F[3][3];
+      const auto product = [&](const unsigned int j, const unsigned int k) {
+        return F[0][j] * F[0][k] + F[1][j] * F[1][k] + F[2][j] * F[2][k];
+      };
+      E[0] = 0.5 * (product(0, 0) - 1.);
+      E[1] = 0.5 * (product(1, 1) - 1.);
+      E[2] = 0.5 * (product(2, 2) - 1.);
+      E[3] = 0.5 * product(0, 1);
+      E[4] = 0.5 * product(1, 2);
+      E[5] = 0.5 * product(2, 0);
+    }
 
-      void add(const Lanes (&x)[3], const Lanes (&gradient)[3])
-      {
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            F[i][j] += x[i] * gradient[j];
-      }
+    /// First Piola-Kirchhoff stress P = F S.
+    void first_piola(const Lanes (&F)[3][3], const Lanes (&S)[6], Lanes (&P)[3][3])
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          P[i][0] = F[i][0] * S[0] + F[i][1] * S[3] + F[i][2] * S[5];
+          P[i][1] = F[i][0] * S[3] + F[i][1] * S[1] + F[i][2] * S[4];
+          P[i][2] = F[i][0] * S[5] + F[i][1] * S[4] + F[i][2] * S[2];
+        }
+    }
 
-      /// Green-Lagrange strain (F^T F - 1)/2: xx, yy, zz, xy, yz, zx.
-      void strain(Lanes (&E)[6]) const
-      {
-        const auto product = [&](const unsigned int j, const unsigned int k) {
-          return F[0][j] * F[0][k] + F[1][j] * F[1][k] + F[2][j] * F[2][k];
-        };
-        E[0] = 0.5 * (product(0, 0) - 1.);
-        E[1] = 0.5 * (product(1, 1) - 1.);
-        E[2] = 0.5 * (product(2, 2) - 1.);
-        E[3] = 0.5 * product(0, 1);
-        E[4] = 0.5 * product(1, 2);
-        E[5] = 0.5 * product(2, 0);
-      }
-
-      /// First Piola-Kirchhoff stress P = F S.
-      void first_piola(const Lanes (&S)[6], Lanes (&P)[3][3]) const
-      {
-        for (unsigned int i = 0; i < 3; ++i)
+    /// F = sum x_a (x) B_a.
+    void mean_deformation(const Lanes (&position)[8][3], const Lanes (&gradient)[8][3], Lanes (&F)[3][3])
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
           {
-            P[i][0] = F[i][0] * S[0] + F[i][1] * S[3] + F[i][2] * S[5];
-            P[i][1] = F[i][0] * S[3] + F[i][1] * S[1] + F[i][2] * S[4];
-            P[i][2] = F[i][0] * S[5] + F[i][1] * S[4] + F[i][2] * S[2];
+            F[i][j] = Lanes{};
+            for (unsigned int a = 0; a < 8; ++a)
+              F[i][j] += position[a][i] * gradient[a][j];
           }
-      }
-    };
+    }
 
     Lanes contraction(const Lanes (&S)[6], const Lanes (&E)[6])
     {
@@ -103,114 +103,120 @@ namespace tread
              std::ldexp(frequencies[c], levels_of_cells[c] + 1) <= 1.1 * highest)
         ++levels_of_cells[c];
 
+    std::vector<Kind> kinds(n_cells, Kind::points);
+    if (!full)
+      for (unsigned int c = 0; c < n_cells; ++c)
+        kinds[c] = integrals_of(c).is_parallelepiped() ? Kind::affine : Kind::general;
     for (unsigned int body = 0; body < materials.size(); ++body)
       for (unsigned int level = 0; level <= parameters.max_level; ++level)
+        for (const Kind kind : {Kind::affine, Kind::general, Kind::points})
+          {
+            const ElasticMaterial    &material = materials[body];
+            std::vector<unsigned int> cells;
+            for (unsigned int c = 0; c < n_cells; ++c)
+              if (kinds[c] == kind && mesh.cells[c].body == body && levels_of_cells[c] == level &&
+                  !plastic_cells.contains(c))
+                cells.push_back(c);
+            const auto add = [&](auto &batches, const auto &set_lane) {
+              Range range;
+              range.begin      = batches.size();
+              range.cells      = cell_of_lane.size();
+              range.kind       = kind;
+              range.level      = level;
+              range.lambda     = material.lame();
+              range.mu         = material.shear_modulus();
+              range.density    = material.density;
+              range.wave_speed = material.pressure_wave_speed();
+              for (std::size_t first = 0; first < cells.size(); first += n_lanes)
+                {
+                  batches.emplace_back();
+                  cell_of_lane.emplace_back();
+                  cell_of_lane.back().fill(invalid_cell);
+                  for (unsigned int lane = 0; lane < n_lanes; ++lane)
+                    {
+                      // Padded lanes have no volume and no gradients: their forces vanish.
+                      const bool         padded = first + lane >= cells.size();
+                      const unsigned int c      = cells[padded ? first : first + lane];
+                      for (unsigned int a = 0; a < 8; ++a)
+                        batches.back().node[a][lane] = mesh.cells[c].nodes[a];
+                      if (padded)
+                        continue;
+                      cell_of_lane.back()[lane] = c;
+                      set_lane(batches.back(), lane, integrals_of(c), stiffness[c]);
+                    }
+                }
+              range.end = batches.size();
+              if (range.end > range.begin)
+                ranges.push_back(range);
+            };
+            const auto set_one_point = [](auto &batch, const unsigned int lane,
+                                          const HexahedronIntegrals &integrals, const double stiffness) {
+              batch.set(lane, integrals, stiffness);
+            };
+            if (kind == Kind::affine)
+              add(affine_batches, set_one_point);
+            else if (kind == Kind::general)
+              add(general_batches, set_one_point);
+            else
+              add(point_batches, [](BatchOfPoints &batch, const unsigned int lane,
+                                    const HexahedronIntegrals &integrals, double) {
+                for (unsigned int q = 0; q < 8; ++q)
+                  {
+                    batch.weight[q][lane] = integrals.point_volume[q];
+                    for (unsigned int a = 0; a < 8; ++a)
+                      for (unsigned int i = 0; i < 3; ++i)
+                        batch.gradient[q][a][i][lane] = integrals.point_gradient[q][a][i];
+                  }
+              });
+          }
+  }
+
+
+  template <typename Work>
+  void Solid::for_batches(const Work &work) const
+  {
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
         {
-          const ElasticMaterial &material = materials[body];
-          BodyRange              range;
-          range.begin       = cell_of_lane.size();
-          range.level       = level;
-          range.lambda      = material.lame();
-          range.mu          = material.shear_modulus();
-          range.density     = material.density;
-          range.wave_speed  = material.pressure_wave_speed();
-          unsigned int lane = n_lanes;
-          for (unsigned int c = 0; c < n_cells; ++c)
-            if (mesh.cells[c].body == body && levels_of_cells[c] == level && !plastic_cells.contains(c))
-              {
-                const HexahedronIntegrals integrals = integrals_of(c);
-                if (lane == n_lanes)
-                  {
-                    lane = 0;
-                    cell_of_lane.emplace_back();
-                    cell_of_lane.back().fill(invalid_cell);
-                    // Padded lanes have no volume and no gradients: their forces vanish.
-                    if (full)
-                      {
-                        point_batches.push_back(BatchOfPoints{});
-                        for (auto &node : point_batches.back().node)
-                          std::fill(std::begin(node), std::end(node), mesh.cells[c].nodes[0]);
-                      }
-                    else
-                      {
-                        batches.push_back(Batch{});
-                        for (auto &node : batches.back().node)
-                          std::fill(std::begin(node), std::end(node), mesh.cells[c].nodes[0]);
-                      }
-                  }
-                cell_of_lane.back()[lane] = c;
-                for (unsigned int a = 0; a < 8; ++a)
-                  {
-                    if (full)
-                      {
-                        BatchOfPoints &batch  = point_batches.back();
-                        batch.node[a][lane]   = mesh.cells[c].nodes[a];
-                        batch.weight[a][lane] = integrals.point_volume[a];
-                        for (unsigned int q = 0; q < 8; ++q)
-                          for (unsigned int i = 0; i < 3; ++i)
-                            batch.gradient[q][a][i][lane] = integrals.point_gradient[q][a][i];
-                      }
-                    else
-                      {
-                        Batch &batch        = batches.back();
-                        batch.node[a][lane] = mesh.cells[c].nodes[a];
-                        batch.volume[lane]  = integrals.volume;
-                        for (unsigned int i = 0; i < 3; ++i)
-                          batch.gradient[a][i][lane] = integrals.gradient[a][i];
-                        for (unsigned int m = 0; m < 4; ++m)
-                          batch.hourglass[m][a][lane] = std::sqrt(stiffness[c]) * integrals.hourglass[m][a];
-                      }
-                  }
-                ++lane;
-              }
-          range.end = cell_of_lane.size();
-          ranges.push_back(range);
+          const auto &cells = cell_of_lane[range.cells + b - range.begin];
+          if (range.kind == Kind::affine)
+            work(range, affine_batches[b], cells);
+          else if (range.kind == Kind::general)
+            work(range, general_batches[b], cells);
+          else
+            work(range, point_batches[b], cells);
         }
   }
 
 
-  template <bool viscous>
-  void Solid::add_one_point_forces(const BodyRange &range,
-                                   const Row       *x,
-                                   const Row       *v,
-                                   Row             *force,
-                                   const double     factor) const
+  template <bool viscous, bool affine>
+  void Solid::add_one_point_forces(const Range &range,
+                                   const Row   *x,
+                                   const Row   *v,
+                                   Row         *force,
+                                   const double factor) const
   {
+    const auto  &batches = one_point_batches<affine>();
     const double density = parameters.density_scale * range.density;
     for (std::size_t b = range.begin; b < range.end; ++b)
       {
-        const Batch &batch = batches[b];
-        Deformation  deformation{};
-        Lanes        amplitude[4][3] = {};
-        for (unsigned int a = 0; a < 8; ++a)
-          {
-            Lanes position[3];
-            gather(x, batch.node[a], position[0], position[1], position[2]);
-            deformation.add(position, batch.gradient[a]);
-            for (unsigned int m = 0; m < 4; ++m)
-              for (unsigned int i = 0; i < 3; ++i)
-                amplitude[m][i] += batch.hourglass[m][a] * position[i];
-          }
-        Lanes E[6], S[6], P[3][3];
-        deformation.strain(E);
+        const auto &batch = batches[b];
+        Lanes       F[3][3], amplitude[4][3], E[6], S[6], P[3][3];
+        deform(batch, x, F, amplitude);
+        green_lagrange(F, E);
         saint_venant_kirchhoff(range.lambda, range.mu, E, S);
         if constexpr (viscous)
           {
             // Volumetric strain rate tr(F^T dF/dt): a pressure against fast changes of volume
             // (von Neumann & Richtmyer 1950; Landshoff 1955).
-            Deformation rate{};
-            for (unsigned int a = 0; a < 8; ++a)
-              {
-                Lanes velocity[3];
-                gather(v, batch.node[a], velocity[0], velocity[1], velocity[2]);
-                rate.add(velocity, batch.gradient[a]);
-              }
+            Lanes rate[3][3], amplitude_rate[4][3];
+            deform(batch, v, rate, amplitude_rate);
             for (unsigned int l = 0; l < n_lanes; ++l)
               {
                 double trace = 0.;
                 for (unsigned int i = 0; i < 3; ++i)
                   for (unsigned int j = 0; j < 3; ++j)
-                    trace += deformation.F[i][j][l] * rate.F[i][j][l];
+                    trace += F[i][j][l] * rate[i][j][l];
                 const double size = std::cbrt(batch.volume[l]);
                 double       q = parameters.linear_bulk_viscosity * density * range.wave_speed * size * trace;
                 if (trace < 0.)
@@ -219,33 +225,22 @@ namespace tread
                   S[i][l] += q;
               }
           }
-        deformation.first_piola(S, P);
-        for (auto &row : P)
-          for (Lanes &component : row)
-            component *= -factor * batch.volume;
+        const Lanes volume = -factor * batch.volume, stiffness = -factor * batch.stiffness;
+        for (Lanes &component : S)
+          component *= volume;
+        first_piola(F, S, P);
         for (auto &mode : amplitude)
           for (Lanes &component : mode)
-            component *= factor;
-        for (unsigned int a = 0; a < 8; ++a)
-          {
-            Lanes f[3];
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                f[i] = P[i][0] * batch.gradient[a][0] + P[i][1] * batch.gradient[a][1] +
-                       P[i][2] * batch.gradient[a][2];
-                for (unsigned int m = 0; m < 4; ++m)
-                  f[i] -= amplitude[m][i] * batch.hourglass[m][a];
-              }
-            scatter_add(force, batch.node[a], f[0], f[1], f[2]);
-          }
+            component *= stiffness;
+        add_forces_of(batch, force, P, amplitude);
       }
   }
 
 
-  void Solid::add_fully_integrated_forces(const BodyRange &range,
-                                          const Row       *x,
-                                          Row             *force,
-                                          const double     factor) const
+  void Solid::add_fully_integrated_forces(const Range &range,
+                                          const Row   *x,
+                                          Row         *force,
+                                          const double factor) const
   {
     for (std::size_t b = range.begin; b < range.end; ++b)
       {
@@ -255,13 +250,11 @@ namespace tread
           gather(x, batch.node[a], position[a][0], position[a][1], position[a][2]);
         for (unsigned int q = 0; q < 8; ++q)
           {
-            Deformation deformation{};
-            for (unsigned int a = 0; a < 8; ++a)
-              deformation.add(position[a], batch.gradient[q][a]);
-            Lanes E[6], S[6], P[3][3];
-            deformation.strain(E);
+            Lanes F[3][3], E[6], S[6], P[3][3];
+            mean_deformation(position, batch.gradient[q], F);
+            green_lagrange(F, E);
             saint_venant_kirchhoff(range.lambda, range.mu, E, S);
-            deformation.first_piola(S, P);
+            first_piola(F, S, P);
             for (unsigned int a = 0; a < 8; ++a)
               for (unsigned int i = 0; i < 3; ++i)
                 f[a][i] -= factor * batch.weight[q] *
@@ -276,16 +269,22 @@ namespace tread
 
   void Solid::add_elastic_forces(const Row *x, const Row *v, Row *force, const Levels levels) const
   {
-    for (const BodyRange &range : ranges)
+    const auto one_point = [&](const Range &range, const double factor, const auto affine) {
+      if (needs_velocity())
+        add_one_point_forces<true, affine()>(range, x, v, force, factor);
+      else
+        add_one_point_forces<false, affine()>(range, x, v, force, factor);
+    };
+    for (const Range &range : ranges)
       if (range.level >= levels.first && range.level <= levels.last)
         {
           const double factor = levels.weighted ? std::ldexp(1., range.level) : 1.;
-          if (parameters.element_type == ElementType::fully_integrated)
-            add_fully_integrated_forces(range, x, force, factor);
-          else if (needs_velocity())
-            add_one_point_forces<true>(range, x, v, force, factor);
+          if (range.kind == Kind::affine)
+            one_point(range, factor, std::true_type());
+          else if (range.kind == Kind::general)
+            one_point(range, factor, std::false_type());
           else
-            add_one_point_forces<false>(range, x, v, force, factor);
+            add_fully_integrated_forces(range, x, force, factor);
         }
   }
 
@@ -293,41 +292,35 @@ namespace tread
   StrainEnergy Solid::strain_energy(const Row *x, const PlasticHistory &history) const
   {
     Lanes strain_sum{}, hourglass_sum{};
-    for (const BodyRange &range : ranges)
-      for (std::size_t b = range.begin; b < range.end; ++b)
+    for_batches([&](const Range &range, const auto &batch, const auto &) {
+      const auto add_point = [&](const Lanes(&F)[3][3], const Lanes weight) {
+        Lanes E[6], S[6];
+        green_lagrange(F, E);
+        saint_venant_kirchhoff(range.lambda, range.mu, E, S);
+        strain_sum += 0.5 * weight * contraction(S, E);
+      };
+      Lanes F[3][3];
+      if constexpr (std::is_same_v<std::decay_t<decltype(batch)>, BatchOfPoints>)
         {
-          const bool full                    = parameters.element_type == ElementType::fully_integrated;
-          const unsigned int(*node)[n_lanes] = full ? point_batches[b].node : batches[b].node;
           Lanes position[8][3];
           for (unsigned int a = 0; a < 8; ++a)
-            gather(x, node[a], position[a][0], position[a][1], position[a][2]);
-          const auto add_point = [&](const Lanes(*gradient)[3], const Lanes weight) {
-            Deformation deformation{};
-            for (unsigned int a = 0; a < 8; ++a)
-              for (unsigned int i = 0; i < 3; ++i)
-                for (unsigned int j = 0; j < 3; ++j)
-                  deformation.F[i][j] += position[a][i] * gradient[a][j];
-            Lanes E[6], S[6];
-            deformation.strain(E);
-            saint_venant_kirchhoff(range.lambda, range.mu, E, S);
-            strain_sum += 0.5 * weight * contraction(S, E);
-          };
-          if (full)
-            for (unsigned int q = 0; q < 8; ++q)
-              add_point(point_batches[b].gradient[q], point_batches[b].weight[q]);
-          else
+            gather(x, batch.node[a], position[a][0], position[a][1], position[a][2]);
+          for (unsigned int q = 0; q < 8; ++q)
             {
-              add_point(batches[b].gradient, batches[b].volume);
-              for (unsigned int m = 0; m < 4; ++m)
-                for (unsigned int i = 0; i < 3; ++i)
-                  {
-                    Lanes amplitude{};
-                    for (unsigned int a = 0; a < 8; ++a)
-                      amplitude += batches[b].hourglass[m][a] * position[a][i];
-                    hourglass_sum += 0.5 * amplitude * amplitude;
-                  }
+              mean_deformation(position, batch.gradient[q], F);
+              add_point(F, batch.weight[q]);
             }
         }
+      else
+        {
+          Lanes amplitude[4][3];
+          deform(batch, x, F, amplitude);
+          add_point(F, batch.volume);
+          for (const auto &mode : amplitude)
+            for (const Lanes &component : mode)
+              hourglass_sum += 0.5 * batch.stiffness * component * component;
+        }
+    });
     const auto [plastic_strain, plastic_hourglass] = plastic_cells.energies(x, history);
     StrainEnergy energy{plastic_strain, plastic_hourglass};
     for (unsigned int l = 0; l < n_lanes; ++l)
@@ -342,46 +335,47 @@ namespace tread
   std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row *x, const PlasticHistory &history) const
   {
     std::vector<std::array<double, 6>> stress(n_cells);
-    for (const BodyRange &range : ranges)
-      for (std::size_t b = range.begin; b < range.end; ++b)
+    for_batches([&](const Range &range, const auto &batch, const auto &cells) {
+      Lanes F[3][3], E[6], S[6], P[3][3];
+      if constexpr (std::is_same_v<std::decay_t<decltype(batch)>, BatchOfPoints>)
         {
-          const bool full                    = parameters.element_type == ElementType::fully_integrated;
-          const unsigned int(*node)[n_lanes] = full ? point_batches[b].node : batches[b].node;
-          Deformation deformation{};
+          Lanes position[8][3], gradient[8][3];
           for (unsigned int a = 0; a < 8; ++a)
             {
-              Lanes position[3], gradient[3];
-              gather(x, node[a], position[0], position[1], position[2]);
+              gather(x, batch.node[a], position[a][0], position[a][1], position[a][2]);
               for (unsigned int i = 0; i < 3; ++i)
                 {
-                  gradient[i] = full ? Lanes{} : batches[b].gradient[a][i];
-                  if (full)
-                    for (unsigned int q = 0; q < 8; ++q)
-                      gradient[i] += 0.125 * point_batches[b].gradient[q][a][i];
+                  gradient[a][i] = Lanes{};
+                  for (unsigned int q = 0; q < 8; ++q)
+                    gradient[a][i] += 0.125 * batch.gradient[q][a][i];
                 }
-              deformation.add(position, gradient);
             }
-          Lanes E[6], S[6], P[3][3];
-          deformation.strain(E);
-          saint_venant_kirchhoff(range.lambda, range.mu, E, S);
-          deformation.first_piola(S, P);
-          const auto &F = deformation.F;
-          for (unsigned int l = 0; l < n_lanes; ++l)
-            if (const unsigned int c = cell_of_lane[b][l]; c != invalid_cell)
-              {
-                const double J = F[0][0][l] * (F[1][1][l] * F[2][2][l] - F[1][2][l] * F[2][1][l]) -
-                                 F[0][1][l] * (F[1][0][l] * F[2][2][l] - F[1][2][l] * F[2][0][l]) +
-                                 F[0][2][l] * (F[1][0][l] * F[2][1][l] - F[1][1][l] * F[2][0][l]);
-                static constexpr unsigned int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-                for (unsigned int k = 0; k < 6; ++k)
-                  {
-                    double sum = 0.;
-                    for (unsigned int m = 0; m < 3; ++m)
-                      sum += P[ij[k][0]][m][l] * F[ij[k][1]][m][l];
-                    stress[c][k] = sum / J;
-                  }
-              }
+          mean_deformation(position, gradient, F);
         }
+      else
+        {
+          Lanes amplitude[4][3];
+          deform(batch, x, F, amplitude);
+        }
+      green_lagrange(F, E);
+      saint_venant_kirchhoff(range.lambda, range.mu, E, S);
+      first_piola(F, S, P);
+      for (unsigned int l = 0; l < n_lanes; ++l)
+        if (const unsigned int c = cells[l]; c != invalid_cell)
+          {
+            const double J = F[0][0][l] * (F[1][1][l] * F[2][2][l] - F[1][2][l] * F[2][1][l]) -
+                             F[0][1][l] * (F[1][0][l] * F[2][2][l] - F[1][2][l] * F[2][0][l]) +
+                             F[0][2][l] * (F[1][0][l] * F[2][1][l] - F[1][1][l] * F[2][0][l]);
+            static constexpr unsigned int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+            for (unsigned int k = 0; k < 6; ++k)
+              {
+                double sum = 0.;
+                for (unsigned int m = 0; m < 3; ++m)
+                  sum += P[ij[k][0]][m][l] * F[ij[k][1]][m][l];
+                stress[c][k] = sum / J;
+              }
+          }
+    });
     plastic_cells.cauchy_stress(x, history, stress);
     return stress;
   }
@@ -389,7 +383,8 @@ namespace tread
 
   std::size_t Solid::memory_consumption() const
   {
-    return batches.size() * sizeof(Batch) + point_batches.size() * sizeof(BatchOfPoints) +
-           plastic_cells.memory_consumption();
+    return affine_batches.size() * sizeof(OnePointBatch<true>) +
+           general_batches.size() * sizeof(OnePointBatch<false>) +
+           point_batches.size() * sizeof(BatchOfPoints) + plastic_cells.memory_consumption();
   }
 } // namespace tread

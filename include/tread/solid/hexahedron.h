@@ -17,14 +17,26 @@ namespace tread
     std::array<std::array<double, 3>, 8>
       gradient; ///< mean of dN_a/dX, 1/m (Flanagan & Belytschko 1981, eq. 15)
     std::array<std::array<double, 8>, 4>
-                          hourglass;   ///< gamma: orthogonal to every linear field (same, eq. 35)
-    std::array<double, 8> node_volume; ///< integral of N_a, m^3
+      hourglass; ///< gamma: orthogonal to every linear field (same, eq. 35)
+    std::array<std::array<double, 3>, 4>
+      moment; ///< sums of the positions times the hourglass patterns: 0 in a parallelepiped, m
+    std::array<double, 8>                               node_volume;    ///< integral of N_a, m^3
     std::array<std::array<std::array<double, 3>, 8>, 8> point_gradient; ///< dN_a/dX at the Gauss points
     std::array<double, 8>                               point_volume;
 
     /// @throws std::runtime_error if the Jacobian is not positive at a Gauss point.
     explicit HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes);
+
+    /// Whether the cell is a box, sheared or turned: its moments are below 1e-10 of its size, which is
+    /// round-off of positions.
+    bool is_parallelepiped() const;
   };
+
+  /// Pattern of the nodes of a cell in lexicographic order, 1 or -1: hourglass modes eta zeta, zeta xi, xi
+  /// eta, xi eta zeta.
+  double hourglass_pattern(const unsigned int mode, const unsigned int node);
+  /// The same of the linear modes xi, eta, zeta.
+  double linear_pattern(const unsigned int direction, const unsigned int node);
 
   /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a box the
   /// stiffness of a plate that bends along its longest edge: E/(1 - nu^2) V min_i(sum_a B_ai^2)/24.

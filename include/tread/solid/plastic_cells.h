@@ -5,6 +5,7 @@
 #include <tread/base/simd.h>
 #include <tread/material/plastic.h>
 #include <tread/mesh/mesh.h>
+#include <tread/solid/one_point_batch.h>
 
 #include <functional>
 
@@ -95,13 +96,7 @@ namespace tread
     }
 
   private:
-    struct Batch
-    {
-      unsigned int node[8][n_lanes];
-      Lanes        gradient[8][3];  ///< mean of dN_a/dX over the cell, 1/m
-      Lanes        hourglass[4][8]; ///< gamma times the square root of its stiffness
-      Lanes        volume;
-    };
+    using Batch = OnePointBatch<false>;
     struct Range ///< the cells of one zone
     {
       std::size_t     begin, end; ///< batches
@@ -131,7 +126,7 @@ namespace tread
     void for_cells(const Work &work) const;
 
     std::vector<int>                      zone_of_cell; ///< -1: none
-    std::vector<Batch>                    batches;
+    AlignedVector<Batch>                  batches;
     std::vector<std::array<int, n_lanes>> cell_of_lane; ///< -1: padded
     std::vector<std::array<long long, 4>> keys;         ///< of the cells, in the order of for_cells()
     std::vector<Range>                    ranges;

@@ -5,6 +5,7 @@
 #include <tread/base/simd.h>
 #include <tread/material/elastic.h>
 #include <tread/mesh/mesh.h>
+#include <tread/solid/one_point_batch.h>
 #include <tread/solid/plastic_cells.h>
 
 #include <cstdint>
@@ -148,46 +149,54 @@ namespace tread
     std::size_t memory_consumption() const;
 
   private:
-    /// n_lanes cells of one material and level with what their internal forces need.
-    struct Batch
-    {
-      unsigned int node[8][n_lanes];
-      Lanes        gradient[8][3];  ///< mean of dN_a/dX over the cell, 1/m
-      Lanes        hourglass[4][8]; ///< gamma times the square root of its stiffness
-      Lanes        volume;
-    };
     struct BatchOfPoints
     {
-      unsigned int node[8][n_lanes];
-      Lanes        gradient[8][8][3]; ///< at each Gauss point
-      Lanes        weight[8];         ///< volume of each Gauss point
+      unsigned int node[8][n_lanes]  = {};
+      Lanes        gradient[8][8][3] = {}; ///< at each Gauss point
+      Lanes        weight[8]         = {}; ///< volume of each Gauss point
     };
-    struct BodyRange
+    enum class Kind
     {
-      std::size_t  begin, end;
+      affine,
+      general,
+      points
+    };
+    struct Range ///< cells of one material, level and kind
+    {
+      std::size_t  begin, end; ///< batches of their kind
+      std::size_t  cells;      ///< where those of the first batch are in cell_of_lane
+      Kind         kind;
       unsigned int level;
       double       lambda, mu, density, wave_speed;
     };
 
-    template <bool viscous>
-    void add_one_point_forces(const BodyRange &range,
-                              const Row       *x,
-                              const Row       *v,
-                              Row             *force,
-                              const double     factor) const;
-    void add_fully_integrated_forces(const BodyRange &range,
-                                     const Row       *x,
-                                     Row             *force,
-                                     const double     factor) const;
+    template <bool viscous, bool affine>
+    void add_one_point_forces(const Range &range, const Row *x, const Row *v, Row *force, const double factor)
+      const;
+    void add_fully_integrated_forces(const Range &range, const Row *x, Row *force, const double factor) const;
+
+    /// Call work(range, batch, cells of its lanes) for each batch, whatever its kind.
+    template <typename Work>
+    void for_batches(const Work &work) const;
+
+    template <bool affine>
+    const AlignedVector<OnePointBatch<affine>> &one_point_batches() const
+    {
+      if constexpr (affine)
+        return affine_batches;
+      else
+        return general_batches;
+    }
 
     SolidParameters                                parameters;
     PlasticCells                                   plastic_cells;
     PlasticHistory                                 virgin_history;
     std::vector<ElasticMaterial>                   materials;
-    AlignedVector<Batch>                           batches;
+    AlignedVector<OnePointBatch<true>>             affine_batches;
+    AlignedVector<OnePointBatch<false>>            general_batches;
     AlignedVector<BatchOfPoints>                   point_batches;
     std::vector<std::array<unsigned int, n_lanes>> cell_of_lane; ///< invalid where padded
-    std::vector<BodyRange>                         ranges;
+    std::vector<Range>                             ranges;
     std::vector<double>                            frequencies;
     std::vector<unsigned int>                      levels_of_cells;
     std::vector<std::array<double, 8>>             masses;
