@@ -114,7 +114,8 @@ namespace tread
         std::vector<char> seen(x.size(), false);
         const auto        add = [&](const unsigned int i) {
           if (level_of_node[i] < level && !seen[i])
-            slow_shares[level].push_back({i, Row{}, Row{}});
+            slow_shares[level].push_back(
+                     {i, level_of_node[i], std::ldexp(1., level_of_node[i]), Row{}, Row{}});
           seen[i] = true;
         };
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -325,6 +326,10 @@ namespace tread
     slow_shares_known = false;
     time_step         = parameters.courant_number * critical_time_step();
     inverse_mass      = free_inverse_masses();
+    inertia.assign(x.size(), 0.);
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (inverse_mass[i] > 0.)
+        inertia[i] = 1. / inverse_mass[i];
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
@@ -394,20 +399,19 @@ namespace tread
             mesh.condense_hanging_nodes(force.data());
             for (SlowShare &share : slow_shares[level])
               {
-                const Row    now    = (1. / factor) * (force[share.node] - share.before);
-                const Row    change = slow_shares_known ? follow * (now - share.steady) : now;
-                const double own    = std::ldexp(1., level_of_node[share.node]);
+                const Row now    = (1. / factor) * (force[share.node] - share.before);
+                const Row change = slow_shares_known ? follow * (now - share.steady) : now;
                 share.steady += change;
                 force[share.node] -= factor * share.steady;
                 // The steady part acts on average half of (factor - own) steps late: what that takes from a
                 // force that changes is given at once, or motion would be fed with energy.
                 if (slow_shares_known)
-                  force[share.node] += 0.5 * (factor - own) * change;
+                  force[share.node] += 0.5 * (factor - share.factor) * change;
               }
           }
         for (const SlowShare &share : slow_shares[level])
-          if (level_of_node[share.node] <= due)
-            force[share.node] += std::ldexp(1., level_of_node[share.node]) * share.steady;
+          if (share.level <= due)
+            force[share.node] += share.factor * share.steady;
       }
     slow_shares_known = true;
   }
@@ -452,36 +456,33 @@ namespace tread
         [&](const unsigned int i, const double factor) { force[i] += factor * external_force[i]; });
     if (accelerated)
       for_nodes_due([&](const unsigned int i, const double factor) {
-        if (inverse_mass[i] > 0.)
+        if (inertia[i] > 0.)
           {
-            const double inertia      = factor / inverse_mass[i];
+            const double here         = factor * inertia[i];
+            const double owned        = mesh.shared_nodes.is_owned(i) ? here : 0.;
             Row          acceleration = Row{0., 0., weight_acceleration, 0.};
             if (on_wheel[i] && compensation > 0.)
               {
                 const Row inward = -compensation * keep_xz * (x[i] - axle);
                 acceleration += inward;
-                if (mesh.shared_nodes.is_owned(i))
-                  compensation_sum += inertia * inward;
+                compensation_sum += owned * inward;
               }
             if (parameters.mass_damping > 0.)
               {
                 // Against what moves on top of the rigid motion. The hub takes the reaction.
                 const Row relative = on_wheel[i] ? v[i] - hub->velocity_at(x[i]) : v[i];
                 const Row drag     = parameters.mass_damping * relative;
+                const Row reaction = owned * drag;
                 acceleration -= drag;
-                if (mesh.shared_nodes.is_owned(i))
+                damping_power += dot(reaction, relative);
+                if (on_wheel[i])
                   {
-                    const Row reaction = inertia * drag;
-                    damping_power += dot(reaction, relative);
-                    if (on_wheel[i])
-                      {
-                        const Row arm = x[i] - axle;
-                        damping_sum += reaction;
-                        damping_moment += arm[2] * reaction[0] - arm[0] * reaction[2];
-                      }
+                    const Row arm = x[i] - axle;
+                    damping_sum += reaction;
+                    damping_moment += arm[2] * reaction[0] - arm[0] * reaction[2];
                   }
               }
-            force[i] += inertia * acceleration;
+            force[i] += here * acceleration;
           }
       });
     totals.damping += time_step * damping_power;

@@ -17,7 +17,7 @@ namespace tread
     constexpr unsigned int invalid_cell = std::numeric_limits<unsigned int>::max();
 
     /// Green-Lagrange strain (F^T F - 1)/2: xx, yy, zz, xy, yz, zx.
-    void green_lagrange(const Lanes (&F)[3][3], Lanes (&E)[6])
+    [[gnu::always_inline]] inline void green_lagrange(const Lanes (&F)[3][3], Lanes (&E)[6])
     {
       const auto product = [&](const unsigned int j, const unsigned int k) {
         return F[0][j] * F[0][k] + F[1][j] * F[1][k] + F[2][j] * F[2][k];
@@ -31,7 +31,9 @@ namespace tread
     }
 
     /// First Piola-Kirchhoff stress P = F S.
-    void first_piola(const Lanes (&F)[3][3], const Lanes (&S)[6], Lanes (&P)[3][3])
+    [[gnu::always_inline]] inline void first_piola(const Lanes (&F)[3][3],
+                                                   const Lanes (&S)[6],
+                                                   Lanes (&P)[3][3])
     {
       for (unsigned int i = 0; i < 3; ++i)
         {
@@ -42,7 +44,9 @@ namespace tread
     }
 
     /// F = sum x_a (x) B_a.
-    void mean_deformation(const Lanes (&position)[8][3], const Lanes (&gradient)[8][3], Lanes (&F)[3][3])
+    [[gnu::always_inline]] inline void mean_deformation(const Lanes (&position)[8][3],
+                                                        const Lanes (&gradient)[8][3],
+                                                        Lanes (&F)[3][3])
     {
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)

@@ -165,7 +165,8 @@ namespace tread
     /// only the rest, the difference to the present force, acts as one push.
     struct SlowShare
     {
-      unsigned int node;
+      unsigned int node, level;    ///< the node's own level
+      double       factor;         ///< 2^level
       Row          steady, before; ///< N
     };
 
@@ -178,14 +179,14 @@ namespace tread
     std::vector<std::vector<SlowShare>> slow_shares; ///< by level
     bool                                slow_shares_known = false;
     NodalField                          force, x_damped;
-    std::vector<double>                 true_mass, inverse_mass;
-    std::vector<char>                   fixed, carried, on_wheel;
-    std::vector<unsigned int>           hub_nodes;
-    std::vector<Row>                    hub_reference; ///< relative to the axle
-    WheelHub                           *hub                      = nullptr;
-    Contact                            *contact                  = nullptr;
-    double                              nominal_angular_velocity = 0.;
-    std::vector<double>                 hub_sums;
+    std::vector<double> true_mass, inverse_mass, inertia; ///< by node; inertia: scaled, 0 where prescribed
+    std::vector<char>   fixed, carried, on_wheel;
+    std::vector<unsigned int> hub_nodes;
+    std::vector<Row>          hub_reference; ///< relative to the axle
+    WheelHub                 *hub                      = nullptr;
+    Contact                  *contact                  = nullptr;
+    double                    nominal_angular_velocity = 0.;
+    std::vector<double>       hub_sums;
 
     EnergyLedger  totals; ///< accumulated by step()
     double        start_kinetic = 0., start_potential = 0.;
