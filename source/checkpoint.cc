@@ -54,7 +54,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-3";
+        std::string text = "tread-checkpoint-4";
         for (const std::size_t n : {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy),
                                     sizeof(StepTimes), sizeof(WheelHub), sizeof(PatchNode),
                                     sizeof(PatchMeasures), sizeof(CellHistory), sizeof(Passage)})
@@ -118,6 +118,16 @@ namespace tread
     bytes(archive, d.start_hub_gross);
     bytes(archive, d.last_damping_power);
     bytes(archive, d.last_damping_step);
+    bytes(archive, d.start_springs);
+    bytes(archive, d.start_dissipated);
+    if (s.supports)
+      {
+        byte_vector(archive, s.supports->displacement);
+        byte_vector(archive, s.supports->velocity);
+        bytes(archive, s.supports->damper_work);
+      }
+    bytes(archive, s.interval_start_time);
+    bytes(archive, s.interval_start_speed);
     bytes(archive, d.times);
     bytes(archive, s.wall_seconds);
     bytes(archive, s.hub); // plain numbers only

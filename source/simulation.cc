@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
 #include <tread/mesh/rail_body.h>
+#include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/wheel_body.h>
 #include <tread/output/checkpoint.h>
 #include <tread/output/summary.h>
@@ -39,6 +40,9 @@ namespace tread
       std::snprintf(text, sizeof text, pattern, values...);
       return text;
     }
+
+    /// Between foot and sleeper in pictures; the pads' springs have no length.
+    constexpr double pad_thickness = 0.01;
 
     std::vector<Body> make_bodies(const Scene &scene)
     {
@@ -105,7 +109,41 @@ namespace tread
           bodies.push_back(make_full_wheel(wheel, on_wheel));
         }
       bodies.back().name = "wheel";
+      if (scene.has_solid_sleepers())
+        for (const double x : scene.support_positions())
+          {
+            SleeperBox box;
+            box.x                  = x;
+            box.width              = 1e-3 * scene.sleeper_width_mm;
+            box.y_begin            = -0.5e-3 * scene.rail_distance_mm;
+            box.y_end              = box.y_begin + 0.5 * scene.sleeper_length_m;
+            box.top                = -scene.rail_height() - pad_thickness;
+            box.height             = scene.solid_sleeper_height();
+            box.coarsest_cell_size = std::min(box.height / 3., 0.06);
+            bodies.push_back(make_sleeper(box));
+          }
       return bodies;
+    }
+
+    std::vector<ElasticMaterial> materials(const Scene &scene)
+    {
+      std::vector<ElasticMaterial> list{scene.rail_material.si(), scene.wheel_material.si()};
+      if (scene.has_solid_sleepers())
+        list.insert(
+          list.end(), scene.support_positions().size(),
+          {1e9 * scene.sleeper_young_modulus_GPa, scene.sleeper_poisson_ratio, scene.sleeper_density});
+      return list;
+    }
+
+    std::vector<SolidSleeper> solid_sleepers(const Scene &scene)
+    {
+      std::vector<SolidSleeper> list;
+      const double              middle = -0.5e-3 * scene.rail_distance_mm;
+      if (scene.has_solid_sleepers())
+        for (unsigned int i = 0; i < scene.support_positions().size(); ++i)
+          list.push_back(
+            {2 + i, middle, middle + 0.5 * scene.sleeper_length_m, 1e-3 * scene.sleeper_width_mm});
+      return list;
     }
 
     SolidParameters solid_parameters(const Scene &scene)
@@ -177,6 +215,13 @@ namespace tread
       return p;
     }
 
+    /// x half a spacing ahead of a support; where the rail ends before it, its end.
+    double mid_span_beside(const Scene &scene, const int number)
+    {
+      return std::min(1e-3 * scene.support_0_mm + (number + 0.5) * scene.sleeper_spacing_m,
+                      1e-3 * scene.rail_margin_mm);
+    }
+
     ContactParameters contact_parameters(const Scene &scene)
     {
       ContactParameters p;
@@ -191,10 +236,7 @@ namespace tread
     : scene(scene)
     , comm(comm)
     , mesh(comm, make_bodies(scene), scene.time_levels - 1)
-    , solid(mesh,
-            {scene.rail_material.si(), scene.wheel_material.si()},
-            solid_parameters(scene),
-            plastic_zones(scene))
+    , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
@@ -206,7 +248,22 @@ namespace tread
     const double radius = 1e-3 * scene.radius_mm, omega = scene.speed() / radius;
     hub.place(-1e-3 * scene.rolled_mm, radius);
     hub.motion.angular_velocity = omega;
-    dynamics.fix_nodes(dynamics.support_nodes(rail_body));
+    if (scene.has_supports())
+      {
+        supports = std::make_unique<Supports>(mesh, rail_body, scene.support_positions(), scene.track(),
+                                              solid_sleepers(scene));
+        for (const int number : scene.recorded_supports())
+          supports->add_probe(mid_span_beside(scene, number));
+        dynamics.attach_supports(*supports, scene.rail_material.si());
+        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
+        dynamics.guide_nodes(supports->guided_nodes(1), 1);
+        for (const SolidSleeper &sleeper : supports->solid_sleepers)
+          dynamics.guide_nodes(dynamics.boundary_nodes(sleeper.body, Boundary::end), 1);
+        if (!supports->solid_sleepers.empty())
+          dynamics.guide_nodes(supports->guided_nodes(0), 0);
+      }
+    else
+      dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     dynamics.attach_hub(hub, wheel_body, omega);
     dynamics.attach_contact(contact);
   }
@@ -298,9 +355,13 @@ namespace tread
     hub.drive                   = Drive::creepage;
     hub.motion.velocity_x       = scene.speed();
     hub.motion.angular_velocity = scene.speed() / radius * (1. + target_creepage + free_creepage);
+    if (supports)
+      dynamics.set_track_velocities();
     dynamics.set_wheel_velocities();
     contact.scale_impulses(scene.courant_number * dynamics.critical_time_step());
     dynamics.start();
+    interval_start_time  = dynamics.time;
+    interval_start_speed = hub.motion.velocity_z;
   }
 
 
@@ -333,6 +394,20 @@ namespace tread
   }
 
 
+  std::vector<SupportRecord> Simulation::support_records() const
+  {
+    std::vector<SupportRecord> records;
+    for (const int number : scene.recorded_supports())
+      {
+        const unsigned int s = number - scene.first_support();
+        records.push_back({supports->force(s, Supports::pad), supports->force(s, Supports::ballast),
+                           supports->largest_pad_pressure(s), supports->rail_displacement(s),
+                           supports->probe_displacement(records.size())});
+      }
+    return records;
+  }
+
+
   void Simulation::end_interval(RunFolder &folder)
   {
     HistoryRow row;
@@ -342,9 +417,14 @@ namespace tread
     row.creepage = hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
     row.patch    = measure(patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
     row.energy   = dynamics.ledger();
+    row.axle_box_acceleration =
+      (hub.motion.velocity_z - interval_start_speed) / (dynamics.time - interval_start_time);
+    row.supports = support_records();
     folder.append(row);
-    interval_force = Row{};
-    interval_steps = 0;
+    interval_start_time  = dynamics.time;
+    interval_start_speed = hub.motion.velocity_z;
+    interval_force       = Row{};
+    interval_steps       = 0;
   }
 
 
@@ -483,7 +563,7 @@ namespace tread
           }
         folder.remove_results();
       }
-    folder.open_history(resume, dynamics.time);
+    folder.open_history(resume, dynamics.time, scene.recorded_supports());
 
     std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
     const std::uint64_t first_step = dynamics.n_steps;

@@ -5,6 +5,7 @@
 #include <tread/geometry/rail_profile.h>
 #include <tread/material/elastic.h>
 #include <tread/material/plastic.h>
+#include <tread/track/supports.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -78,6 +79,14 @@ namespace tread
     // Contact
     double       friction = 0.5, contact_tolerance = 1e-7;
     unsigned int max_sweeps = 200;
+    // Track
+    std::string foundation = "rigid", sleepers = "mass";
+    double      sleeper_spacing_m = 0.6, support_0_mm = 0.;
+    double pad_stiffness_MN_m = 1300., pad_damping_kN_s_m = 45., pad_length_mm = 150., pad_width_mm = 140.;
+    unsigned int points_along = 3, points_across = 4;
+    double sleeper_mass = 200., sleeper_length_m = 2.52, sleeper_width_mm = 250., rail_distance_mm = 1500.;
+    double sleeper_young_modulus_GPa = 38.4, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
+    double ballast_stiffness_MN_m = 45., ballast_damping_kN_s_m = 32.;
     // Vehicle
     double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500.,
            gravity = 9.81;
@@ -94,6 +103,7 @@ namespace tread
     unsigned int start_iterations = 20000;
     // Output
     std::string output = "results";
+    std::string recorded;
     double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., checkpoint_minutes = 10.;
     bool   write_volume = true;
 
@@ -117,6 +127,25 @@ namespace tread
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
 
+    bool has_supports() const
+    {
+      return foundation != "rigid";
+    }
+    bool has_solid_sleepers() const
+    {
+      return foundation == "two-layer" && sleepers == "solid";
+    }
+    TrackParameters track() const;
+    /// x of the supports on the rail, m, and the number of the first; support 0 is where the scene says.
+    std::vector<double> support_positions() const;
+    int                 first_support() const;
+    /// Of the rail's foot below its top, m.
+    double rail_height() const;
+    /// That gives it its mass, m.
+    double solid_sleeper_height() const;
+    /// Numbers of the supports in history.csv: those asked for, or those beside the path of the wheel.
+    std::vector<int> recorded_supports() const;
+
     /// Of a rail head.
     RailProfile rail_profile() const;
     /// Lateral radius of the rail where it is touched, m.
@@ -126,6 +155,7 @@ namespace tread
     void declare();
     void set(const std::string &setting);
     void check() const;
+    void check_track() const;
     /// @param thickness_mm and the rest: how far the mesh of the body reaches from its surface, its middle
     /// and along the path. @throws SceneError
     void check_plasticity(const std::string &section,

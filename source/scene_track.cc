@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    std::string text_of(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
+    }
+  } // namespace
+
+
+  void Scene::check_track() const
+  {
+    if (!has_supports())
+      return;
+    const auto require = [](const bool holds, const std::string &line) {
+      if (!holds)
+        throw SceneError(line);
+    };
+    require(rail_shape != "head",
+            "'Track/Foundation' " + foundation + " needs a rail with a foot: 'Rail/Shape' cannot be head");
+    require(density_scale == 1., "'Scene/Density scale' must be 1 with 'Track/Foundation' " + foundation +
+                                   ": the inertia of rail and sleepers is part of the answer");
+    require(pad_length_mm < 1e3 * sleeper_spacing_m, "'Track/Pad length (mm)' " + text_of(pad_length_mm) +
+                                                       " must be below the sleeper spacing, " +
+                                                       text_of(1e3 * sleeper_spacing_m));
+    require(rail_shape != "block" || pad_width_mm <= block_width_mm,
+            "'Track/Pad width (mm)' " + text_of(pad_width_mm) + " exceeds 'Rail/Block width (mm)' " +
+              text_of(block_width_mm));
+    const std::vector<double> positions = support_positions();
+    const double              begin_mm = -rolled_mm - rail_margin_mm, end_mm = rail_margin_mm;
+    require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " leaves " +
+                                     std::to_string(positions.size()) + " supports on the rail of " +
+                                     text_of(end_mm - begin_mm) + " mm; at least 2 are needed");
+    for (const double overhang : {1e3 * positions.front() - begin_mm, end_mm - 1e3 * positions.back()})
+      require(overhang >= 0.5 * pad_length_mm - 1e-6 && overhang <= 500. * sleeper_spacing_m + 1e-6,
+              "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " does not fit the rail from " +
+                text_of(begin_mm) + " to " + text_of(end_mm) + " mm: it ends " + text_of(overhang) +
+                " mm beyond a support; from half a pad, " + text_of(0.5 * pad_length_mm) +
+                ", to half a spacing, " + text_of(500. * sleeper_spacing_m) + ", is allowed");
+    if (has_solid_sleepers())
+      {
+        require(pad_length_mm <= sleeper_width_mm && sleeper_width_mm < 1e3 * sleeper_spacing_m,
+                "'Track/Sleeper width (mm)' " + text_of(sleeper_width_mm) +
+                  " must be from 'Pad length (mm)' to below the spacing");
+        require(0.5 * (rail_distance_mm + pad_width_mm) <= 500. * sleeper_length_m &&
+                  pad_width_mm <= rail_distance_mm,
+                "'Track/Sleeper length (m)' " + text_of(sleeper_length_m) +
+                  " does not reach under the pads of rails at 'Rail distance (mm)' " +
+                  text_of(rail_distance_mm));
+      }
+    for (const int support : recorded_supports())
+      require(support >= first_support() && support < first_support() + static_cast<int>(positions.size()),
+              "'Output/Supports' has " + std::to_string(support) + "; the rail has supports " +
+                std::to_string(first_support()) + " to " +
+                std::to_string(first_support() + static_cast<int>(positions.size()) - 1));
+  }
+
+
+  int Scene::first_support() const
+  {
+    // The first whose middle lies on the rail.
+    return std::ceil((-rolled_mm - rail_margin_mm - support_0_mm) / (1e3 * sleeper_spacing_m) - 1e-9);
+  }
+
+
+  std::vector<double> Scene::support_positions() const
+  {
+    const int           last = std::floor((rail_margin_mm - support_0_mm) / (1e3 * sleeper_spacing_m) + 1e-9);
+    std::vector<double> positions;
+    for (int i = first_support(); i <= last; ++i)
+      positions.push_back(1e-3 * support_0_mm + sleeper_spacing_m * i);
+    return positions;
+  }
+
+
+  std::vector<int> Scene::recorded_supports() const
+  {
+    std::vector<int> numbers;
+    if (!has_supports())
+      return numbers;
+    for (const std::string &text : dealii::Utilities::split_string_list(recorded))
+      numbers.push_back(dealii::Utilities::string_to_int(text));
+    if (numbers.empty())
+      {
+        const double spacing_mm = 1e3 * sleeper_spacing_m;
+        const int    size       = support_positions().size();
+        const int    first =
+                    std::max<int>(first_support(), std::floor((-rolled_mm - support_0_mm) / spacing_mm)),
+                  last = std::min<int>(first_support() + size - 1, std::ceil(-support_0_mm / spacing_mm));
+        for (int i = first; i <= last; ++i)
+          numbers.push_back(i);
+      }
+    return numbers;
+  }
+
+
+  TrackParameters Scene::track() const
+  {
+    TrackParameters p;
+    p.pad_stiffness     = 1e6 * pad_stiffness_MN_m;
+    p.pad_damping       = 1e3 * pad_damping_kN_s_m;
+    p.pad_length        = 1e-3 * pad_length_mm;
+    p.pad_width         = 1e-3 * pad_width_mm;
+    p.points_along      = points_along;
+    p.points_across     = points_across;
+    p.two_layers        = foundation == "two-layer";
+    p.sleeper_mass      = sleeper_mass;
+    p.ballast_stiffness = 1e6 * ballast_stiffness_MN_m;
+    p.ballast_damping   = 1e3 * ballast_damping_kN_s_m;
+    p.gravity           = gravity;
+    return p;
+  }
+
+
+  double Scene::solid_sleeper_height() const
+  {
+    return sleeper_mass / (sleeper_density * 0.5 * sleeper_length_m * 1e-3 * sleeper_width_mm);
+  }
+
+
+  double Scene::rail_height() const
+  {
+    return 1e-3 * block_height_mm;
+  }
+} // namespace tread
