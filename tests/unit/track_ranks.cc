@@ -30,7 +30,7 @@ namespace
     history.n_hanging = rail.mesh->n_global_hanging_nodes;
     for (unsigned int n = 1; n <= 4000; ++n)
       {
-        rail.load(.3, n < 400 ? 100. * n : n < 800 ? 100. * (800 - n) : 0.);
+        rail.load(.3, n < 400 ? 5e3 * n : n < 800 ? 5e3 * (800 - n) : 0.);
         rail.dynamics->step();
         if (n % 130 == 0)
           {
@@ -88,11 +88,12 @@ int main(int argc, char **argv)
       check.below(name + "energy residual/gross work", alone.worst_residual, 1e-3);
       check.that(name + "dampers have taken energy", l.damping > .05 * l.external_work);
       check.relative(name + "time step (us)", 1e6 * together.time_step, 1e6 * alone.time_step, 1e-12);
-      // Sums over ranks differ in order: 1e-16 a step over 4000 steps, and rounding of positions.
-      check.below(name + "forces on other ranks", difference(together.forces, alone.forces), 1e-9);
+      // Sums over ranks differ in order. A node at 1 m is rounded by 1e-16 m, a force of E h 1e-16 = 1e-6 N in
+      // each step: after 4000 of them velocities differ by some 1e-10 m/s, displacements of 5 mm by some 1e-14 m.
+      check.below(name + "forces on other ranks", difference(together.forces, alone.forces), 1e-8);
       check.below(name + "displacements on other ranks",
-                  difference(together.displacements, alone.displacements), 1e-9);
-      check.below(name + "energies on other ranks", difference(together.energies, alone.energies), 1e-9);
+                  difference(together.displacements, alone.displacements), 1e-8);
+      check.below(name + "energies on other ranks", difference(together.energies, alone.energies), 1e-8);
     }
   return check.exit_code();
 }
