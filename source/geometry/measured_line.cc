@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/measured_line.h>
 
+// clang-format off
+#include <math.h> // isnan without a namespace, which pchip.hpp of Boost 1.74 asks for
 #include <boost/math/interpolators/pchip.hpp>
-#include <math.h> // isnan without a namespace, which Boost 1.74 asks for
+// clang-format on
 
 #include <algorithm>
 #include <cctype>

@@ -19,12 +19,14 @@ namespace tread
     const double step = surfaces.half_width / n;
     FirstContact contact{0., 0., std::numeric_limits<double>::infinity()};
     double       least = surfaces.gap(0.);
-    for (int i = -n; i <= n; ++i)
-      if (const double gap = surfaces.gap(i * step); gap < least)
-        {
-          least     = gap;
-          contact.y = i * step;
-        }
+    for (int i = 1; i <= n; ++i)
+      for (const double y : {-i * step, i * step})
+        // outwards only for what is more than round-off, so that the middle stays the middle
+        if (const double gap = surfaces.gap(y); gap < least - 1e-10)
+          {
+            least     = gap;
+            contact.y = y;
+          }
     contact.lift = -least;
 
     if (surfaces.defect)
