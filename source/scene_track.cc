@@ -35,11 +35,13 @@ namespace tread
     require(pad_length_mm < 1e3 * sleeper_spacing_m, "'Track/Pad length (mm)' " + text_of(pad_length_mm) +
                                                        " must be below the sleeper spacing, " +
                                                        text_of(1e3 * sleeper_spacing_m));
-    require(rail_shape != "block" || pad_width_mm <= block_width_mm,
-            "'Track/Pad width (mm)' " + text_of(pad_width_mm) + " exceeds 'Rail/Block width (mm)' " +
-              text_of(block_width_mm));
+    const double base_mm = rail_shape == "block"
+                             ? block_width_mm
+                             : 2e3 * rail_profile().outline_point(rail_profile().corners().foot_base)[0];
+    require(pad_width_mm <= base_mm, "'Track/Pad width (mm)' " + text_of(pad_width_mm) +
+                                       " exceeds the flat width of the rail's base, " + text_of(base_mm));
     const std::vector<double> positions = support_positions();
-    const double              begin_mm = -rolled_mm - rail_margin_mm, end_mm = rail_margin_mm;
+    const double              begin_mm = 1e3 * rail_begin(), end_mm = 1e3 * rail_end();
     require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " leaves " +
                                      std::to_string(positions.size()) + " supports on the rail of " +
                                      text_of(end_mm - begin_mm) + " mm; at least 2 are needed");
@@ -71,13 +73,13 @@ namespace tread
   int Scene::first_support() const
   {
     // The first whose middle lies on the rail.
-    return std::ceil((-rolled_mm - rail_margin_mm - support_0_mm) / (1e3 * sleeper_spacing_m) - 1e-9);
+    return std::ceil((1e3 * rail_begin() - support_0_mm) / (1e3 * sleeper_spacing_m) - 1e-9);
   }
 
 
   std::vector<double> Scene::support_positions() const
   {
-    const int           last = std::floor((rail_margin_mm - support_0_mm) / (1e3 * sleeper_spacing_m) + 1e-9);
+    const int last = std::floor((1e3 * rail_end() - support_0_mm) / (1e3 * sleeper_spacing_m) + 1e-9);
     std::vector<double> positions;
     for (int i = first_support(); i <= last; ++i)
       positions.push_back(1e-3 * support_0_mm + sleeper_spacing_m * i);
@@ -113,6 +115,7 @@ namespace tread
     p.pad_damping       = 1e3 * pad_damping_kN_s_m;
     p.pad_length        = 1e-3 * pad_length_mm;
     p.pad_width         = 1e-3 * pad_width_mm;
+    p.pad_middle        = base_middle()[1];
     p.points_along      = points_along;
     p.points_across     = points_across;
     p.two_layers        = foundation == "two-layer";
@@ -130,8 +133,9 @@ namespace tread
   }
 
 
-  double Scene::rail_height() const
+  dealii::Point<3> Scene::base_middle() const
   {
-    return 1e-3 * block_height_mm;
+    const double height = rail_shape == "block" ? 1e-3 * block_height_mm : rail_profile().height();
+    return dealii::Point<3>(0., std::sin(inclination()) * height, -std::cos(inclination()) * height);
   }
 } // namespace tread

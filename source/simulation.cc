@@ -3,6 +3,7 @@
 #include <tread/mesh/rail_body.h>
 #include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/wheel_body.h>
+#include <tread/mesh/whole_rail.h>
 #include <tread/output/checkpoint.h>
 #include <tread/output/summary.h>
 #include <tread/references.h>
@@ -56,28 +57,49 @@ namespace tread
       on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
       on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.cells_per_level;
-      FineZone on_wheel        = on_rail;
-      on_wheel.x_begin         = -patch;
-      on_wheel.x_end           = rolled + patch;
+      on_rail.y_middle         = scene.first_contact().y;
+      if (scene.fine_from_mm < scene.fine_to_mm && scene.path_cell_mm > scene.finest_mm)
+        {
+          on_rail.cubes_begin  = 1e-3 * (scene.defect_position_mm + scene.fine_from_mm);
+          on_rail.cubes_end    = 1e-3 * (scene.defect_position_mm + scene.fine_to_mm);
+          on_rail.path_stretch = scene.path_cell_mm / scene.finest_mm;
+        }
+      FineZone on_wheel = on_rail;
+      on_wheel.cubes_begin += rolled;
+      on_wheel.cubes_end += rolled;
+      on_wheel.x_begin = -patch;
+      on_wheel.x_end   = rolled + patch;
 
       std::vector<Body> bodies;
-      const double      margin = 1e-3 * scene.rail_margin_mm;
+      const RailTop     top{scene.rail_height(), scene.inclination()};
       if (scene.rail_shape == "block")
         {
           RailBlock block;
-          block.x_begin            = -rolled - margin;
-          block.x_end              = margin;
+          block.x_begin            = scene.rail_begin();
+          block.x_end              = scene.rail_end();
+          block.top                = top;
           block.width              = 1e-3 * scene.block_width_mm;
           block.height             = 1e-3 * scene.block_height_mm;
-          block.crown_radius       = scene.crown_radius();
+          block.crown_radius       = 1e-3 * scene.crown_radius_mm;
           block.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
           bodies.push_back(make_rail_block(block, on_rail));
+        }
+      else if (scene.rail_shape == "full section")
+        {
+          WholeRail rail;
+          rail.x_begin            = scene.rail_begin();
+          rail.x_end              = scene.rail_end();
+          rail.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
+          rail.longest_row        = 1e-3 * scene.longest_row_mm;
+          rail.top                = top;
+          bodies.push_back(make_whole_rail(scene.rail_profile(), rail, on_rail));
         }
       else
         {
           RailHead head;
-          head.x_begin            = -rolled - margin;
-          head.x_end              = margin;
+          head.x_begin            = scene.rail_begin();
+          head.x_end              = scene.rail_end();
+          head.top                = top;
           head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
           bodies.push_back(make_rail_head(scene.rail_profile(), head, on_rail));
         }
@@ -86,6 +108,8 @@ namespace tread
         {
           WheelSector sector;
           sector.center_x           = -rolled;
+          sector.lift               = scene.first_contact().lift;
+          sector.tread_offset       = scene.surfaces().tread_offset;
           sector.radius             = 1e-3 * scene.radius_mm;
           sector.thickness          = 1e-3 * scene.sector_thickness_mm;
           sector.width              = 1e-3 * scene.sector_width_mm;
@@ -98,6 +122,8 @@ namespace tread
         {
           FullWheel wheel;
           wheel.center_x           = -rolled;
+          wheel.lift               = scene.first_contact().lift;
+          wheel.tread_offset       = scene.surfaces().tread_offset;
           wheel.radius             = 1e-3 * scene.radius_mm;
           wheel.rim_inner_radius   = 1e-3 * scene.rim_inner_radius_mm;
           wheel.rim_width          = 1e-3 * scene.rim_width_mm;
@@ -117,7 +143,7 @@ namespace tread
             box.width              = 1e-3 * scene.sleeper_width_mm;
             box.y_begin            = -0.5e-3 * scene.rail_distance_mm;
             box.y_end              = box.y_begin + 0.5 * scene.sleeper_length_m;
-            box.top                = -scene.rail_height() - pad_thickness;
+            box.top                = scene.base_middle()[2] - pad_thickness;
             box.height             = scene.solid_sleeper_height();
             box.coarsest_cell_size = std::min(box.height / 3., 0.06);
             bodies.push_back(make_sleeper(box));
@@ -173,10 +199,11 @@ namespace tread
           const auto add = [&](const double begin, const double end, const double depth,
                                const double yield_MPa, const double tangent_GPa) {
             zones.push_back(
-              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa), [=](const dealii::Point<3> &p) {
-                 const double dx = p[0] + rolled, dz = p[2] - radius;
+              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa),
+               [=, &scene](const dealii::Point<3> &p) {
+                 const double dx = p[0] + rolled, dz = p[2] - scene.axle_height();
                  const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
-                 const double below = wheel ? radius - std::hypot(dx, dz) : -p[2];
+                 const double below = wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
                  return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
                }});
           };
@@ -218,8 +245,7 @@ namespace tread
     /// x half a spacing ahead of a support; where the rail ends before it, its end.
     double mid_span_beside(const Scene &scene, const int number)
     {
-      return std::min(1e-3 * scene.support_0_mm + (number + 0.5) * scene.sleeper_spacing_m,
-                      1e-3 * scene.rail_margin_mm);
+      return std::min(1e-3 * scene.support_0_mm + (number + 0.5) * scene.sleeper_spacing_m, scene.rail_end());
     }
 
     ContactParameters contact_parameters(const Scene &scene)
@@ -245,8 +271,8 @@ namespace tread
     , next_surface(scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300)
     , next_volume(scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300)
   {
-    const double radius = 1e-3 * scene.radius_mm, omega = scene.speed() / radius;
-    hub.place(-1e-3 * scene.rolled_mm, radius);
+    const double omega = scene.speed() / scene.rolling_radius();
+    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
     hub.motion.angular_velocity = omega;
     if (scene.has_supports())
       {
@@ -327,7 +353,7 @@ namespace tread
 
   void Simulation::prepare_start(Progress &progress)
   {
-    const double radius = 1e-3 * scene.radius_mm;
+    const double radius = scene.rolling_radius();
     if (scene.creepage == "predicted")
       {
         predicted =
@@ -371,8 +397,9 @@ namespace tread
         position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
       {
         hub.drive        = Drive::torque;
-        hub.drive_torque = scene.traction_coefficient * scene.static_load() * hub.motion.z;
-        torque_released  = true;
+        hub.drive_torque = scene.traction_coefficient * scene.static_load() *
+                           (hub.motion.z + scene.rolling_radius() - scene.axle_height());
+        torque_released = true;
       }
   }
 
@@ -414,7 +441,7 @@ namespace tread
     row.time     = dynamics.time;
     row.position = position();
     row.force    = (1. / interval_steps) * interval_force;
-    row.creepage = hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+    row.creepage = hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
     row.patch    = measure(patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
     row.energy   = dynamics.ledger();
     row.axle_box_acceleration =
@@ -487,8 +514,8 @@ namespace tread
         dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     solid.plastic().forget(wheel_body, dynamics.history);
     hub.motion = WheelHub::Motion();
-    hub.place(-1e-3 * scene.rolled_mm, 1e-3 * scene.radius_mm);
-    hub.motion.angular_velocity = scene.speed() / (1e-3 * scene.radius_mm);
+    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
+    hub.motion.angular_velocity = scene.speed() / scene.rolling_radius();
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
     next_history                     = -1e-3 * (scene.rolled_mm - scene.history_mm);
@@ -697,7 +724,7 @@ namespace tread
                                                 : (1. / dynamics.time_step) * contact.total_impulse();
     const double        normal = force[2];
     const double        creepage =
-      hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+      hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
     const double steps = std::max<double>(1., dynamics.n_steps);
 
     Summary             summary;

@@ -91,7 +91,8 @@ namespace tread
           }
         for (const double x :
              middles(positions[s] - 0.5 * p.pad_length, positions[s] + 0.5 * p.pad_length, p.points_along))
-          for (const double y : middles(-0.5 * p.pad_width, 0.5 * p.pad_width, p.points_across))
+          for (const double y :
+               middles(p.pad_middle - 0.5 * p.pad_width, p.pad_middle + 0.5 * p.pad_width, p.points_across))
             {
               const unsigned int end = add_end(foot, x, y, -1.);
               rail_ends[s].push_back(end);
@@ -194,7 +195,7 @@ namespace tread
 
   unsigned int Supports::add_probe(const double x)
   {
-    probes.push_back(add_end(facing(rail_body, -1.), x, 0., -1.));
+    probes.push_back(add_end(facing(rail_body, -1.), x, parameters.pad_middle, -1.));
     displacement.push_back(0.);
     velocity.push_back(0.);
     return probes.size() - 1;
@@ -432,7 +433,8 @@ namespace tread
             for (const auto &[node, share] : ends[spring.a - n_sleepers].nodes)
               candidates.push_back(node);
         const auto distance = [&](const unsigned int node) {
-          return std::abs(mesh.nodes[node][direction] - (direction == 0 ? positions[s] : 0.));
+          return std::abs(mesh.nodes[node][direction] -
+                          (direction == 0 ? positions[s] : parameters.pad_middle));
         };
         double nearest = std::numeric_limits<double>::max();
         for (const unsigned int node : candidates)

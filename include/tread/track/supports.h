@@ -16,6 +16,7 @@ namespace tread
     double       pad_stiffness = 1300e6;              ///< N/m
     double       pad_damping   = 45e3;                ///< N s/m
     double       pad_length = 0.15, pad_width = 0.14; ///< along and across the rail, m
+    double       pad_middle   = 0.;                   ///< y, m
     unsigned int points_along = 3, points_across = 4;
     /// With a second layer the pads rest on sleepers on ballast, else on the ground.
     bool   two_layers        = true;
