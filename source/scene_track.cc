@@ -122,7 +122,6 @@ namespace tread
     p.sleeper_mass      = sleeper_mass;
     p.ballast_stiffness = 1e6 * ballast_stiffness_MN_m;
     p.ballast_damping   = 1e3 * ballast_damping_kN_s_m;
-    p.gravity           = gravity;
     return p;
   }
 

@@ -232,7 +232,8 @@ namespace tread
 
   void ExplicitDynamics::attach_supports(Supports &s, const ElasticMaterial &rail_material)
   {
-    supports  = &s;
+    supports = &s;
+    s.set_gravity(parameters.gravity);
     rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
     rank_sums.resize(4 + s.n_points());
     set_node_levels();

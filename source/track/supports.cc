@@ -218,8 +218,7 @@ namespace tread
     const std::vector<double> u = of_nodes(x, true);
     std::copy(u.begin(), u.end(), displacement.begin() + n_sleepers);
     std::fill(velocity.begin(), velocity.end(), 0.);
-    std::vector<double> stiffness(n_sleepers, 0.),
-      load(n_sleepers, -parameters.sleeper_mass * parameters.gravity);
+    std::vector<double> stiffness(n_sleepers, 0.), load(n_sleepers, -parameters.sleeper_mass * gravity);
     for (const Spring &spring : springs)
       for (const int point : {spring.a, spring.b})
         if (point >= 0 && point < static_cast<int>(n_sleepers))
@@ -244,7 +243,7 @@ namespace tread
   void Supports::add_forces(Row *force)
   {
     for (double &f : sleeper_force)
-      f = -parameters.sleeper_mass * parameters.gravity;
+      f = -parameters.sleeper_mass * gravity;
     for (unsigned int i = 0; i < springs.size(); ++i)
       {
         const Spring &spring = springs[i];
@@ -404,8 +403,7 @@ namespace tread
   {
     double potential = 0.;
     for (unsigned int s = 0; s < n_sleepers; ++s)
-      potential +=
-        parameters.sleeper_mass * parameters.gravity * (displacement[s] - 0.5 * time_step * velocity[s]);
+      potential += parameters.sleeper_mass * gravity * (displacement[s] - 0.5 * time_step * velocity[s]);
     return potential;
   }
 

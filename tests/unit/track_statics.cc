@@ -53,7 +53,6 @@ int main(int argc, char **argv)
     return 1;
   tests::Check    check;
   TrackParameters track;
-  track.gravity       = 0.;
   track.pad_width     = .05;
   track.points_along  = 1;
   track.points_across = 2;
@@ -63,7 +62,6 @@ int main(int argc, char **argv)
   track.pad_stiffness = 43.5e6;
   statics(check, "one layer, mid-span", track, .3, .03);
   track           = TrackParameters();
-  track.gravity   = 0.;
   track.pad_width = .05;
   statics(check, "12 points", track, 0., .05);
   return check.exit_code();

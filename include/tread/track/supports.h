@@ -23,7 +23,6 @@ namespace tread
     double sleeper_mass      = 200.; ///< kg; of a rigid sleeper that moves in z only
     double ballast_stiffness = 45e6; ///< N/m
     double ballast_damping   = 32e3; ///< N s/m
-    double gravity           = 9.81; ///< m/s^2
   };
 
   /// A sleeper that is a body of the mesh: where the ballast lies under it.
@@ -60,6 +59,12 @@ namespace tread
 
     /// Watch the vertical displacement of the rail's foot at x. @returns its number. Collective.
     unsigned int add_probe(const double x);
+
+    /// Weight of rigid sleepers, m/s^2 along -z.
+    void set_gravity(const double value)
+    {
+      gravity = value;
+    }
 
     /// Take displacements from nodal positions; all at rest, rigid sleepers where forces balance. Collective.
     void set_at_rest(const Row *x);
@@ -165,7 +170,7 @@ namespace tread
     std::vector<double> displacement, velocity, sleeper_force;
     std::vector<double> spring_force; ///< by spring, of the last step: tension, N
     std::vector<double> damper_force; ///< the dampers' part of it
-    double              damper_work = 0.;
+    double              damper_work = 0., gravity = 0.;
 
     friend class Checkpoint;
   };
