@@ -138,10 +138,6 @@ int main(int argc, char **argv)
         {
           const std::string name   = pads + (x == 0. ? ", over a sleeper" : ", at mid-span");
           const auto        hammer = by_hammer(track, x), beam = by_beam(track, x);
-          if (argc > 1)
-            for (unsigned int k = 0; k < n_lines; ++k)
-              std::printf("%s,%g,%g,%g\n", name.c_str(), frequency(k), 1e9 * std::abs(hammer[k]),
-                          1e9 * std::abs(beam[k]));
           for (const Extreme &e : extremes)
             if (e.stiff_pads == (pad > 1e9) && e.x == x)
               check.relative(name + ": " + e.what + " (Hz)", extreme(hammer, e.from, e.to, e.sign),
