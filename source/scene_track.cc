@@ -20,6 +20,75 @@ namespace tread
   } // namespace
 
 
+  void Scene::declare_track()
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    using dealii::Patterns::Selection;
+    constexpr double          tiny = 1e-12; // for "above 0"
+    dealii::ParameterHandler &prm  = handler;
+    prm.enter_subsection("Track");
+    prm.add_parameter(
+      "Foundation", foundation,
+      "rigid: the rail's bottom is held. one-layer: it rests on pads on the ground. two-layer: pads, "
+      "sleepers "
+      "and "
+      "ballast. With either the rail's ends are planes of symmetry, and supports move vertically only.",
+      Selection("rigid|one-layer|two-layer"));
+    prm.add_parameter(
+      "Sleepers", sleepers,
+      "Of two layers. mass: they move in z and are rigid. solid: half sleepers of cells, the middle of the "
+      "track "
+      "being a plane of symmetry; they bend and cost cells.",
+      Selection("mass|solid"));
+    prm.add_parameter("Sleeper spacing (m)", sleeper_spacing_m,
+                      "Between the supports' middles. The rail must end between half a pad and half a "
+                      "spacing beyond its last supports.",
+                      Double(0.05, 10.));
+    prm.add_parameter("Support 0 (mm)", support_0_mm,
+                      "x of the support with number 0; the wheel stands over x = 0 at the solution instant. "
+                      "Numbers grow in rolling direction.",
+                      Double(-20000., 20000.));
+    prm.add_parameter("Pad stiffness (MN per m)", pad_stiffness_MN_m, "Of a whole support, vertical.",
+                      Double(tiny));
+    prm.add_parameter("Pad damping (kN s per m)", pad_damping_kN_s_m, "Of a whole support, vertical.",
+                      Double(0.));
+    prm.add_parameter("Pad length (mm)", pad_length_mm,
+                      "Along the rail. Longer pads hold the rail's slope as well.", Double(1., 2000.));
+    prm.add_parameter("Pad width (mm)", pad_width_mm,
+                      "Across the rail, at most the foot's. Wider pads resist the rail's rolling over more.",
+                      Double(1., 2000.));
+    prm.add_parameter("Points along", points_along,
+                      "A pad acts at this many points along the rail (so does the ballast under a solid "
+                      "sleeper). 1: the slope of the rail is free.",
+                      Integer(1, 50));
+    prm.add_parameter("Points across", points_across,
+                      "The same across the rail. 1: nothing keeps the rail from rolling over, so only for "
+                      "scenes symmetric to y = 0.",
+                      Integer(1, 50));
+    prm.add_parameter("Sleeper mass (kg)", sleeper_mass,
+                      "What one rail's support carries: half a sleeper. Sets the height of a solid one.",
+                      Double(tiny));
+    prm.add_parameter("Sleeper length (m)", sleeper_length_m, "Whole, of a solid sleeper.", Double(0.1, 10.));
+    prm.add_parameter("Sleeper width (mm)", sleeper_width_mm,
+                      "Along the rail, of a solid sleeper; not below the pad's length.", Double(1., 2000.));
+    prm.add_parameter("Rail distance (mm)", rail_distance_mm,
+                      "Between the middles of both rails, with solid sleepers: half of it to the track's "
+                      "middle, at y < 0.",
+                      Double(1., 5000.));
+    prm.add_parameter("Sleeper Young's modulus (GPa)", sleeper_young_modulus_GPa, "Of a solid sleeper.",
+                      Double(1e-3, 1e4));
+    prm.add_parameter("Sleeper Poisson's ratio", sleeper_poisson_ratio, "Of a solid sleeper.",
+                      Double(0., 0.49));
+    prm.add_parameter("Sleeper density (kg per m3)", sleeper_density, "Of a solid sleeper.", Double(1., 1e5));
+    prm.add_parameter("Ballast stiffness (MN per m)", ballast_stiffness_MN_m,
+                      "Of a whole support (one rail's), vertical.", Double(tiny));
+    prm.add_parameter("Ballast damping (kN s per m)", ballast_damping_kN_s_m,
+                      "Of a whole support (one rail's), vertical.", Double(0.));
+    prm.leave_subsection();
+  }
+
+
   void Scene::check_track() const
   {
     if (!has_supports())

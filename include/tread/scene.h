@@ -211,6 +211,7 @@ namespace tread
 
     void declare();
     void declare_defect();
+    void declare_track();
     void set(const std::string &setting);
     void check() const;
     void check_track() const;

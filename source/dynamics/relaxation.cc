@@ -143,6 +143,8 @@ namespace tread
                     x[i][2] += down;
               }
             mesh.distribute_hanging_nodes(x.data());
+            if (contact)
+              contact->refresh(x.data(), v.data(), 1.);
           }
 
         double residual = 0., scale = 0.;
