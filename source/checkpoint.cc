@@ -118,6 +118,16 @@ namespace tread
     bytes(archive, d.start_hub_gross);
     bytes(archive, d.last_damping_power);
     bytes(archive, d.last_damping_step);
+    bytes(archive, d.start_springs);
+    bytes(archive, d.start_dissipated);
+    if (s.supports)
+      {
+        byte_vector(archive, s.supports->displacement);
+        byte_vector(archive, s.supports->velocity);
+        bytes(archive, s.supports->damper_work);
+      }
+    bytes(archive, s.interval_start_time);
+    bytes(archive, s.interval_start_speed);
     bytes(archive, d.times);
     bytes(archive, s.wall_seconds);
     bytes(archive, s.hub); // plain numbers only

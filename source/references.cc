@@ -7,22 +7,13 @@
 
 namespace tread
 {
-  namespace
-  {
-    RailProfile rail_profile(const Scene &scene)
-    {
-      return scene.profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1();
-    }
-  } // namespace
-
-
   reference::RollingCase half_space_case(const Scene &scene,
                                          const double normal_force,
                                          const double traction_coefficient)
   {
     reference::RollingCase c;
-    c.curvature_x     = 0.5 / (1e-3 * scene.radius_mm);
-    c.curvature_y     = 0.5 / scene.crown_radius();
+    c.curvature_x     = 0.5 / scene.rolling_radius();
+    c.curvature_y     = 0.5 / scene.lateral_radius();
     c.normal_force    = normal_force;
     c.friction        = scene.friction;
     c.speed           = scene.speed();
@@ -30,10 +21,10 @@ namespace tread
     c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
     c.prescribe_force = true;
     c.traction_coefficient = traction_coefficient;
-    if (scene.rail_shape == "head")
-      c.gap = [curvature_x = c.curvature_x, profile = rail_profile(scene)](const double x, const double y) {
-        const double edge = 0.999 * profile.head_half_width(), y_on_head = std::clamp(y, -edge, edge);
-        return curvature_x * x * x - profile.z_top(y_on_head) + std::abs(y - y_on_head);
+    if (scene.rail_shape != "block" || scene.surfaces().tread_offset)
+      c.gap = [curvature_x = c.curvature_x, surfaces = scene.surfaces(), y_middle = scene.first_contact().y,
+               closed = scene.surfaces().gap(scene.first_contact().y)](const double x, const double y) {
+        return curvature_x * x * x + surfaces.gap(y_middle + y) - closed;
       };
     // 100 elements along a patch, or as many elements in a wide one: fine enough for creepages within 0.5 %
     // of the limit.

@@ -265,16 +265,39 @@ namespace tread
                       Double(1., 1000.));
     prm.add_parameter("Bore radius (mm)", bore_radius_mm, "Full wheel: the rigid axle begins here.",
                       Double(1., 2000.));
+    prm.add_parameter(
+      "Tread profile", tread,
+      "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
+      "mm "
+      "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
+      dealii::Patterns::Anything());
+    prm.add_parameter("Lateral position (mm)", lateral_position_mm,
+                      "y of the running circle over the rail's middle; the flange lies at y < 0.",
+                      Double(-30., 30.));
     declare_material(wheel_material);
     prm.leave_subsection();
 
     prm.enter_subsection("Rail");
     prm.add_parameter(
       "Shape", rail_shape,
-      "head: the head of a rail profile on a rigid foundation. block: a box with a cylindrical crown, "
-      "to compare with half-space theory.",
-      Selection("head|block"));
-    prm.add_parameter("Profile", profile, "Of a head.", Selection("54E1|60E1"));
+      "head: the head of a rail profile on a rigid foundation. full section: head, web and foot, held at the "
+      "foot. block: a box with a cylindrical crown, to compare with half-space theory.",
+      Selection("head|full section|block"));
+    prm.add_parameter("Profile", profile, "Of a head or a full section (EN 13674-1). UIC60 has that of 60E1.",
+                      Selection("54E1|60E1"));
+    prm.add_parameter(
+      "Measured head", measured_head,
+      "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
+      "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. Empty: a new rail.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Inclination", rail_inclination,
+      "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the same slope "
+      "touches it on the middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.",
+      Selection("none|1:40|1:20"));
+    prm.add_parameter("Length (mm)", rail_length_mm,
+                      "Of the whole rail, as much before the path as behind it. 0: as Margin says.",
+                      Double(0., 1e5));
     prm.add_parameter("Crown radius (mm)", crown_radius_mm, "Of a block. Sets the lateral curvature.",
                       Double(10., 1e6));
     prm.add_parameter("Block width (mm)", block_width_mm, "Lateral.", Double(1., 1000.));
@@ -285,6 +308,8 @@ namespace tread
                       Double(0., 20000.));
     declare_material(rail_material);
     prm.leave_subsection();
+
+    declare_defect();
 
     prm.enter_subsection("Mesh");
     prm.add_parameter(
@@ -305,6 +330,22 @@ namespace tread
       "Upper bound of the coarse blocks' edges, not below the finest cell; a rail head, being curved, "
       "takes 12.5 mm if that is less.",
       Double(0.1, 500.));
+    prm.add_parameter(
+      "Fine from (mm)", fine_from_mm,
+      "From here to 'Fine to', counted from the leading edge of the defect ('Defect/Position'), cells under "
+      "the path are cubes; elsewhere they are as long as 'Path cell' says. Both 0: the whole path.",
+      Double(-1e5, 1e5));
+    prm.add_parameter("Fine to (mm)", fine_to_mm, "See 'Fine from (mm)'.", Double(-1e5, 1e5));
+    prm.add_parameter("Path cell (mm)", path_cell_mm,
+                      "Largest length along the path of cells outside the fine zone; their cross-section "
+                      "stays as fine. Saves "
+                      "cells where the wheel only has to arrive, but the contact force ripples as it rolls "
+                      "over long cells: at "
+                      "most half a semi-axis. 0: the finest cell.",
+                      Double(0., 100.));
+    prm.add_parameter("Longest row (mm)", longest_row_mm,
+                      "Full section: largest length of the coarse cells of the rail beside the path.",
+                      Double(1., 1000.));
     prm.leave_subsection();
 
     prm.enter_subsection("Solid");
@@ -341,6 +382,8 @@ namespace tread
       Double(1e-15, 0.1));
     prm.add_parameter("Largest number of sweeps", max_sweeps, "In one time step.", Integer(1, 100000));
     prm.leave_subsection();
+
+    declare_track();
 
     prm.enter_subsection("Vehicle");
     prm.add_parameter("Sprung mass (kg)", sprung_mass,
@@ -408,6 +451,11 @@ namespace tread
     prm.add_parameter("History interval (mm)", history_mm, "Rolled distance between rows of history.csv.",
                       Double(1e-3));
     prm.add_parameter(
+      "Supports", recorded,
+      "Numbers of the supports whose forces history.csv has, separated by commas; empty: those "
+      "beside the path of the wheel.",
+      dealii::Patterns::List(Integer(-1000, 1000), 0, 1000));
+    prm.add_parameter(
       "Surface interval (mm)", surface_mm,
       "Rolled distance between pictures of the contact surface; 0: the solution instant only.", Double(0.));
     prm.add_parameter("Volume interval (mm)", volume_mm,
@@ -446,6 +494,7 @@ namespace tread
       }
     for (const std::string &setting : settings)
       set(setting);
+    make_shapes();
     check();
   }
 
@@ -527,7 +576,7 @@ namespace tread
     const auto            pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
                                                     {rail.young_modulus, rail.poisson_ratio});
     const auto            hertz =
-      reference::hertz_ellipse(500. / radius_mm, 0.5 / crown_radius(), pair.hertz_modulus(), static_load());
+      reference::hertz_ellipse(500. / radius_mm, 0.5 / lateral_radius(), pair.hertz_modulus(), static_load());
     const double a_mm = 1e3 * hertz.semi_axis_x, b_mm = 1e3 * hertz.semi_axis_y;
     require(finest_mm <= 0.45 * std::min(a_mm, b_mm),
             "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
@@ -559,26 +608,32 @@ namespace tread
             "'Wheel/Web thickness (mm)' " + number(web_thickness_mm) +
               " must be below 'Wheel/Rim width (mm)' " + number(rim_width_mm) +
               " and 'Wheel/Hub length (mm)' " + number(hub_length_mm));
-    require(rail_shape == "head" || crown_radius_mm > 0.5 * block_width_mm,
+    require(rail_shape != "block" || crown_radius_mm > 0.5 * block_width_mm,
             "'Rail/Crown radius (mm)' " + number(crown_radius_mm) +
               " must be above half of 'Rail/Block width (mm)', " + number(0.5 * block_width_mm));
-    require(rail_shape == "head" ||
-              block_height_mm > -1e3 * crown_height(5e-4 * block_width_mm, crown_radius()),
+    require(rail_shape != "block" ||
+              block_height_mm > -1e3 * crown_height(5e-4 * block_width_mm, 1e-3 * crown_radius_mm),
             "'Rail/Block height (mm)' " + number(block_height_mm) + " must be above the rise of the crown, " +
-              number(-1e3 * crown_height(5e-4 * block_width_mm, crown_radius())));
+              number(-1e3 * crown_height(5e-4 * block_width_mm, 1e-3 * crown_radius_mm)));
+
+    check_track();
 
     // Around the finest cells there is room for at least one more.
     require(coarsest_mm >= finest_mm, "'Mesh/Coarsest cell (mm)' " + number(coarsest_mm) +
                                         " must be at least 'Mesh/Finest cell (mm)' " + number(finest_mm));
     const double rail_half_width_mm =
       rail_shape == "block" ? 0.5 * block_width_mm : 1e3 * rail_profile().shoulder_length();
-    require(fine_half_width_mm <= rail_half_width_mm - finest_mm,
+    const double beside_mm = 1e3 * std::abs(first_contact().y);
+    require(beside_mm + fine_half_width_mm <= rail_half_width_mm - finest_mm,
             "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              " must be below the half width of the rail; at most " + number(rail_half_width_mm - finest_mm));
+              (beside_mm > 0. ? " about y = " + number(1e3 * first_contact().y) + " mm" : "") +
+              " must be below the half width of the rail; at most " +
+              number(rail_half_width_mm - finest_mm - beside_mm));
     const double wheel_half_width_mm = 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm);
-    require(fine_half_width_mm <= wheel_half_width_mm - finest_mm,
+    require(beside_mm + fine_half_width_mm <= wheel_half_width_mm - finest_mm,
             "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              " must be below half of the wheel's width; at most " + number(wheel_half_width_mm - finest_mm));
+              " must be below half of the wheel's width; at most " +
+              number(wheel_half_width_mm - finest_mm - beside_mm));
     const double thickness_mm =
       std::min(rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
                wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm);
@@ -589,13 +644,14 @@ namespace tread
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' fully-integrated");
+    check_surfaces();
     check_plasticity("Wheel", wheel_material,
                      wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm,
                      0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm), -sector_margin_mm,
                      rolled_mm + sector_margin_mm);
     check_plasticity("Rail", rail_material,
                      rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-                     rail_half_width_mm, -rolled_mm - rail_margin_mm, rail_margin_mm);
+                     rail_half_width_mm, 1e3 * rail_begin(), 1e3 * rail_end());
   }
 
 
@@ -655,18 +711,6 @@ namespace tread
     };
     const double slower = std::min(rayleigh(rail_material.si()), rayleigh(wheel_material.si()));
     return density_scale * speed() * speed() / (slower * slower);
-  }
-
-
-  RailProfile Scene::rail_profile() const
-  {
-    return profile == "54E1" ? RailProfile::rail_54e1() : RailProfile::rail_60e1();
-  }
-
-
-  double Scene::crown_radius() const
-  {
-    return rail_shape == "block" ? 1e-3 * crown_radius_mm : rail_profile().crown_radius();
   }
 
 

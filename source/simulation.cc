@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
 #include <tread/mesh/rail_body.h>
+#include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/wheel_body.h>
+#include <tread/mesh/whole_rail.h>
 #include <tread/output/checkpoint.h>
 #include <tread/output/summary.h>
 #include <tread/references.h>
@@ -40,6 +42,9 @@ namespace tread
       return text;
     }
 
+    /// Between foot and sleeper in pictures; the pads' springs have no length.
+    constexpr double pad_thickness = 0.01;
+
     std::vector<Body> make_bodies(const Scene &scene)
     {
       const double rolled = 1e-3 * scene.rolled_mm;
@@ -52,28 +57,49 @@ namespace tread
       on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
       on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.cells_per_level;
-      FineZone on_wheel        = on_rail;
-      on_wheel.x_begin         = -patch;
-      on_wheel.x_end           = rolled + patch;
+      on_rail.y_middle         = scene.first_contact().y;
+      if (scene.fine_from_mm < scene.fine_to_mm && scene.path_cell_mm > scene.finest_mm)
+        {
+          on_rail.cubes_begin  = 1e-3 * (scene.defect_position_mm + scene.fine_from_mm);
+          on_rail.cubes_end    = 1e-3 * (scene.defect_position_mm + scene.fine_to_mm);
+          on_rail.path_stretch = scene.path_cell_mm / scene.finest_mm;
+        }
+      FineZone on_wheel = on_rail;
+      on_wheel.cubes_begin += rolled;
+      on_wheel.cubes_end += rolled;
+      on_wheel.x_begin = -patch;
+      on_wheel.x_end   = rolled + patch;
 
       std::vector<Body> bodies;
-      const double      margin = 1e-3 * scene.rail_margin_mm;
+      const RailTop     top{scene.rail_height(), scene.inclination()};
       if (scene.rail_shape == "block")
         {
           RailBlock block;
-          block.x_begin            = -rolled - margin;
-          block.x_end              = margin;
+          block.x_begin            = scene.rail_begin();
+          block.x_end              = scene.rail_end();
+          block.top                = top;
           block.width              = 1e-3 * scene.block_width_mm;
           block.height             = 1e-3 * scene.block_height_mm;
-          block.crown_radius       = scene.crown_radius();
+          block.crown_radius       = 1e-3 * scene.crown_radius_mm;
           block.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
           bodies.push_back(make_rail_block(block, on_rail));
+        }
+      else if (scene.rail_shape == "full section")
+        {
+          WholeRail rail;
+          rail.x_begin            = scene.rail_begin();
+          rail.x_end              = scene.rail_end();
+          rail.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
+          rail.longest_row        = 1e-3 * scene.longest_row_mm;
+          rail.top                = top;
+          bodies.push_back(make_whole_rail(scene.rail_profile(), rail, on_rail));
         }
       else
         {
           RailHead head;
-          head.x_begin            = -rolled - margin;
-          head.x_end              = margin;
+          head.x_begin            = scene.rail_begin();
+          head.x_end              = scene.rail_end();
+          head.top                = top;
           head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
           bodies.push_back(make_rail_head(scene.rail_profile(), head, on_rail));
         }
@@ -82,6 +108,8 @@ namespace tread
         {
           WheelSector sector;
           sector.center_x           = -rolled;
+          sector.lift               = scene.first_contact().lift;
+          sector.tread_offset       = scene.surfaces().tread_offset;
           sector.radius             = 1e-3 * scene.radius_mm;
           sector.thickness          = 1e-3 * scene.sector_thickness_mm;
           sector.width              = 1e-3 * scene.sector_width_mm;
@@ -94,6 +122,8 @@ namespace tread
         {
           FullWheel wheel;
           wheel.center_x           = -rolled;
+          wheel.lift               = scene.first_contact().lift;
+          wheel.tread_offset       = scene.surfaces().tread_offset;
           wheel.radius             = 1e-3 * scene.radius_mm;
           wheel.rim_inner_radius   = 1e-3 * scene.rim_inner_radius_mm;
           wheel.rim_width          = 1e-3 * scene.rim_width_mm;
@@ -105,7 +135,41 @@ namespace tread
           bodies.push_back(make_full_wheel(wheel, on_wheel));
         }
       bodies.back().name = "wheel";
+      if (scene.has_solid_sleepers())
+        for (const double x : scene.support_positions())
+          {
+            SleeperBox box;
+            box.x                  = x;
+            box.width              = 1e-3 * scene.sleeper_width_mm;
+            box.y_begin            = -0.5e-3 * scene.rail_distance_mm;
+            box.y_end              = box.y_begin + 0.5 * scene.sleeper_length_m;
+            box.top                = scene.base_middle()[2] - pad_thickness;
+            box.height             = scene.solid_sleeper_height();
+            box.coarsest_cell_size = std::min(box.height / 3., 0.06);
+            bodies.push_back(make_sleeper(box));
+          }
       return bodies;
+    }
+
+    std::vector<ElasticMaterial> materials(const Scene &scene)
+    {
+      std::vector<ElasticMaterial> list{scene.rail_material.si(), scene.wheel_material.si()};
+      if (scene.has_solid_sleepers())
+        list.insert(
+          list.end(), scene.support_positions().size(),
+          {1e9 * scene.sleeper_young_modulus_GPa, scene.sleeper_poisson_ratio, scene.sleeper_density});
+      return list;
+    }
+
+    std::vector<SolidSleeper> solid_sleepers(const Scene &scene)
+    {
+      std::vector<SolidSleeper> list;
+      const double              middle = -0.5e-3 * scene.rail_distance_mm;
+      if (scene.has_solid_sleepers())
+        for (unsigned int i = 0; i < scene.support_positions().size(); ++i)
+          list.push_back(
+            {2 + i, middle, middle + 0.5 * scene.sleeper_length_m, 1e-3 * scene.sleeper_width_mm});
+      return list;
     }
 
     SolidParameters solid_parameters(const Scene &scene)
@@ -135,10 +199,11 @@ namespace tread
           const auto add = [&](const double begin, const double end, const double depth,
                                const double yield_MPa, const double tangent_GPa) {
             zones.push_back(
-              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa), [=](const dealii::Point<3> &p) {
-                 const double dx = p[0] + rolled, dz = p[2] - radius;
+              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa),
+               [=, &scene](const dealii::Point<3> &p) {
+                 const double dx = p[0] + rolled, dz = p[2] - scene.axle_height();
                  const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
-                 const double below = wheel ? radius - std::hypot(dx, dz) : -p[2];
+                 const double below = wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
                  return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
                }});
           };
@@ -177,6 +242,12 @@ namespace tread
       return p;
     }
 
+    /// x half a spacing ahead of a support; where the rail ends before it, its end.
+    double mid_span_beside(const Scene &scene, const int number)
+    {
+      return std::min(1e-3 * scene.support_0_mm + (number + 0.5) * scene.sleeper_spacing_m, scene.rail_end());
+    }
+
     ContactParameters contact_parameters(const Scene &scene)
     {
       ContactParameters p;
@@ -191,10 +262,7 @@ namespace tread
     : scene(scene)
     , comm(comm)
     , mesh(comm, make_bodies(scene), scene.time_levels - 1)
-    , solid(mesh,
-            {scene.rail_material.si(), scene.wheel_material.si()},
-            solid_parameters(scene),
-            plastic_zones(scene))
+    , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
@@ -203,10 +271,25 @@ namespace tread
     , next_surface(scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300)
     , next_volume(scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300)
   {
-    const double radius = 1e-3 * scene.radius_mm, omega = scene.speed() / radius;
-    hub.place(-1e-3 * scene.rolled_mm, radius);
+    const double omega = scene.speed() / scene.rolling_radius();
+    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
     hub.motion.angular_velocity = omega;
-    dynamics.fix_nodes(dynamics.support_nodes(rail_body));
+    if (scene.has_supports())
+      {
+        supports = std::make_unique<Supports>(mesh, rail_body, scene.support_positions(), scene.track(),
+                                              solid_sleepers(scene));
+        for (const int number : scene.recorded_supports())
+          supports->add_probe(mid_span_beside(scene, number));
+        dynamics.attach_supports(*supports, scene.rail_material.si());
+        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
+        dynamics.guide_nodes(supports->guided_nodes(1), 1);
+        for (const SolidSleeper &sleeper : supports->solid_sleepers)
+          dynamics.guide_nodes(dynamics.boundary_nodes(sleeper.body, Boundary::end), 1);
+        if (!supports->solid_sleepers.empty())
+          dynamics.guide_nodes(supports->guided_nodes(0), 0);
+      }
+    else
+      dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     dynamics.attach_hub(hub, wheel_body, omega);
     dynamics.attach_contact(contact);
   }
@@ -270,7 +353,7 @@ namespace tread
 
   void Simulation::prepare_start(Progress &progress)
   {
-    const double radius = 1e-3 * scene.radius_mm;
+    const double radius = scene.rolling_radius();
     if (scene.creepage == "predicted")
       {
         predicted =
@@ -298,9 +381,13 @@ namespace tread
     hub.drive                   = Drive::creepage;
     hub.motion.velocity_x       = scene.speed();
     hub.motion.angular_velocity = scene.speed() / radius * (1. + target_creepage + free_creepage);
+    if (supports)
+      dynamics.set_track_velocities();
     dynamics.set_wheel_velocities();
     contact.scale_impulses(scene.courant_number * dynamics.critical_time_step());
     dynamics.start();
+    interval_start_time  = dynamics.time;
+    interval_start_speed = hub.motion.velocity_z;
   }
 
 
@@ -310,8 +397,9 @@ namespace tread
         position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
       {
         hub.drive        = Drive::torque;
-        hub.drive_torque = scene.traction_coefficient * scene.static_load() * hub.motion.z;
-        torque_released  = true;
+        hub.drive_torque = scene.traction_coefficient * scene.static_load() *
+                           (hub.motion.z + scene.rolling_radius() - scene.axle_height());
+        torque_released = true;
       }
   }
 
@@ -333,18 +421,37 @@ namespace tread
   }
 
 
+  std::vector<SupportRecord> Simulation::support_records() const
+  {
+    std::vector<SupportRecord> records;
+    for (const int number : scene.recorded_supports())
+      {
+        const unsigned int s = number - scene.first_support();
+        records.push_back({supports->force(s, Supports::pad), supports->force(s, Supports::ballast),
+                           supports->largest_pad_pressure(s), supports->rail_displacement(s),
+                           supports->probe_displacement(records.size())});
+      }
+    return records;
+  }
+
+
   void Simulation::end_interval(RunFolder &folder)
   {
     HistoryRow row;
     row.time     = dynamics.time;
     row.position = position();
     row.force    = (1. / interval_steps) * interval_force;
-    row.creepage = hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+    row.creepage = hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
     row.patch    = measure(patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
     row.energy   = dynamics.ledger();
+    row.axle_box_acceleration =
+      (hub.motion.velocity_z - interval_start_speed) / (dynamics.time - interval_start_time);
+    row.supports = support_records();
     folder.append(row);
-    interval_force = Row{};
-    interval_steps = 0;
+    interval_start_time  = dynamics.time;
+    interval_start_speed = hub.motion.velocity_z;
+    interval_force       = Row{};
+    interval_steps       = 0;
   }
 
 
@@ -407,8 +514,8 @@ namespace tread
         dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     solid.plastic().forget(wheel_body, dynamics.history);
     hub.motion = WheelHub::Motion();
-    hub.place(-1e-3 * scene.rolled_mm, 1e-3 * scene.radius_mm);
-    hub.motion.angular_velocity = scene.speed() / (1e-3 * scene.radius_mm);
+    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
+    hub.motion.angular_velocity = scene.speed() / scene.rolling_radius();
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
     next_history                     = -1e-3 * (scene.rolled_mm - scene.history_mm);
@@ -483,7 +590,7 @@ namespace tread
           }
         folder.remove_results();
       }
-    folder.open_history(resume, dynamics.time);
+    folder.open_history(resume, dynamics.time, scene.recorded_supports());
 
     std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
     const std::uint64_t first_step = dynamics.n_steps;
@@ -617,7 +724,7 @@ namespace tread
                                                 : (1. / dynamics.time_step) * contact.total_impulse();
     const double        normal = force[2];
     const double        creepage =
-      hub.motion.angular_velocity * 1e-3 * scene.radius_mm / scene.speed() - 1. - free_creepage;
+      hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
     const double steps = std::max<double>(1., dynamics.n_steps);
 
     Summary             summary;

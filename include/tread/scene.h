@@ -2,12 +2,16 @@
 #ifndef tread_scene_h
 #define tread_scene_h
 
+#include <tread/geometry/defect.h>
 #include <tread/geometry/rail_profile.h>
+#include <tread/geometry/running_surfaces.h>
 #include <tread/material/elastic.h>
 #include <tread/material/plastic.h>
+#include <tread/track/supports.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,14 +67,24 @@ namespace tread
     double      sector_thickness_mm = 60., sector_width_mm = 120., sector_margin_mm = 60.;
     double      rim_inner_radius_mm = 380., rim_width_mm = 135., web_thickness_mm = 52.3;
     double      hub_outer_radius_mm = 140., hub_length_mm = 180., bore_radius_mm = 92.5;
+    std::string tread               = "cylinder";
+    double      lateral_position_mm = 0.;
     Material    wheel_material;
     // Rail
-    std::string rail_shape = "head", profile = "54E1";
+    std::string rail_shape = "head", profile = "54E1", rail_inclination = "none", measured_head;
+    double      rail_length_mm  = 0.;
     double      crown_radius_mm = 300., block_width_mm = 120., block_height_mm = 60., rail_margin_mm = 60.;
     Material    rail_material;
+    // Defect
+    std::string defect_shape       = "none", defect_file;
+    double      defect_position_mm = 0., defect_length_mm = 0., defect_width_mm = 0., defect_depth_mm = 0.,
+           defect_lateral_mm = 0., leading_rounding_mm = 0., trailing_rounding_mm = 0.;
+    std::string defect_lateral_law = "parabola";
+    bool        defect_reversed    = false;
     // Mesh
     double       finest_mm = 0.63, fine_half_width_mm = 8., cells_per_level = 2., coarsest_mm = 22.;
-    unsigned int fine_layers = 2;
+    unsigned int fine_layers  = 2;
+    double       fine_from_mm = 0., fine_to_mm = 0., path_cell_mm = 0., longest_row_mm = 40.;
     // Solid
     std::string element          = "one-point";
     double hourglass_coefficient = 1., damping_steps = 0.1, mass_damping = 0., linear_bulk_viscosity = 0.,
@@ -78,6 +92,14 @@ namespace tread
     // Contact
     double       friction = 0.5, contact_tolerance = 1e-7;
     unsigned int max_sweeps = 200;
+    // Track
+    std::string foundation = "rigid", sleepers = "mass";
+    double      sleeper_spacing_m = 0.6, support_0_mm = 0.;
+    double pad_stiffness_MN_m = 1300., pad_damping_kN_s_m = 45., pad_length_mm = 150., pad_width_mm = 140.;
+    unsigned int points_along = 3, points_across = 4;
+    double sleeper_mass = 200., sleeper_length_m = 2.52, sleeper_width_mm = 250., rail_distance_mm = 1500.;
+    double sleeper_young_modulus_GPa = 38.4, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
+    double ballast_stiffness_MN_m = 45., ballast_damping_kN_s_m = 32.;
     // Vehicle
     double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500.,
            gravity = 9.81;
@@ -94,6 +116,7 @@ namespace tread
     unsigned int start_iterations = 20000;
     // Output
     std::string output = "results";
+    std::string recorded;
     double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., checkpoint_minutes = 10.;
     bool   write_volume = true;
 
@@ -117,15 +140,85 @@ namespace tread
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
 
-    /// Of a rail head.
+    bool has_supports() const
+    {
+      return foundation != "rigid";
+    }
+    bool has_solid_sleepers() const
+    {
+      return foundation == "two-layer" && sleepers == "solid";
+    }
+    TrackParameters track() const;
+    /// x of the supports on the rail, m, and the number of the first; support 0 is where the scene says.
+    std::vector<double> support_positions() const;
+    int                 first_support() const;
+    /// The middle of the rail's base at x = 0.
+    dealii::Point<3> base_middle() const;
+    /// That gives it its mass, m.
+    double solid_sleeper_height() const;
+    /// Numbers of the supports in history.csv: those asked for, or those beside the path of the wheel.
+    std::vector<int> recorded_supports() const;
+
+    /// Of a rail head or a full section.
     RailProfile rail_profile() const;
-    /// Lateral radius of the rail where it is touched, m.
-    double crown_radius() const;
+    /// Ends of the rail, m.
+    double rail_begin() const;
+    double rail_end() const;
+    /// The top leans to the gauge side, y < 0, by this, rad.
+    double inclination() const;
+    /// Position in the rail's own axes, which lean with it.
+    dealii::Point<3> in_rail_axes(const dealii::Point<3> &p) const;
+
+    /// Surfaces and where they touch first; made by read().
+    const RunningSurfaces &surfaces() const
+    {
+      return shapes->surfaces;
+    }
+    /// Height over the rail's profile, in its own axes: measured head and defect; null: none. @see RailTop
+    const std::function<double(double, double)> &rail_height() const
+    {
+      return shapes->rail_height;
+    }
+    /// Null: none.
+    const std::shared_ptr<const Defect> &defect() const
+    {
+      return shapes->defect;
+    }
+    /// Where the smooth rail is touched, and how the wheel stands at the start.
+    const FirstContact &first_contact() const
+    {
+      return shapes->contact;
+    }
+    /// Height of the axle at the start, m.
+    double axle_height() const
+    {
+      return 1e-3 * radius_mm + first_contact().lift;
+    }
+    /// Of the wheel where it touches, m.
+    double rolling_radius() const;
+    /// Lateral radius of the gap between the surfaces where they touch, m.
+    double lateral_radius() const;
 
   private:
+    /// What follows from the files and shapes that the parameters name.
+    struct Shapes
+    {
+      RunningSurfaces                       surfaces;
+      std::function<double(double, double)> rail_height;
+      std::shared_ptr<const Defect>         defect;
+      FirstContact                          contact;
+    };
+
     void declare();
+    void declare_defect();
+    void declare_track();
     void set(const std::string &setting);
     void check() const;
+    void check_track() const;
+    /// @throws SceneError
+    void                          make_shapes();
+    std::shared_ptr<const Defect> make_defect() const;
+    void                          check_surfaces() const;
     /// @param thickness_mm and the rest: how far the mesh of the body reaches from its surface, its middle
     /// and along the path. @throws SceneError
     void check_plasticity(const std::string &section,
@@ -136,6 +229,7 @@ namespace tread
                           const double       end_mm) const;
 
     mutable dealii::ParameterHandler handler;
+    std::shared_ptr<const Shapes>    shapes;
   };
 } // namespace tread
 

@@ -15,6 +15,9 @@
 
 #include <mpi.h>
 
+#include <memory>
+#include <vector>
+
 
 namespace tread
 {
@@ -32,16 +35,17 @@ namespace tread
     bool run(const std::string &folder, const bool resume);
 
   private:
-    void   prepare_start(Progress &progress);
-    void   set_drive();
-    void   add_to_interval();
-    void   end_interval(RunFolder &folder);
-    void   take_solution(RunFolder &folder);
-    void   end_passage(RunFolder &folder);
-    void   next_wheel(Progress &progress);
-    void   finish(RunFolder &folder, const bool completed);
-    bool   interrupted() const;
-    double position() const
+    void                       prepare_start(Progress &progress);
+    void                       set_drive();
+    std::vector<SupportRecord> support_records() const;
+    void                       add_to_interval();
+    void                       end_interval(RunFolder &folder);
+    void                       take_solution(RunFolder &folder);
+    void                       end_passage(RunFolder &folder);
+    void                       next_wheel(Progress &progress);
+    void                       finish(RunFolder &folder, const bool completed);
+    bool                       interrupted() const;
+    double                     position() const
     {
       return hub.motion.x;
     }
@@ -50,21 +54,23 @@ namespace tread
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 
-    const Scene             &scene;
-    MPI_Comm                 comm;
-    reference::RollingResult predicted; ///< half-space answer before the run
-    Mesh                     mesh;
-    Solid                    solid;
-    WheelHub                 hub;
-    ExplicitDynamics         dynamics;
-    Contact                  contact;
+    const Scene              &scene;
+    MPI_Comm                  comm;
+    reference::RollingResult  predicted; ///< half-space answer before the run
+    Mesh                      mesh;
+    Solid                     solid;
+    WheelHub                  hub;
+    ExplicitDynamics          dynamics;
+    Contact                   contact;
+    std::unique_ptr<Supports> supports; ///< none: the rail's bottom is held
 
     double target_creepage = 0., free_creepage = 0., end_position;
     bool   torque_released = false, solution_taken = false;
 
     // Sums since the last row of the history.
     Row          interval_force{};
-    unsigned int interval_steps = 0;
+    unsigned int interval_steps      = 0;
+    double       interval_start_time = 0., interval_start_speed = 0.; ///< of the hub, vertical: m/s
     double       next_history, next_surface, next_volume;
 
     PatchAverage           average; ///< while rolling one cell about the solution instant

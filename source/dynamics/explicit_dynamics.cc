@@ -97,6 +97,9 @@ namespace tread
                   marks[i][0] = 1.;
             for (const unsigned int i : hub_nodes)
               marks[i][0] = 1.;
+            if (supports)
+              for (const unsigned int i : supports->nodes())
+                marks[i][0] = 1.;
           }
         mesh.condense_hanging_nodes(marks.data());
         mesh.shared_nodes.sum(marks.data());
@@ -157,12 +160,27 @@ namespace tread
   }
 
 
-  std::vector<unsigned int> ExplicitDynamics::support_nodes(const unsigned int body) const
+  void ExplicitDynamics::guide_nodes(const std::vector<unsigned int> &nodes, const unsigned int direction)
   {
-    // A rank may hold a support node without holding a support face: ask all through the sum.
+    for (const unsigned int i : nodes)
+      guided.emplace_back(i, direction);
+  }
+
+
+  void ExplicitDynamics::hold_guided_nodes(NodalField &field) const
+  {
+    for (const auto &[node, direction] : guided)
+      field[node][direction] = 0.;
+  }
+
+
+  std::vector<unsigned int> ExplicitDynamics::boundary_nodes(const unsigned int body,
+                                                             const Boundary     boundary) const
+  {
+    // A rank may hold a node of the boundary without holding a face of it: ask all through the sum.
     NodalField marks(mesh.nodes.size(), Row{});
     for (const Mesh::Face &face : mesh.faces)
-      if (face.body == body && face.boundary == Boundary::support)
+      if (face.body == body && face.boundary == boundary)
         for (const unsigned int i : face.nodes)
           marks[i][0] = 1.;
     mesh.shared_nodes.sum(marks.data());
@@ -189,7 +207,7 @@ namespace tread
         carried[i] = true;
         hub_reference.push_back(x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.});
       }
-    hub_sums.resize(4);
+    rank_sums.resize(4 + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
 
     std::vector<double> sums(4, 0.);
@@ -213,6 +231,16 @@ namespace tread
   }
 
 
+  void ExplicitDynamics::attach_supports(Supports &s, const ElasticMaterial &rail_material)
+  {
+    supports = &s;
+    s.set_gravity(parameters.gravity);
+    rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
+    rank_sums.resize(4 + s.n_points());
+    set_node_levels();
+  }
+
+
   std::vector<double> ExplicitDynamics::free_inverse_masses() const
   {
     std::vector<double> inverse(mesh.nodes.size(), 0.);
@@ -231,10 +259,31 @@ namespace tread
     for (unsigned int level = 0; level <= max_level(); ++level)
       highest = std::max(highest, std::ldexp(highest_frequency(level), level));
     // Three digits, rounded up: the same step on any number of ranks.
-    const double digit = std::pow(10., std::floor(std::log10(highest)) - 2.);
-    highest            = digit * std::ceil(highest / digit);
-    // With forces at x + beta v of half a step back: dt^2 omega^2 (1 + 2 beta/dt) <= 4.
-    critical_step = 2. / (highest * std::sqrt(1. + 2. * parameters.damping_steps));
+    const auto rounded = [](const double value) {
+      const double digit = std::pow(10., std::floor(std::log10(value)) - 2.);
+      return value > 0. ? digit * std::ceil(value / digit) : 0.;
+    };
+    // Forces at x + beta v of half a step back, dampers with v of half a step back: dt^2 K + 2 dt C <= 4 for
+    // the largest eigenvalues of M^-1 K (1 + 2 beta/dt) and M^-1 C, or their bounds by row sums.
+    highest  = rounded(highest);
+    double K = highest * highest * (1. + 2. * parameters.damping_steps), C = 0.;
+    if (supports)
+      {
+        const std::vector<double> inverse = free_inverse_masses();
+        NodalField                rows(x.size(), Row{});
+        supports->add_row_sums(rows.data());
+        mesh.shared_nodes.sum(rows.data());
+        double of_springs, of_dampers;
+        supports->sleeper_row_sums(of_springs, of_dampers);
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          {
+            of_springs = std::max(of_springs, inverse[i] * rows[i][0]);
+            of_dampers = std::max(of_dampers, inverse[i] * rows[i][1]);
+          }
+        K += rounded(dealii::Utilities::MPI::max(of_springs, mesh.comm));
+        C = rounded(dealii::Utilities::MPI::max(of_dampers, mesh.comm));
+      }
+    critical_step = 4. / (C + std::sqrt(C * C + 4. * K));
     return critical_step;
   }
 
@@ -321,6 +370,27 @@ namespace tread
   }
 
 
+  void ExplicitDynamics::set_track_velocities()
+  {
+    // How the deflection changes while the load moves by a small way, over the time that takes.
+    constexpr double      way = 1e-3; // m
+    const double          x = hub->motion.x, load = hub->static_force();
+    const RailBeam::Field before = rail_beam->balance(x - way, load),
+                          after  = rail_beam->balance(x + way, load);
+    const double rate            = 0.5 * hub->motion.velocity_x / way;
+    rail_beam->add(after, rate, v.data());
+    rail_beam->add(before, -rate, v.data());
+    hub->motion.velocity_z +=
+      rate * (after.rail.deflection(x + way) - before.rail.deflection(x - way)).real();
+    hold_guided_nodes(v);
+    mesh.distribute_hanging_nodes(v.data());
+    std::vector<double> sleepers(after.sleepers.size());
+    for (unsigned int s = 0; s < sleepers.size(); ++s)
+      sleepers[s] = rate * (after.sleepers[s] - before.sleepers[s]);
+    supports->set_velocities(v.data(), sleepers);
+  }
+
+
   void ExplicitDynamics::set_inertia()
   {
     slow_shares_known = false;
@@ -335,6 +405,7 @@ namespace tread
         contact->set_inverse_masses(inverse_mass);
         contact->refresh(x.data(), v.data(), time_step);
       }
+    hold_guided_nodes(v);
     const double beta = parameters.damping_steps * time_step;
     for (unsigned int i = 0; i < x.size(); ++i)
       x_damped[i] = x[i] + beta * v[i];
@@ -352,6 +423,8 @@ namespace tread
     start_strain       = strain_energy();
     start_hub_work     = hub ? hub->external_work() : 0.;
     start_hub_gross    = hub ? hub->gross_work() : 0.;
+    start_springs      = supports ? supports->spring_energy() : 0.;
+    start_dissipated   = supports ? supports->dissipated() : 0.;
     last_damping_step  = n_steps;
     last_damping_power = 0.;
     sample_damping();
@@ -436,6 +509,8 @@ namespace tread
         }
     };
     add_forces_due(due);
+    if (supports)
+      supports->add_forces(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
     times.communication += watch.lap();
@@ -486,13 +561,14 @@ namespace tread
           }
       });
     totals.damping += time_step * damping_power;
+    hold_guided_nodes(force);
 
     if (hub)
       {
-        add_hub_sums(hub_sums);
+        add_hub_sums(rank_sums);
         for (unsigned int d = 0; d < 3; ++d)
-          hub_sums[d] += damping_sum[d];
-        hub_sums[3] += damping_moment;
+          rank_sums[d] += damping_sum[d];
+        rank_sums[3] += damping_moment;
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's motion is summed here.
         const double work = time_step * (compensation_sum[0] * hub->motion.velocity_x +
@@ -500,6 +576,10 @@ namespace tread
         totals.external_work += work;
         totals.gross_work += std::abs(work);
       }
+    else
+      std::fill(rank_sums.begin(), rank_sums.end(), 0.);
+    if (supports)
+      supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + 4);
     times.nodes += watch.lap();
 
     if (contact)
@@ -509,7 +589,7 @@ namespace tread
             contact->refresh(x.data(), v.data(), time_step);
             times.search += watch.lap();
           }
-        contact->predict(v.data(), force.data(), time_step, hub_sums);
+        contact->predict(v.data(), force.data(), time_step, rank_sums);
         times.communication += watch.lap();
         contact->solve(time_step, force.data());
         const ContactWork work = contact->last_work();
@@ -517,10 +597,12 @@ namespace tread
         totals.contact += work.normal;
         times.contact += watch.lap();
       }
-    else if (hub)
-      dealii::Utilities::MPI::sum(hub_sums, mesh.comm, hub_sums);
+    else if (!rank_sums.empty())
+      dealii::Utilities::MPI::sum(rank_sums, mesh.comm, rank_sums);
+    if (supports)
+      supports->advance(rank_sums.data() + 4, time_step);
     if (hub)
-      hub->advance(Row{hub_sums[0], hub_sums[1], hub_sums[2], 0.}, hub_sums[3], time_step);
+      hub->advance(Row{rank_sums[0], rank_sums[1], rank_sums[2], 0.}, rank_sums[3], time_step);
 
     const double beta = parameters.damping_steps * time_step;
     double       work = 0., gross = 0.;
@@ -584,6 +666,8 @@ namespace tread
     NodalField cell_force(x.size(), Row{});
     solid.add_internal_forces(x.data(), v.data(), cell_force.data(), history);
     mesh.condense_hanging_nodes(cell_force.data());
+    if (supports)
+      supports->add_spring_forces(cell_force.data());
     double energy = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       {
@@ -592,6 +676,8 @@ namespace tread
           energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
       }
     energy = dealii::Utilities::MPI::sum(energy, mesh.comm);
+    if (supports)
+      energy += supports->sleeper_kinetic_energy(time_step);
     return hub ? energy + hub->kinetic_energy(0.5 * time_step) : energy;
   }
 
@@ -624,7 +710,8 @@ namespace tread
               potential += 0.5 * compensation * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
             }
         }
-    return dealii::Utilities::MPI::sum(potential, mesh.comm);
+    potential = dealii::Utilities::MPI::sum(potential, mesh.comm);
+    return supports ? potential + supports->weight_potential(time_step) : potential;
   }
 
 
@@ -644,6 +731,11 @@ namespace tread
       {
         now.external_work += hub->external_work() - start_hub_work;
         now.gross_work += hub->gross_work() - start_hub_gross;
+      }
+    if (supports)
+      {
+        now.springs = supports->spring_energy() - start_springs;
+        now.damping += supports->dissipated() - start_dissipated;
       }
     now.kinetic               = kinetic_energy() - start_kinetic;
     const StrainEnergy energy = strain_energy();

@@ -27,6 +27,13 @@ namespace tread
             ratio * ratio * parameters.density_scale * solid.cell_masses()[c][a];
       }
     mesh.condense_hanging_nodes(mass.data());
+    if (supports)
+      {
+        NodalField rows(x.size(), Row{});
+        supports->add_row_sums(rows.data());
+        for (unsigned int i = 0; i < x.size(); ++i)
+          mass[i][0] += rows[i][0] / (highest_frequency * highest_frequency);
+      }
     mesh.shared_nodes.sum(mass.data());
     std::vector<double> inverse(x.size(), 0.);
     double              hub_mass = 0.;
@@ -62,7 +69,7 @@ namespace tread
     const NodalField       at_rest(x.size(), Row{});
     NodalField             previous(x.size(), Row{});
     double                 keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
-    constexpr unsigned int interval       = 20;
+    constexpr unsigned int interval = 20, steps_between_beams = 200;
     unsigned int           iteration      = 1;
     double                 first_residual = 0.; // N
     for (; iteration <= max_iterations; ++iteration)
@@ -70,6 +77,11 @@ namespace tread
         std::fill(force.begin(), force.end(), Row{});
         solid.add_internal_forces(x.data(), at_rest.data(), force.data(), history);
         mesh.condense_hanging_nodes(force.data());
+        if (supports)
+          {
+            supports->set_at_rest(x.data());
+            supports->add_forces(force.data());
+          }
         mesh.shared_nodes.sum(force.data());
 
         const bool measure  = iteration == 1 || iteration % interval == 0,
@@ -98,22 +110,49 @@ namespace tread
             v[i] *= keep;
             force[i] += body_force[i];
           }
+        hold_guided_nodes(force);
         if (hub)
-          add_hub_sums(hub_sums);
+          add_hub_sums(rank_sums);
         if (contact)
           {
             if (contact->refresh_due())
               contact->refresh(x.data(), v.data(), 1.);
-            contact->predict(v.data(), force.data(), 1., hub_sums);
+            contact->predict(v.data(), force.data(), 1., rank_sums);
             contact->solve(1., force.data());
           }
         else if (hub)
-          sum(hub_sums, mesh.comm, hub_sums);
+          sum(rank_sums, mesh.comm, rank_sums);
+
+        // The rail as a beam follows what is out of balance along it, the wheel with all of its load
+        // included.
+        if (supports && iteration % steps_between_beams == 1)
+          {
+            double on_wheel_nodes = 0.;
+            for (unsigned int i = 0; i < x.size(); ++i)
+              if (on_wheel[i] && !carried[i] && mesh.shared_nodes.is_owned(i))
+                on_wheel_nodes += force[i][2];
+            on_wheel_nodes              = sum(on_wheel_nodes, mesh.comm);
+            const double          place = hub ? hub->motion.x : supports->positions[0];
+            const RailBeam::Field field =
+              rail_beam->balance(force.data(), place, hub ? on_wheel_nodes + rank_sums[2] + hub_load : 0.);
+            rail_beam->add(field, 1., x.data());
+            const double down = field.rail.deflection(place).real();
+            if (hub)
+              {
+                hub->motion.z += down;
+                for (unsigned int i = 0; i < x.size(); ++i)
+                  if (on_wheel[i])
+                    x[i][2] += down;
+              }
+            mesh.distribute_hanging_nodes(x.data());
+            if (contact)
+              contact->refresh(x.data(), v.data(), 1.);
+          }
 
         double residual = 0., scale = 0.;
         if (hub)
           {
-            const double imbalance = hub_sums[2] + hub_load;
+            const double imbalance = rank_sums[2] + hub_load;
             hub_velocity           = keep * hub_velocity + imbalance / hub_mass;
             hub->motion.z += hub_velocity;
             residual = std::abs(imbalance);
@@ -158,6 +197,8 @@ namespace tread
         "no equilibrium at the start within " + std::to_string(max_iterations) +
         " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
     solid.update_internal_forces(x.data(), at_rest.data(), force.data(), history);
+    if (supports)
+      supports->set_at_rest(x.data());
     std::fill(force.begin(), force.end(), Row{});
     std::fill(v.begin(), v.end(), Row{});
     if (hub)

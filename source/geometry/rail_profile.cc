@@ -269,17 +269,33 @@ namespace tread
     // Clockwise: the section on the right, so outer corners turn right and inner ones left.
     outline_.assign(head_.begin(), head_.begin() + 3);
     Outline outline(flank_begin, flank);
+
+    double before_flank = 0.;
+    for (const OutlinePiece &piece : outline_)
+      before_flank += piece.length();
+    const auto length_to_last = [&](const double share_of_last) {
+      double length = before_flank;
+      for (const OutlinePiece &piece : outline.pieces)
+        length += piece.length();
+      return length - (1. - share_of_last) * outline.pieces.back().length();
+    };
+
     outline.turn(underside, -1e-3 * d.flank_end_radius, flank_end);
+    corners_.head = length_to_last(0.5);
     outline.turn(web_upper, 1e-3 * d.head_fillet, at(d.web_half, d.underside_z));
+    corners_.head_fillet = length_to_last(0.5);
     if (!one_circle)
       {
         outline.pass(web_straight, at(d.web_half, d.web_top));
         outline.pass(web_lower, at(d.web_half, d.web_bottom));
       }
     outline.turn(inner_slope, 1e-3 * d.foot_fillet, at(d.web_half, d.foot_z));
+    corners_.foot_fillet = length_to_last(0.5);
     outline.turn(outer_slope, 1e-3 * d.slope_change_radius, slope_change);
     outline.turn(edge, -1e-3 * d.edge_upper_radius, at(d.foot_half_width, d.foot_edge_z));
+    corners_.foot_top = length_to_last(0.5);
     outline.turn(base, -1e-3 * d.edge_lower_radius, at(d.foot_half_width, 0.));
+    corners_.foot_base = length_to_last(1.);
     outline.go_to(at(0., 0.));
     outline_.insert(outline_.end(), outline.pieces.begin(), outline.pieces.end());
   }
@@ -418,6 +434,16 @@ namespace tread
   const std::vector<OutlinePiece> &RailProfile::half_outline() const
   {
     return outline_;
+  }
+
+  dealii::Point<2> RailProfile::outline_point(const double s) const
+  {
+    return point_on_chain(outline_, s);
+  }
+
+  const RailProfile::Corners &RailProfile::corners() const
+  {
+    return corners_;
   }
 
   SectionProperties RailProfile::section() const

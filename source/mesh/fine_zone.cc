@@ -39,7 +39,7 @@ namespace tread
   {
     const double margin = 0.01 * finest_cell_size;
     const double a      = std::max({x_begin + margin - x, x - (x_end - margin), 0.});
-    const double b      = std::max(std::abs(y) - (half_width - margin), 0.);
+    const double b      = std::max(std::abs(y - y_middle) - (half_width - margin), 0.);
     const double c      = std::max(depth_of_point - (depth - margin), 0.);
     return std::sqrt(a * a + b * b + c * c);
   }
@@ -91,6 +91,63 @@ namespace tread
     for (const double line : side(end - anchor))
       lines.push_back(anchor + line);
     return lines;
+  }
+
+  double PathLines::stretch(const double x) const
+  {
+    const std::size_t i = std::clamp<std::ptrdiff_t>(
+      std::upper_bound(lines.begin(), lines.end(), x) - lines.begin() - 1, 0, lines.size() - 2);
+    return (lines[i + 1] - lines[i]) / size;
+  }
+
+  PathLines path_lines(const double    begin,
+                       const double    end,
+                       const double    size,
+                       const FineZone &zone,
+                       const double    far_stretch)
+  {
+    const double from = std::max(begin, zone.cubes_begin), to = std::min(end, zone.cubes_end);
+    if (!(from < to))
+      throw std::invalid_argument("path_lines: no cubes between begin and end");
+    const double anchor = (from <= 0. && 0. <= to) ? 0. : 0.5 * (from + to);
+    if (zone.path_stretch <= 1. && far_stretch <= 1.)
+      return {coarse_lines(begin, end, anchor, size), size};
+
+    constexpr double growth = 1.4;
+    // distances from the anchor, without the anchor itself
+    const auto side = [&](const double length, const double cubes, const double path) {
+      std::vector<double> lines;
+      const unsigned int  n_regular = std::min(std::floor(length / size), std::ceil(cubes / size - 1e-6));
+      for (unsigned int i = 1; i <= n_regular; ++i)
+        lines.push_back(i * size);
+      const double regular = n_regular * size, rest = length - regular;
+      if (rest < 0.7 * size && !lines.empty())
+        {
+          lines.back() = length;
+          return lines;
+        }
+      double row = size, position = regular;
+      while (position < length - 1e-6 * size)
+        {
+          const double limit = position < path ? zone.path_stretch : std::max(far_stretch, zone.path_stretch);
+          row                = std::min(growth * row, std::max(limit, 1.) * size);
+          position += row;
+          lines.push_back(position);
+        }
+      for (unsigned int i = n_regular; i < lines.size(); ++i)
+        lines[i] = regular + (lines[i] - regular) * rest / (position - regular);
+      return lines;
+    };
+
+    PathLines path{{}, size};
+    path.lines = side(anchor - begin, anchor - from, anchor - zone.x_begin);
+    std::reverse(path.lines.begin(), path.lines.end());
+    for (double &line : path.lines)
+      line = anchor - line;
+    path.lines.push_back(anchor);
+    for (const double line : side(end - anchor, to - anchor, zone.x_end - anchor))
+      path.lines.push_back(anchor + line);
+    return path;
   }
 
   double coarse_cell_size(const double finest, const double coarsest, const std::vector<CoarseSide> &sides)

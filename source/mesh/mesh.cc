@@ -56,6 +56,13 @@ namespace tread
     }
 
 
+    /// Whether a cell's line joins vertices 2i and 2i+1.
+    bool is_along_path(const unsigned int line)
+    {
+      return line < 8 && line % 4 >= 2;
+    }
+
+
     /// The octree halves a cell until its longest edge is near what its corners and centre ask for.
     void refine(Triangulation &triangulation, const std::vector<Body> &bodies)
     {
@@ -71,9 +78,10 @@ namespace tread
                 double      wanted = body.wanted_cell_size(cell->center());
                 for (const unsigned int v : cell->vertex_indices())
                   wanted = std::min(wanted, body.wanted_cell_size(cell->vertex(v)));
-                double longest = 0.;
+                const double stretch = body.path_stretch ? body.path_stretch(cell->center()) : 1.;
+                double       longest = 0.;
                 for (const unsigned int l : cell->line_indices())
-                  longest = std::max(longest, cell->line(l)->diameter());
+                  longest = std::max(longest, cell->line(l)->diameter() / (is_along_path(l) ? stretch : 1.));
                 if (longest > tolerance * wanted)
                   {
                     cell->set_refine_flag();

@@ -26,15 +26,19 @@ namespace tread
 
       // The coarse grid starts at x = 0 where it can, so that a symmetric zone gets a symmetric mesh.
       const double anchor = (box.x_begin <= 0. && 0. <= box.x_end) ? 0. : 0.5 * (box.x_begin + box.x_end);
-      const double size   = coarse_cell_size(zone.finest_cell_size, coarsest,
-                                             {{anchor - box.x_begin, anchor - zone.x_begin},
-                                              {box.x_end - anchor, zone.x_end - anchor},
-                                              {box.half_width, zone.half_width},
-                                              {box.depth, zone.depth}});
+      // Where rows may be longer than others all rows of cubes are regular anyway.
+      std::vector<CoarseSide> sides{{box.half_width, zone.reach()}, {box.depth, zone.depth}};
+      if (zone.path_stretch <= 1.)
+        {
+          sides.push_back({anchor - box.x_begin, anchor - zone.x_begin});
+          sides.push_back({box.x_end - anchor, zone.x_end - anchor});
+        }
+      const double size = coarse_cell_size(zone.finest_cell_size, coarsest, sides);
 
-      const std::vector<double> x   = coarse_lines(box.x_begin, box.x_end, anchor, size);
-      const std::vector<double> y   = coarse_lines(-box.half_width, box.half_width, 0., size);
-      const std::vector<double> z   = coarse_lines(-box.depth, 0., 0., size);
+      const PathLines           path = path_lines(box.x_begin, box.x_end, size, zone, 1.);
+      const std::vector<double> x    = path.lines;
+      const std::vector<double> y    = coarse_lines(-box.half_width, box.half_width, 0., size);
+      const std::vector<double> z    = coarse_lines(-box.depth, 0., 0., size);
       const unsigned int        n_x = x.size(), n_y = y.size(), n_z = z.size();
       const auto                index = [n_x, n_y](unsigned int i, unsigned int j, unsigned int k) {
         return i + n_x * (j + n_y * k);
@@ -59,6 +63,11 @@ namespace tread
         return zone.wanted_size(p[0], p[1], -p[2]);
       };
 
+      if (zone.path_stretch > 1.)
+        body.path_stretch = [path](const dealii::Point<3> &p) {
+          return std::max(1., path.stretch(p[0]));
+        };
+
       const double tolerance = 1e-3 * size;
       body.boundary_at       = [box, contact_half_width, tolerance](const dealii::Point<3> &p) {
         if (std::abs(p[2]) < tolerance)
@@ -73,6 +82,22 @@ namespace tread
     }
   } // namespace
 
+  std::function<dealii::Point<3>(const dealii::Point<3> &)> shape_top(
+    std::function<dealii::Point<3>(const dealii::Point<3> &)> to_space,
+    const RailTop                                            &top,
+    const double                                              depth)
+  {
+    if (!top.height && top.inclination == 0.)
+      return to_space;
+    return [to_space, top, depth, c = std::cos(top.inclination),
+            s = std::sin(top.inclination)](const dealii::Point<3> &p) {
+      dealii::Point<3> q = to_space(p);
+      if (top.height && p[2] > -depth)
+        q[2] += (1. + p[2] / depth) * top.height(p[0], to_space({p[0], p[1], 0.})[1]);
+      return dealii::Point<3>(q[0], c * q[1] - s * q[2], s * q[1] + c * q[2]);
+    };
+  }
+
   Body make_rail_block(const RailBlock &block, const FineZone &zone)
   {
     if (!(block.crown_radius > 0.5 * block.width))
@@ -83,9 +108,11 @@ namespace tread
     Body body     = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
                                   block.coarsest_cell_size, block.contact_half_width, zone);
     body.name     = "rail block";
-    body.to_space = [radius = block.crown_radius, height = block.height](const dealii::Point<3> &p) {
-      return dealii::Point<3>(p[0], p[1], p[2] + crown_height(p[1], radius) * (1. + p[2] / height));
-    };
+    body.to_space = shape_top(
+      [radius = block.crown_radius, height = block.height](const dealii::Point<3> &p) {
+        return dealii::Point<3>(p[0], p[1], p[2] + crown_height(p[1], radius) * (1. + p[2] / height));
+      },
+      block.top, block.height);
     return body;
   }
 
@@ -103,7 +130,7 @@ namespace tread
     // vertical itself; near the sides the curved side's deviation from the straight line is added. The weight
     // is zero with its slope up to the beginning of the ramp, beside the crown.
     const double ramp_begin = 0.3 * width;
-    body.to_space           = [profile, width, depth, length, ramp_begin](const dealii::Point<3> &p) {
+    const auto   to_space   = [profile, width, depth, length, ramp_begin](const dealii::Point<3> &p) {
       const double s = std::abs(p[1]);
       const double v = std::clamp(-p[2] / depth, 0., 1.);
 
@@ -122,6 +149,7 @@ namespace tread
         }
       return dealii::Point<3>(p[0], std::copysign(q[0], p[1]), q[1]);
     };
+    body.to_space = shape_top(to_space, head.top, depth);
     return body;
   }
 } // namespace tread

@@ -66,6 +66,17 @@ namespace tread
       };
     }
 
+    /// Of the row that a point lies in.
+    std::function<double(const dealii::Point<3> &)> stretch_around(const WheelAxis &axis,
+                                                                   const double     radius,
+                                                                   const PathLines &path)
+    {
+      return [axis, radius, path,
+              middle = 0.5 * (path.lines.front() + path.lines.back()) / radius](const dealii::Point<3> &p) {
+        return std::max(1., path.stretch((middle + wrap(axis.angle(p) - middle)) * radius));
+      };
+    }
+
     /// Moves the points of the rim outwards by the tread's offset, fading to zero at the inner radius; null
     /// without an offset.
     std::function<dealii::Point<3>(const dealii::Point<3> &)> shape_tread(
@@ -195,15 +206,18 @@ namespace tread
 
     const double anchor =
       (sector.arc_begin <= 0. && 0. <= sector.arc_end) ? 0. : 0.5 * (sector.arc_begin + sector.arc_end);
-    const double size = coarse_cell_size(zone.finest_cell_size, sector.coarsest_cell_size,
-                                         {{anchor - sector.arc_begin, anchor - zone.x_begin},
-                                          {sector.arc_end - anchor, zone.x_end - anchor},
-                                          {0.5 * sector.width, zone.half_width},
-                                          {sector.thickness, zone.depth}});
+    std::vector<CoarseSide> sides{{0.5 * sector.width, zone.reach()}, {sector.thickness, zone.depth}};
+    if (zone.path_stretch <= 1.)
+      {
+        sides.push_back({anchor - sector.arc_begin, anchor - zone.x_begin});
+        sides.push_back({sector.arc_end - anchor, zone.x_end - anchor});
+      }
+    const double size = coarse_cell_size(zone.finest_cell_size, sector.coarsest_cell_size, sides);
 
-    const WheelAxis     axis{sector.center_x, sector.radius};
+    const WheelAxis     axis{sector.center_x, sector.radius + sector.lift};
     const double        inner_radius = sector.radius - sector.thickness;
-    std::vector<double> angles       = coarse_lines(sector.arc_begin, sector.arc_end, anchor, size);
+    const PathLines     path         = path_lines(sector.arc_begin, sector.arc_end, size, zone, 1.);
+    std::vector<double> angles       = path.lines;
     for (double &angle : angles)
       angle /= sector.radius;
     const std::vector<double> y     = coarse_lines(-0.5 * sector.width, 0.5 * sector.width, 0., size);
@@ -219,6 +233,8 @@ namespace tread
     body.manifold         = axis.manifold();
     body.to_space         = shape_tread(axis, sector.radius, inner_radius, sector.tread_offset);
     body.wanted_cell_size = cell_size_around(axis, sector.radius, zone);
+    if (zone.path_stretch > 1.)
+      body.path_stretch = stretch_around(axis, sector.radius, path);
 
     // The centre of a face with straight edges lies inside the cylinder, by a sixteenth of the row at most.
     const double tread   = sector.radius - 0.25 * depth[1];
@@ -258,9 +274,9 @@ namespace tread
     std::vector<double> rim_y, depth;
     while (true)
       {
-        size = coarse_cell_size(
-          zone.finest_cell_size, size,
-          {{half_rim, zone.half_width}, {wheel.radius - wheel.rim_inner_radius, zone.depth}});
+        size =
+          coarse_cell_size(zone.finest_cell_size, size,
+                           {{half_rim, zone.reach()}, {wheel.radius - wheel.rim_inner_radius, zone.depth}});
         rim_y = coarse_lines(-half_rim, half_rim, 0., size);
         depth = coarse_lines(0., wheel.radius - wheel.rim_inner_radius, 0., size);
         if (rim_y.size() >= 5 && depth.size() >= 3 && zone.depth <= depth[depth.size() - 2])
@@ -308,9 +324,22 @@ namespace tread
     for (unsigned int k = 0; k + 1 < hub_r.size(); ++k)
       section.add_row(hub_y, hub_r[k], hub_y, hub_r[k + 1]);
 
-    const WheelAxis     axis{wheel.center_x, wheel.radius};
-    const unsigned int  n_around = std::lround(2. * pi * wheel.radius / size);
-    std::vector<double> angles   = even_lines(0., 2. * pi, n_around);
+    const WheelAxis    axis{wheel.center_x, wheel.radius + wheel.lift};
+    const unsigned int n_around = std::lround(2. * pi * wheel.radius / size);
+    PathLines          path{even_lines(0., 2. * pi * wheel.radius, n_around), size};
+    if (zone.path_stretch > 1.)
+      {
+        const double half = pi * wheel.radius;
+        const double middle =
+          0.5 * (std::max(zone.x_begin, zone.cubes_begin) + std::min(zone.x_end, zone.cubes_end));
+        path = path_lines(middle - half, middle + half, size, zone, 1.);
+      }
+    std::vector<double> angles  = path.lines;
+    double              longest = 0.;
+    for (unsigned int i = 0; i + 1 < angles.size(); ++i)
+      longest = std::max(longest, angles[i + 1] - angles[i]);
+    for (double &angle : angles)
+      angle /= wheel.radius;
     angles.pop_back();
 
     Body body;
@@ -319,13 +348,15 @@ namespace tread
     body.manifold         = axis.manifold();
     body.to_space         = shape_tread(axis, wheel.radius, wheel.rim_inner_radius, wheel.tread_offset);
     body.wanted_cell_size = cell_size_around(axis, wheel.radius, zone);
+    if (zone.path_stretch > 1.)
+      body.path_stretch = stretch_around(axis, wheel.radius, path);
 
     // Centres of faces with straight edges lie a little inside the cylinder that the face is on.
     const double tread  = wheel.radius - 0.25 * depth[1];
     const double bore   = wheel.bore_radius + 0.25 * (hub_r[hub_r.size() - 2] - wheel.bore_radius);
     const double center = 0.5 * (zone.x_begin + zone.x_end) / wheel.radius;
     const double half_path =
-      (0.5 * (zone.x_end - zone.x_begin) + wheel.contact_margin) / wheel.radius + pi / n_around;
+      (0.5 * (zone.x_end - zone.x_begin) + wheel.contact_margin + 0.5 * longest) / wheel.radius;
     body.boundary_at = [axis, tread, bore, center, half_path, half_rim, half_hub,
                         half_width = wheel.contact_half_width](const dealii::Point<3> &p) {
       const double r = axis.radius(p);

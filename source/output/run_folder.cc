@@ -22,14 +22,22 @@ namespace tread
 {
   namespace
   {
-    std::string history_header()
+    std::string history_header(const std::vector<int> &supports)
     {
-      return "time_s,position_m,normal_force_N,longitudinal_force_N,lateral_force_N,traction_coefficient,"
-             "creepage,"
-             "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_"
-             "energy_J,"
-             "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,plastic_work_J,energy_"
-             "residual_J\n";
+      std::string header =
+        "time_s,position_m,normal_force_N,longitudinal_force_N,lateral_force_N,traction_coefficient,"
+        "creepage,"
+        "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_"
+        "energy_J,"
+        "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,plastic_work_J,energy_"
+        "residual_J,axle_box_acceleration_m_per_s2";
+      if (!supports.empty())
+        header += ",spring_energy_J";
+      for (const int number : supports)
+        for (const char *quantity :
+             {"pad_N", "ballast_N", "seat_pressure_Pa", "rail_m", "rail_at_next_mid_span_m"})
+          header += ",support_" + std::to_string(number) + "_" + quantity;
+      return header + "\n";
     }
   } // namespace
 
@@ -193,7 +201,7 @@ namespace tread
   }
 
 
-  void RunFolder::open_history(const bool resume, const double time)
+  void RunFolder::open_history(const bool resume, const double time, const std::vector<int> &supports)
   {
     if (!writes_tables)
       return;
@@ -208,7 +216,7 @@ namespace tread
             if (std::stod((*i)[1]) <= time * (1. + 1e-9))
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    std::string kept = history_header();
+    std::string kept = history_header(supports);
     if (resume)
       {
         std::ifstream old(path("history.csv"));
@@ -234,8 +242,13 @@ namespace tread
             << row.creepage << ',' << row.patch.area << ',' << row.patch.adhesion_share << ','
             << row.patch.max_pressure << ',' << e.external_work << ',' << e.kinetic << ',' << e.strain << ','
             << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.plastic
-            << ',' << e.residual() << '\n'
-            << std::flush;
+            << ',' << e.residual() << ',' << row.axle_box_acceleration;
+    if (!row.supports.empty())
+      history << ',' << e.springs;
+    for (const SupportRecord &s : row.supports)
+      history << ',' << s.pad_force << ',' << s.ballast_force << ',' << s.seat_pressure << ','
+              << s.rail_over_support << ',' << s.rail_at_mid_span;
+    history << '\n' << std::flush;
     if (!history)
       throw std::runtime_error("cannot write '" + path("history.csv") + "': is the disk full?");
   }

@@ -57,7 +57,19 @@ SETTINGS = [
     ("Motion/Rolled distance (mm)=0", ["Motion/Rolled distance (mm)", "allowed"]),
     ("Friction coefficient", ["expected Section/Name=value"]),
 ]
+# A bar of 7.2 m with a support every 0.6 m.
+BAR = ["Rail/Shape=block", "Rail/Block width (mm)=60", "Rail/Block height (mm)=150", "Rail/Margin (mm)=3570",
+       "Track/Foundation=two-layer", "Track/Pad width (mm)=50", "Track/Support 0 (mm)=-330", "Scene/Density scale=1"]
 PAIRS = [
+    (["Track/Foundation=two-layer"], ["Track/Foundation", "Rail/Shape"]),
+    (BAR + ["Track/Sleeper spacing (m)=0.63"], ["Track/Sleeper spacing (m)", "does not fit the rail"]),
+    (BAR + ["Track/Support 0 (mm)=0"], ["Track/Sleeper spacing (m)", "beyond a support", "half a spacing"]),
+    (BAR + ["Track/Sleeper spacing (m)=9"], ["Track/Sleeper spacing (m)", "at least 2"]),
+    (BAR + ["Track/Pad length (mm)=700"], ["Track/Pad length (mm)", "below the sleeper spacing"]),
+    (BAR + ["Track/Pad width (mm)=140"], ["Track/Pad width (mm)", "rail's base"]),
+    (BAR + ["Scene/Quasi-static=true", "Scene/Density scale=4"], ["Scene/Density scale", "Track/Foundation"]),
+    (BAR + ["Output/Supports=0,17"], ["Output/Supports", "17"]),
+    (BAR + ["Track/Sleepers=solid", "Track/Sleeper length (m)=1.2"], ["Track/Sleeper length (m)", "Rail distance"]),
     (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
     (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
     (["Scene/Density scale=100", "Wheel/Young's modulus (GPa)=70"], ["Scene/Density scale", "inertia error"]),

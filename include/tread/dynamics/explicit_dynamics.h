@@ -3,11 +3,14 @@
 #define tread_dynamics_explicit_dynamics_h
 
 #include <tread/contact/contact.h>
+#include <tread/dynamics/rail_beam.h>
 #include <tread/mesh/mesh.h>
 #include <tread/solid/solid.h>
+#include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace tread
@@ -33,10 +36,12 @@ namespace tread
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far
     double plastic = 0.;                              ///< work on plastic strain so far
+    double springs = 0.;                              ///< of the supports, change since the start
 
     double residual() const
     {
-      return external_work - (kinetic + strain + hourglass + friction + contact + damping + plastic);
+      return external_work -
+             (kinetic + strain + hourglass + springs + friction + contact + damping + plastic);
     }
     double residual_share() const;
   };
@@ -67,8 +72,15 @@ namespace tread
     /// Hold these nodes (of this rank) where they are.
     void fix_nodes(const std::vector<unsigned int> &nodes);
 
-    /// The nodes of a body's support boundary on this rank.
-    std::vector<unsigned int> support_nodes(const unsigned int body) const;
+    /// Let these nodes (of this rank) not move in a direction (0 to 2).
+    void guide_nodes(const std::vector<unsigned int> &nodes, const unsigned int direction);
+
+    /// The nodes of a part of a body's boundary on this rank.
+    std::vector<unsigned int> boundary_nodes(const unsigned int body, const Boundary boundary) const;
+    std::vector<unsigned int> support_nodes(const unsigned int body) const
+    {
+      return boundary_nodes(body, Boundary::support);
+    }
 
     /// Carry the support nodes of a body by a rigid hub. The centrifugal force of density that is
     /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes
@@ -76,6 +88,14 @@ namespace tread
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
 
     void attach_contact(Contact &contact);
+
+    /// @param rail_material of the rail that they bear: a beam of it finds the equilibrium at the start.
+    void attach_supports(Supports &supports, const ElasticMaterial &rail_material);
+
+    /// Give rail and sleepers the velocities (half a step back) with which the deflection of a beam under the
+    /// hub's load follows the hub, and the hub its own along that path. To be called before
+    /// set_wheel_velocities().
+    void set_track_velocities();
 
     /// Largest stable time step of level 0 with the damping asked for, s: from the highest frequencies of the
     /// cells of each level and above. Collective; costs some 80 force evaluations a level the first time,
@@ -150,6 +170,7 @@ namespace tread
     void                set_node_levels();
     mutable double      critical_step = 0.;
     void                add_hub_sums(std::vector<double> &sums) const;
+    void                hold_guided_nodes(NodalField &field) const;
     void                move_hub_nodes();
     /// Of velocities half a step back, and what the cells' forces add to it in half a step.
     double       kinetic_energy() const;
@@ -181,17 +202,21 @@ namespace tread
     NodalField                          force, x_damped;
     std::vector<double> true_mass, inverse_mass, inertia; ///< by node; inertia: scaled, 0 where prescribed
     std::vector<char>   fixed, carried, on_wheel;
-    std::vector<unsigned int> hub_nodes;
-    std::vector<Row>          hub_reference; ///< relative to the axle
-    WheelHub                 *hub                      = nullptr;
-    Contact                  *contact                  = nullptr;
-    double                    nominal_angular_velocity = 0.;
-    std::vector<double>       hub_sums;
+    std::vector<std::pair<unsigned int, unsigned int>> guided; ///< node, direction
+    std::vector<unsigned int>                          hub_nodes;
+    std::vector<Row>                                   hub_reference; ///< relative to the axle
+    WheelHub                                          *hub      = nullptr;
+    Contact                                           *contact  = nullptr;
+    Supports                                          *supports = nullptr;
+    std::unique_ptr<RailBeam>                          rail_beam;
+    double                                             nominal_angular_velocity = 0.;
+    std::vector<double> rank_sums; ///< of a step: force and moment on the hub, then supports
 
     EnergyLedger  totals; ///< accumulated by step()
     double        start_kinetic = 0., start_potential = 0.;
     StrainEnergy  start_strain;
     double        start_hub_work = 0., start_hub_gross = 0.;
+    double        start_springs = 0., start_dissipated = 0.;
     double        last_damping_power = 0.;
     std::uint64_t last_damping_step  = 0;
 

@@ -71,6 +71,20 @@ namespace tread
     /// The right half of the whole section from the rail top clockwise to the middle of the base.
     const std::vector<OutlinePiece> &half_outline() const;
 
+    /// The point of half_outline() at the arc length s from the rail top (m).
+    dealii::Point<2> outline_point(double s) const;
+
+    /// Where a mesh of the section has its corners: arc lengths along half_outline() (m).
+    struct Corners
+    {
+      double head;        ///< middle of the rounding of flank and underside
+      double head_fillet; ///< middle of the fillet of underside and web
+      double foot_fillet; ///< middle of the fillet of web and foot
+      double foot_top;    ///< middle of the upper rounding of the foot's edge
+      double foot_base;   ///< end of its lower rounding, on the base
+    };
+    const Corners &corners() const;
+
     SectionProperties section() const;
 
   private:
@@ -83,6 +97,7 @@ namespace tread
     double                    crown_radius_ = 0.;
     std::vector<OutlinePiece> head_;    ///< crown, shoulder, gauge corner, flank to its full length
     std::vector<OutlinePiece> outline_; ///< of the right half, with roundings
+    Corners                   corners_;
   };
 } // namespace tread
 

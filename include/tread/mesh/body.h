@@ -40,6 +40,10 @@ namespace tread
     /// Largest edge length allowed at a point (chart coordinates).
     std::function<double(const dealii::Point<3> &)> wanted_cell_size;
 
+    /// How many times longer than wanted a cell may be along the path, at its centre (chart coordinates):
+    /// edges between the vertices 2i and 2i+1 of a cell. Null: 1.
+    std::function<double(const dealii::Point<3> &)> path_stretch;
+
     /// What the boundary is used for at the centre of a coarse boundary face (chart coordinates).
     std::function<Boundary(const dealii::Point<3> &)> boundary_at;
   };

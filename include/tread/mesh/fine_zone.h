@@ -2,6 +2,7 @@
 #ifndef tread_mesh_fine_zone_h
 #define tread_mesh_fine_zone_h
 
+#include <limits>
 #include <vector>
 
 namespace tread
@@ -16,9 +17,22 @@ namespace tread
     double finest_cell_size = 1e-3;   ///< edge of the cells in the box, h (m)
     double x_begin          = -0.02;  ///< contact path, margin for the patch included (m)
     double x_end            = 0.02;   ///< (m)
-    double half_width       = 9e-3;   ///< the box is |y| <= half_width (m)
+    double y_middle         = 0.;     ///< (m)
+    double half_width       = 9e-3;   ///< the box is |y - y_middle| <= half_width (m)
     double depth            = 1.5e-3; ///< the box is 0 <= depth <= this (m)
     double cells_per_level  = 2; ///< cells of each size 2h, 4h, ... that lie between the box and larger ones
+
+    /// Between these the cells of the box are cubes; elsewhere they are up to path_stretch times as long
+    /// along the path, with the same cross-section, so that no hanging node lies on the path (m).
+    double cubes_begin  = -std::numeric_limits<double>::infinity();
+    double cubes_end    = std::numeric_limits<double>::infinity();
+    double path_stretch = 1.;
+
+    /// How far the box reaches from the middle of the body (m).
+    double reach() const
+    {
+      return (y_middle < 0. ? -y_middle : y_middle) + half_width;
+    }
 
     /// Distance of a point from the box; zero inside (m). The box is taken smaller by a hundredth of a
     /// cell, so that cells which only touch it stay outside.
@@ -39,6 +53,21 @@ namespace tread
   /// rows at each side, which take up the remainder and are 0.7 to 1.5 times the size (0.5 to 1.5 beside a
   /// single regular row). A side shorter than that is one row. begin <= anchor <= end (m).
   std::vector<double> coarse_lines(double begin, double end, double anchor, double size);
+
+  /// Lines of coarse cells along the path and how much longer than `size` the cells between them are.
+  struct PathLines
+  {
+    std::vector<double> lines;
+    double              size;
+
+    /// Of the row that x lies in.
+    double stretch(double x) const;
+  };
+
+  /// From begin to end: rows of the given size between cubes_begin and cubes_end of the zone; from there they
+  /// grow by up to 1.4 a row to at most path_stretch times the size along the path, and to far_stretch
+  /// times the size beside it (m). Where neither allows longer rows: coarse_lines.
+  PathLines path_lines(double begin, double end, double size, const FineZone &zone, double far_stretch);
 
   /// How far from the anchor the rows of coarse_lines have exactly the size, on a side that is
   /// `length` long (m).

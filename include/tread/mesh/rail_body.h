@@ -6,10 +6,29 @@
 #include <tread/mesh/body.h>
 #include <tread/mesh/fine_zone.h>
 
+#include <functional>
 #include <limits>
 
 namespace tread
 {
+  /// What the top of a rail has on top of its profile, and how the rail stands.
+  struct RailTop
+  {
+    /// Height over the profile at (x, y), along the rail's own vertical (m); null: none. It fades linearly to
+    /// zero at the bottom of block or head.
+    std::function<double(double, double)> height;
+
+    /// Turn about the line x along the rail top, towards -y: the top leans to the gauge side (rad).
+    double inclination = 0.;
+  };
+
+  /// Adds the top's height, fading over `depth`, and the inclination to a map from the chart (x, y or s,
+  /// -depth) (m).
+  std::function<dealii::Point<3>(const dealii::Point<3> &)> shape_top(
+    std::function<dealii::Point<3>(const dealii::Point<3> &)> to_space,
+    const RailTop                                            &top,
+    const double                                              depth);
+
   /// A block with a cylindrical top (axis along x, crown at y = z = 0), flat sides and bottom.
   struct RailBlock
   {
@@ -21,6 +40,7 @@ namespace tread
     double coarsest_cell_size = 0.025; ///< upper bound of the coarse cells' edge (m)
     double contact_half_width = std::numeric_limits<double>::infinity(); ///< top faces with |y| up to this
                                                                          ///< are in reach of the wheel (m)
+    RailTop top;
   };
 
   /// The head of a rail, cut off level with the lower end of its flanks.
@@ -31,6 +51,7 @@ namespace tread
     double coarsest_cell_size = 0.0125; ///< upper bound of the coarse cells' edge (m)
     double contact_half_width =
       0.0245; ///< top faces with arc length up to this from the crown are in reach of the wheel (m)
+    RailTop top;
   };
 
   /// The block as coarse cells of 2^k finest_cell_size. Chart: (x, y, -depth) of a flat box. to_space keeps x

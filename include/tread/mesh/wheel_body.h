@@ -13,10 +13,12 @@
 namespace tread
 {
   /// A piece of a ring that rolls with its outer face on the rail. The reference configuration is the start
-  /// of the run: axis through (center_x, 0, radius) along y, lowest point at z = 0.
+  /// of the run: axis through (center_x, 0, radius + lift) along y, lowest point of the running circle at z =
+  /// lift.
   struct WheelSector
   {
     double center_x  = 0.;   ///< wheel centre: minus the distance to be rolled to the solution instant (m)
+    double lift      = 0.;   ///< of the axle over its height `radius`, where the wheel just touches (m)
     double radius    = 0.46; ///< running radius at y = 0 (m)
     double thickness = 0.06; ///< radial (m)
     double width     = 0.12; ///< lateral (m)
@@ -35,6 +37,7 @@ namespace tread
   struct FullWheel
   {
     double center_x           = 0.;   ///< as in WheelSector
+    double lift               = 0.;   ///< as in WheelSector
     double radius             = 0.46; ///< running radius at y = 0
     double rim_inner_radius   = 0.395;
     double rim_width          = 0.135;

@@ -14,14 +14,25 @@
 
 namespace tread
 {
+  /// What one support carries, SI units.
+  struct SupportRecord
+  {
+    double pad_force, ballast_force; ///< compression at the end of the interval
+    double seat_pressure;            ///< largest of the pad's points
+    double rail_over_support;        ///< displacement of the rail's foot, upwards
+    double rail_at_mid_span;         ///< the same half a spacing ahead
+  };
+
   /// One row of history.csv, SI units.
   struct HistoryRow
   {
-    double        time, position;
-    Row           force; ///< on the wheel, mean over the interval
-    double        creepage;
-    PatchMeasures patch;
-    EnergyLedger  energy;
+    double                     time, position;
+    Row                        force; ///< on the wheel, mean over the interval
+    double                     creepage;
+    PatchMeasures              patch;
+    EnergyLedger               energy;
+    double                     axle_box_acceleration; ///< vertical, mean over the interval
+    std::vector<SupportRecord> supports;              ///< as many as open_history was told of
   };
 
   /// What a wheel left behind it on the rail, SI units: means over the nodes in the middle of the rolled
@@ -80,7 +91,8 @@ namespace tread
     void write_passages(const std::vector<Passage> &passages) const;
 
     /// Begin history.csv anew, or (when resuming) go on after the last row not later than time.
-    void open_history(const bool resume, const double time);
+    /// @param supports whose forces the rows have, by number.
+    void open_history(const bool resume, const double time, const std::vector<int> &supports);
     void append(const HistoryRow &row);
 
     /// Bodies as they are now: displacement without the hub's rigid motion, velocity, stress. Collective.

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_dynamics_rail_beam_h
+#define tread_dynamics_rail_beam_h
+
+#include <tread/material/elastic.h>
+#include <tread/mesh/mesh.h>
+#include <tread/reference/supported_beam.h>
+#include <tread/solid/solid.h>
+#include <tread/track/supports.h>
+
+#include <memory>
+#include <vector>
+
+namespace tread
+{
+  /// The rail of cells seen as a beam on its supports: its sections stay plane and rigid. Such fields are far
+  /// softer than what cells do among themselves, so an iteration that is good at the latter leaves them to
+  /// this beam.
+  class RailBeam
+  {
+  public:
+    RailBeam(const Mesh &mesh, const Solid &solid, const Supports &supports, const ElasticMaterial &rail);
+
+    /// Displacements of the sections and of solid sleepers (m), or their velocities (m/s).
+    struct Field
+    {
+      reference::SupportedBeam::Response rail;
+      std::vector<double>                sleepers; ///< by support; solid or rigid
+    };
+
+    /// The field that balances these nodal forces (N, of this rank) and a vertical force at x on the rail.
+    /// Collective.
+    Field balance(const Row *force, const double x, const double force_at_x) const;
+    Field balance(const double x, const double force_at_x) const;
+
+    /// Add factor times the field to the values of rail and solid sleepers.
+    void add(const Field &field, const double factor, Row *values) const;
+
+    reference::BeamSection section() const
+    {
+      return rail_section;
+    }
+
+  private:
+    Field respond(const std::vector<reference::SupportedBeam::Load> &loads,
+                  const std::vector<double>                         &sleeper_loads) const;
+
+    const Mesh                                     &mesh;
+    const Supports                                 &supports;
+    reference::BeamSection                          rail_section;
+    double                                          centroid_z = 0., begin = 0., end = 0.;
+    std::vector<int>                                support_of_body; ///< of a solid sleeper; -1: none
+    reference::SupportLayers                        layers;
+    std::unique_ptr<const reference::SupportedBeam> beam;
+  };
+} // namespace tread
+
+#endif

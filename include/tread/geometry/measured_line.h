@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_geometry_measured_line_h
+#define tread_geometry_measured_line_h
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// A measured line z(x) through points with increasing x; between them monotone cubic (Fritsch & Carlson
+  /// 1980), which does not overshoot. Lengths in m.
+  class MeasuredLine
+  {
+  public:
+    MeasuredLine(const std::vector<double> &x, const std::vector<double> &z);
+
+    /// Beside the ends: the value there.
+    double operator()(const double x) const;
+
+    double begin() const; ///< (m)
+    double end() const;   ///< (m)
+
+  private:
+    double                        first, last;
+    std::function<double(double)> line;
+  };
+
+  /// A longitudinal profile: two columns, x and z in mm, z up, separated by blanks, commas or semicolons; one
+  /// heading and lines that begin with # are passed over.
+  /// @throws std::runtime_error, one line with file and number of the line, where a line has not two numbers,
+  /// x does not increase, or a gap is more than five times as long as usual.
+  MeasuredLine read_longitudinal_profile(const std::string &file);
+
+  /// The running surface of a rail as z(y), its highest point within 20 mm of y = 0 at z = 0: two columns (y
+  /// and z in mm), .prr of Simpack or .ban of MiniProf. Whether z points up or down is seen from the shape.
+  /// Only the part around y = 0 in which y runs on is taken.
+  /// @throws std::runtime_error as above, and where that part does not reach half_width (m) at both sides.
+  MeasuredLine read_rail_head(const std::string &file, const double half_width);
+
+  /// A wheel tread as z(y), z up: 0 at y = 0 and negative at the flange, which is at y < 0. Formats as of a
+  /// rail head, .prw and .whl. The side of the flange and the direction of z are seen from the shape if the
+  /// file has the flange, something more than 10 mm beyond the tread.
+  /// @throws std::runtime_error as above.
+  MeasuredLine read_wheel_tread(const std::string &file, const double half_width);
+} // namespace tread
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_geometry_running_surfaces_h
+#define tread_geometry_running_surfaces_h
+
+#include <functional>
+#include <limits>
+
+namespace tread
+{
+  /// Tread and running surface of an upright wheel over a rail, y = 0 on the rail top's middle line and on
+  /// the tread's running circle. Lengths in m.
+  struct RunningSurfaces
+  {
+    double                                radius     = 0.46; ///< of the wheel at y = 0
+    double                                half_width = 0.03; ///< contact is looked for in |y| up to this
+    std::function<double(double)>         tread_offset;      ///< radius at y over the radius; null: 0
+    std::function<double(double)>         rail_top;          ///< height z(y) of the smooth rail, inclined
+    std::function<double(double, double)> defect;            ///< height z(x, y) over it; null: none
+
+    /// How far apart the smooth surfaces are at y below the axle, when the axle is at the height `radius`:
+    /// negative where they overlap.
+    double gap(const double y) const;
+  };
+
+  /// Where an unloaded wheel first touches.
+  struct FirstContact
+  {
+    double y;              ///< lateral position on the smooth rail (m)
+    double lift;           ///< height of the axle over the radius, where nothing overlaps (m)
+    double lateral_radius; ///< of the gap, fitted over 5 mm at both sides (m); infinite: none or concave
+  };
+
+  /// @param center_x where the wheel stands; a defect there lets it down or lifts it, but leaves y.
+  FirstContact first_contact(const RunningSurfaces &surfaces, const double center_x);
+
+  /// Height at y of a line z(y) that was turned about the origin by `angle` from y to z (rad), for angles up
+  /// to 0.1 and slopes below 5.
+  double turned_line(const std::function<double(double)> &line, const double angle, const double y);
+} // namespace tread
+
+#endif

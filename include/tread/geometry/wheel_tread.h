@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_geometry_wheel_tread_h
+#define tread_geometry_wheel_tread_h
+
+#include <functional>
+#include <string>
+
+namespace tread
+{
+  /// Radius of the S1002 tread over the running radius at the lateral coordinate y, the flange at y < 0:
+  /// polynomials and arcs of EN 13715 (m). -70 mm <= y <= 60 mm.
+  double s1002_offset(const double y);
+
+  /// Radius of a tread over the running radius as a function of y (m), the flange at y < 0. Null: a cylinder.
+  /// Where the flange rises more steeply than 1:1 the tread goes on level: no flange is meshed.
+  /// @param tread "cylinder", "cone 1:40", "cone 1:20", "S1002", or a file (read_wheel_tread).
+  /// @param half_width which a file has to cover (m). @throws std::runtime_error, one line.
+  std::function<double(double)> tread_offset(const std::string &tread, const double half_width);
+} // namespace tread
+
+#endif

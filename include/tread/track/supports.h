@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_track_supports_h
+#define tread_track_supports_h
+
+#include <tread/mesh/mesh.h>
+
+#include <utility>
+#include <vector>
+
+namespace tread
+{
+  /// One foundation of a rail: what lies between its foot and the ground at each sleeper. Stiffness and
+  /// damping are those of a whole support; its points share them.
+  struct TrackParameters
+  {
+    double       pad_stiffness = 1300e6;              ///< N/m
+    double       pad_damping   = 45e3;                ///< N s/m
+    double       pad_length = 0.15, pad_width = 0.14; ///< along and across the rail, m
+    double       pad_middle   = 0.;                   ///< y, m
+    unsigned int points_along = 3, points_across = 4;
+    /// With a second layer the pads rest on sleepers on ballast, else on the ground.
+    bool   two_layers        = true;
+    double sleeper_mass      = 200.; ///< kg; of a rigid sleeper that moves in z only
+    double ballast_stiffness = 45e6; ///< N/m
+    double ballast_damping   = 32e3; ///< N s/m
+  };
+
+  /// A sleeper that is a body of the mesh: where the ballast lies under it.
+  struct SolidSleeper
+  {
+    unsigned int body;
+    double       y_begin, y_end; ///< m
+    double       width;          ///< along the rail, m
+  };
+
+  /// Discrete supports of a rail: vertical springs and dampers from points of the rail's foot to sleepers,
+  /// which are masses or bodies of the mesh, and on to the ground. A point lies on a face, and the face's
+  /// nodes share its force by their shape functions.
+  ///
+  /// Displacement and velocity of all points are known to all ranks, which do the same with them; forces
+  /// reach the nodes by the rank that holds the face. Dampers act with the velocities of half a step back, as
+  /// all damping in central differences.
+  class Supports
+  {
+  public:
+    enum Layer
+    {
+      pad,
+      ballast
+    };
+
+    /// @param positions of the supports along the rail (x, m); @param solid_sleepers one a support, or none.
+    /// @throws std::invalid_argument if a point finds no face of its body. Collective.
+    Supports(const Mesh                      &mesh,
+             const unsigned int               rail_body,
+             const std::vector<double>       &positions,
+             const TrackParameters           &parameters,
+             const std::vector<SolidSleeper> &solid_sleepers = {});
+
+    /// Watch the vertical displacement of the rail's foot at x. @returns its number. Collective.
+    unsigned int add_probe(const double x);
+
+    /// Weight of rigid sleepers, m/s^2 along -z.
+    void set_gravity(const double value)
+    {
+      gravity = value;
+    }
+
+    /// Take displacements from nodal positions; all at rest, rigid sleepers where forces balance. Collective.
+    void set_at_rest(const Row *x);
+
+    /// Add the forces at the present state to the nodes of this rank.
+    void add_forces(Row *force);
+    /// Those of the springs alone.
+    void add_spring_forces(Row *force) const;
+
+    /// Row sums of stiffness (in [0], N/m) and damping (in [1], N s/m) on the nodes of this rank, and of a
+    /// rigid sleeper over its mass: bounds of eigenvalues.
+    void add_row_sums(Row *field) const;
+    void sleeper_row_sums(double &stiffness_over_mass, double &damping_over_mass) const;
+
+    /// Velocities that this rank's points will have: v + time_step * force / m; zero for those of other
+    /// ranks. Their sums over the ranks are for advance().
+    void        predict(const Row                 *v,
+                        const Row                 *force,
+                        const std::vector<double> &inverse_masses,
+                        const double               time_step,
+                        double                    *velocities) const;
+    std::size_t n_points() const
+    {
+      return ends.size();
+    }
+
+    /// One step to the new velocities of all points.
+    void advance(const double *velocities, const double time_step);
+
+    /// Points start with the velocities of the nodes, half a step back, rigid sleepers with those given.
+    /// Collective.
+    void set_velocities(const Row *v, const std::vector<double> &sleeper_velocities);
+
+    /// Compression of a layer of a support in the last step, N.
+    double force(const unsigned int support, const Layer layer) const;
+    /// Largest pressure that one of the pad's points stands for, Pa.
+    double largest_pad_pressure(const unsigned int support) const;
+    /// Mean displacement of the rail's foot over a support, upwards, m.
+    double rail_displacement(const unsigned int support) const;
+    double probe_displacement(const unsigned int probe) const;
+
+    /// Present energies, J, all ranks' together: springs; rigid sleepers, where velocities are half a step
+    /// back and spring forces those of now; weight of rigid sleepers half a step back.
+    double spring_energy() const;
+    double sleeper_kinetic_energy(const double time_step) const;
+    double weight_potential(const double time_step) const;
+    /// Work that the dampers have taken since the start, J.
+    double dissipated() const
+    {
+      return damper_work;
+    }
+
+    /// Nodes of this rank that carry points: they move in every step.
+    std::vector<unsigned int> nodes() const;
+    /// Nodes to be held so that supports move vertically only: in y (direction 1) the nodes of the rail's
+    /// foot nearest to the middle of each pad, in x (direction 0) those of solid sleepers nearest to the
+    /// middle of the ballast. Held across a pad's whole area the rail could not bend freely. Collective.
+    std::vector<unsigned int> guided_nodes(const unsigned int direction) const;
+
+    const unsigned int              rail_body;
+    const std::vector<double>       positions; ///< x of the supports, m
+    const TrackParameters           parameters;
+    const std::vector<SolidSleeper> solid_sleepers; ///< one a support, or none
+
+  private:
+    /// A point on a face; no nodes where another rank holds it.
+    struct End
+    {
+      std::vector<std::pair<unsigned int, double>> nodes; ///< with shares that sum to 1
+    };
+    struct Spring
+    {
+      int          a, b; ///< points: rigid sleepers, then those on faces; -1: ground
+      double       stiffness, damping;
+      unsigned int support;
+      Layer        layer;
+    };
+
+    using Faces = std::vector<const Mesh::Face *>;
+    /// Boundary faces of a body of this rank whose outer normal points up (side 1) or down (-1).
+    Faces facing(const unsigned int body, const double side) const;
+    /// A point on the outermost of these faces at (x, y). Collective.
+    unsigned int add_end(const Faces &faces, const double x, const double y, const double side);
+    unsigned int point_of(const unsigned int end) const
+    {
+      return n_sleepers + end;
+    }
+    double difference(const std::vector<double> &values, const Spring &spring) const
+    {
+      return values[spring.a] - (spring.b < 0 ? 0. : values[spring.b]);
+    }
+    void                give(const int point, const double value, Row *force) const;
+    std::vector<double> of_nodes(const Row *field, const bool displacement) const;
+
+    const Mesh                            &mesh;
+    std::vector<End>                       ends;
+    std::vector<Spring>                    springs;
+    std::vector<unsigned int>              probes;         ///< ends
+    std::vector<std::vector<unsigned int>> rail_ends;      ///< by support
+    unsigned int                           n_sleepers = 0; ///< rigid ones, the first points
+
+    // The state, by point.
+    std::vector<double> displacement, velocity, sleeper_force;
+    std::vector<double> spring_force; ///< by spring, of the last step: tension, N
+    std::vector<double> damper_force; ///< the dampers' part of it
+    double              damper_work = 0., gravity = 0.;
+
+    friend class Checkpoint;
+  };
+} // namespace tread
+
+#endif

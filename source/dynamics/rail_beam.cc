@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/dynamics/rail_beam.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    constexpr double element_length = 0.025; // m: short against any bending of a rail
+
+    /// Shear coefficient of rails (about 0.4 for the usual sections, 0.85 for a block); the beam only guides
+    /// an iteration.
+    constexpr double shear_coefficient = 0.4;
+  } // namespace
+
+
+  RailBeam::RailBeam(const Mesh            &mesh,
+                     const Solid           &solid,
+                     const Supports        &supports,
+                     const ElasticMaterial &rail)
+    : mesh(mesh)
+    , supports(supports)
+    , support_of_body(mesh.body_names.size(), -1)
+  {
+    using dealii::Utilities::MPI::sum;
+    for (unsigned int s = 0; s < supports.solid_sleepers.size(); ++s)
+      support_of_body[supports.solid_sleepers[s].body] = s;
+
+    double volume = 0., first = 0., second = 0., low = 1e300, high = -1e300;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.cells[c].body == supports.rail_body)
+        {
+          double mass = 0., z = 0., bottom = 1e300, top = -1e300;
+          for (unsigned int a = 0; a < 8; ++a)
+            {
+              const dealii::Point<3> &p = mesh.nodes[mesh.cells[c].nodes[a]];
+              mass += solid.cell_masses()[c][a];
+              z += 0.125 * p[2];
+              bottom = std::min(bottom, p[2]);
+              top    = std::max(top, p[2]);
+              low    = std::min(low, p[0]);
+              high   = std::max(high, p[0]);
+            }
+          const double cell = mass / rail.density;
+          volume += cell;
+          first += cell * z;
+          second += cell * (z * z + (top - bottom) * (top - bottom) / 12.);
+        }
+    volume                         = sum(volume, mesh.comm);
+    begin                          = dealii::Utilities::MPI::min(low, mesh.comm);
+    end                            = dealii::Utilities::MPI::max(high, mesh.comm);
+    centroid_z                     = sum(first, mesh.comm) / volume;
+    const double area              = volume / (end - begin),
+                 moment_of_inertia = sum(second, mesh.comm) / (end - begin) - area * centroid_z * centroid_z;
+    rail_section.bending_stiffness = rail.young_modulus * moment_of_inertia;
+    rail_section.shear_stiffness =
+      shear_coefficient * rail.young_modulus / (2. * (1. + rail.poisson_ratio)) * area;
+    rail_section.mass           = rail.density * area;
+    rail_section.rotary_inertia = rail.density * moment_of_inertia;
+    const TrackParameters &p    = supports.parameters;
+    layers.pad_stiffness        = p.pad_stiffness;
+    if (p.two_layers)
+      layers.ballast_stiffness = p.ballast_stiffness;
+    beam = std::make_unique<reference::SupportedBeam>(rail_section, layers, supports.positions, begin, end,
+                                                      element_length);
+  }
+
+
+  RailBeam::Field RailBeam::respond(const std::vector<reference::SupportedBeam::Load> &loads,
+                                    const std::vector<double>                         &sleeper_loads) const
+  {
+    Field        field{beam->respond(loads), std::vector<double>(supports.positions.size(), 0.)};
+    const double k_pad = layers.pad_stiffness, k_ballast = layers.ballast_stiffness;
+    if (supports.parameters.two_layers)
+      for (unsigned int s = 0; s < field.sleepers.size(); ++s)
+        field.sleepers[s] = (k_pad * field.rail.deflection(supports.positions[s]).real() + sleeper_loads[s]) /
+                            (k_pad + k_ballast);
+    return field;
+  }
+
+
+  RailBeam::Field RailBeam::balance(const double x, const double force_at_x) const
+  {
+    return respond({{x, force_at_x}}, std::vector<double>(supports.positions.size(), 0.));
+  }
+
+
+  RailBeam::Field RailBeam::balance(const Row *force, const double x, const double force_at_x) const
+  {
+    // Forces and moments about the centroid go to the two nearest of evenly spaced places.
+    const unsigned int  n          = 2 + static_cast<unsigned int>((end - begin) / element_length);
+    const double        h          = (end - begin) / (n - 1);
+    const unsigned int  n_supports = supports.positions.size();
+    std::vector<double> sums(2 * n + n_supports, 0.);
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      {
+        if (!mesh.shared_nodes.is_owned(i))
+          continue;
+        const unsigned int body = mesh.node_bodies[i];
+        if (body == supports.rail_body)
+          {
+            const double       s      = std::clamp((mesh.nodes[i][0] - begin) / h, 0., n - 1. - 1e-9);
+            const unsigned int place  = static_cast<unsigned int>(s);
+            const double       moment = -(mesh.nodes[i][2] - centroid_z) * force[i][0];
+            for (unsigned int side = 0; side < 2; ++side)
+              {
+                const double share = side == 0 ? 1. - (s - place) : s - place;
+                sums[2 * (place + side)] += share * force[i][2];
+                sums[2 * (place + side) + 1] += share * moment;
+              }
+          }
+        else if (support_of_body[body] >= 0)
+          sums[2 * n + support_of_body[body]] += force[i][2];
+      }
+    dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
+    std::vector<reference::SupportedBeam::Load> loads{{x, force_at_x}};
+    for (unsigned int k = 0; k < n; ++k)
+      loads.push_back({k + 1 < n ? begin + k * h : end, sums[2 * k], sums[2 * k + 1]});
+    std::vector<double> sleeper_loads(sums.begin() + 2 * n, sums.end());
+    if (!supports.solid_sleepers.empty())
+      for (unsigned int s = 0; s < n_supports; ++s)
+        loads.push_back({supports.positions[s], sleeper_loads[s] * layers.pad_stiffness /
+                                                  (layers.pad_stiffness + layers.ballast_stiffness)});
+    return respond(loads, sleeper_loads);
+  }
+
+
+  void RailBeam::add(const Field &field, const double factor, Row *values) const
+  {
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      {
+        const dealii::Point<3> &p    = mesh.nodes[i];
+        const unsigned int      body = mesh.node_bodies[i];
+        if (body == supports.rail_body)
+          {
+            const double turned = field.rail.rotation(p[0]).real();
+            values[i] +=
+              factor * Row{-turned * (p[2] - centroid_z), 0., field.rail.deflection(p[0]).real(), 0.};
+          }
+        else if (support_of_body[body] >= 0)
+          values[i] += factor * Row{0., 0., field.sleepers[support_of_body[body]], 0.};
+      }
+  }
+} // namespace tread

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/geometry/defect.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    /// max(p, 0) with its kink replaced by a parabola between -half and half.
+    double rounded_ramp(const double p, const double half)
+    {
+      if (p >= half)
+        return p;
+      if (p <= -half)
+        return 0.;
+      return (p + half) * (p + half) / (4. * half);
+    }
+  } // namespace
+
+
+  double Defect::height(const double x, const double y) const
+  {
+    const double u = (x - begin) / length, v = 2. * (y - y_middle) / width;
+    const double rounding = u < 0.5 ? leading_rounding : trailing_rounding;
+    if (profile)
+      {
+        if (u <= 0. || u >= 1. || std::abs(v) >= 1.)
+          return 0.;
+        return -depth * profile(u) * (1. - v * v);
+      }
+    // At the edge r^2 grows by 4/length per length of path.
+    const double r_squared = (2. * u - 1.) * (2. * u - 1.) + v * v;
+    return -depth * rounded_ramp(1. - r_squared, 2. * rounding / length);
+  }
+
+
+  Defect defect_along(const MeasuredLine &line, const bool reversed)
+  {
+    const double from = line.begin(), length = line.end() - line.begin();
+    const double z_begin = line(line.begin()), z_end = line(line.end());
+    const auto   below = [=](const double u) {
+      return (1. - u) * z_begin + u * z_end - line(from + u * length);
+    };
+    double             deepest = 0.;
+    const unsigned int n       = 10000;
+    for (unsigned int i = 0; i <= n; ++i)
+      deepest = std::max(deepest, below(double(i) / n));
+    if (!(deepest > 0.))
+      throw std::runtime_error("a defect's profile must lie below the line between its ends");
+
+    Defect defect;
+    defect.length  = length;
+    defect.depth   = deepest;
+    defect.profile = [=](const double u) {
+      return below(reversed ? 1. - u : u) / deepest;
+    };
+    return defect;
+  }
+} // namespace tread

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/geometry/measured_line.h>
+
+// clang-format off
+#include <math.h> // isnan without a namespace, which pchip.hpp of Boost 1.74 asks for
+#include <boost/math/interpolators/pchip.hpp>
+// clang-format on
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    struct Sample
+    {
+      double       x, z; ///< m
+      unsigned int line; ///< in the file
+    };
+
+    [[noreturn]] void fail(const std::string &file, const std::string &what)
+    {
+      throw std::runtime_error("profile '" + file + "': " + what);
+    }
+
+    [[noreturn]] void fail(const std::string &file, const unsigned int line, const std::string &what)
+    {
+      fail(file, "line " + std::to_string(line) + ": " + what);
+    }
+
+    std::string in_mm(const double length)
+    {
+      std::ostringstream text;
+      text << 1e3 * length << " mm";
+      return text.str();
+    }
+
+    std::string lower(std::string text)
+    {
+      std::transform(text.begin(), text.end(), text.begin(),
+                     [](const unsigned char c) { return std::tolower(c); });
+      return text;
+    }
+
+    std::string ending(const std::string &file)
+    {
+      const std::size_t dot = file.rfind('.');
+      return dot == std::string::npos ? "" : lower(file.substr(dot + 1));
+    }
+
+    /// The numbers of a line; empty if anything in it is none.
+    std::vector<double> numbers(std::string text)
+    {
+      for (char &c : text)
+        if (c == ',' || c == ';')
+          c = ' ';
+      std::istringstream  words(text);
+      std::string         word;
+      std::vector<double> values;
+      while (words >> word)
+        {
+          std::size_t used = 0;
+          try
+            {
+              values.push_back(std::stod(word, &used));
+            }
+          catch (const std::exception &)
+            {
+            }
+          if (used != word.size() || !std::isfinite(values.back()))
+            return {};
+        }
+      return values;
+    }
+
+    /// Points of a plain table: exactly two columns.
+    std::vector<Sample> read_table(const std::string &file, std::istream &in)
+    {
+      std::vector<Sample> samples;
+      std::string         text;
+      bool                heading = false;
+      for (unsigned int line = 1; std::getline(in, text); ++line)
+        {
+          const std::size_t first = text.find_first_not_of(" \t\r");
+          if (first == std::string::npos || text[first] == '#' || text[first] == '!')
+            continue;
+          const std::vector<double> values = numbers(text);
+          if (values.empty() && samples.empty() && !heading)
+            heading = true;
+          else if (values.size() != 2)
+            fail(file, line, "needs two numbers, in mm");
+          else
+            samples.push_back({1e-3 * values[0], 1e-3 * values[1], line});
+        }
+      return samples;
+    }
+
+    /// MiniProf: lines "name=value", then a table whose first two columns are y and z in mm.
+    std::vector<Sample> read_miniprof(const std::string &file, std::istream &in)
+    {
+      std::vector<Sample> samples;
+      std::string         text;
+      for (unsigned int line = 1; std::getline(in, text); ++line)
+        {
+          if (text.find('=') != std::string::npos || text.find_first_not_of(" \t\r") == std::string::npos)
+            continue;
+          const std::vector<double> values = numbers(text);
+          if (values.size() < 2)
+            fail(file, line, "needs at least two numbers, in mm");
+          samples.push_back({1e-3 * values[0], 1e-3 * values[1], line});
+        }
+      return samples;
+    }
+
+    /// Simpack: points between point.begin and point.end; names that change them stand before.
+    std::vector<Sample> read_simpack(const std::string &file, std::istream &in)
+    {
+      std::vector<Sample> samples;
+      double              per_metre = 1e3, mirror[2] = {1., 1.}, shift[2] = {0., 0.};
+      bool                in_points = false, ended = false;
+      std::string         text;
+      for (unsigned int line = 1; std::getline(in, text) && !ended; ++line)
+        {
+          text = lower(text.substr(0, text.find('!')));
+          if (text.find("point.begin") != std::string::npos)
+            in_points = true;
+          else if (text.find("point.end") != std::string::npos)
+            ended = true;
+          else if (in_points)
+            {
+              const std::vector<double> values = numbers(text);
+              if (values.empty() && text.find_first_not_of(" \t\r") == std::string::npos)
+                continue;
+              if (values.size() < 2)
+                fail(file, line, "needs at least two numbers");
+              samples.push_back({values[0], values[1], line});
+            }
+          else if (const std::size_t equals = text.find('='); equals != std::string::npos)
+            {
+              std::istringstream left(text.substr(0, equals));
+              std::string        name;
+              left >> name;
+              const std::vector<double> values = numbers(text.substr(equals + 1));
+              const double              value  = values.empty() ? 0. : values[0];
+              if (name == "units.len.f" && value > 0.)
+                per_metre = value;
+              else if ((name == "mirror.y" || name == "mirror.z") && value != 0.)
+                mirror[name.back() - 'y'] = -1.;
+              else if (name == "shift.y" || name == "shift.z")
+                shift[name.back() - 'y'] = value;
+              else if (name == "rotate" && value != 0.)
+                fail(file, line, "a turned profile cannot be read; 'rotate' must be 0");
+            }
+        }
+      if (!ended)
+        fail(file, "has no points between 'point.begin' and 'point.end'");
+      for (Sample &s : samples)
+        {
+          s.x = (mirror[0] * s.x + shift[0]) / per_metre;
+          s.z = (mirror[1] * s.z + shift[1]) / per_metre;
+        }
+      return samples;
+    }
+
+    std::vector<Sample> read_samples(const std::string &file)
+    {
+      std::ifstream in(file);
+      if (!in)
+        fail(file, "cannot be read");
+      const std::string   kind    = ending(file);
+      std::vector<Sample> samples = kind == "prr" || kind == "prw"   ? read_simpack(file, in)
+                                    : kind == "ban" || kind == "whl" ? read_miniprof(file, in)
+                                                                     : read_table(file, in);
+      if (samples.size() < 4)
+        fail(file, "has " + std::to_string(samples.size()) + " points; at least four are needed");
+      return samples;
+    }
+
+    MeasuredLine line_through(const std::vector<Sample> &samples)
+    {
+      std::vector<double> x, z;
+      for (const Sample &s : samples)
+        {
+          x.push_back(s.x);
+          z.push_back(s.z);
+        }
+      return MeasuredLine(x, z);
+    }
+
+    void refuse_gaps(const std::string &file, const std::vector<Sample> &samples)
+    {
+      std::vector<double> spacing;
+      for (std::size_t i = 1; i < samples.size(); ++i)
+        spacing.push_back(samples[i].x - samples[i - 1].x);
+      std::vector<double> sorted = spacing;
+      std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+      for (std::size_t i = 0; i < spacing.size(); ++i)
+        if (spacing[i] > 5. * sorted[sorted.size() / 2])
+          fail(file, samples[i + 1].line,
+               "gap of " + in_mm(spacing[i]) + " where points are usually " +
+                 in_mm(sorted[sorted.size() / 2]) + " apart");
+    }
+
+    /// The samples around x = 0 in which x runs on, in increasing order.
+    std::vector<Sample> around_middle(const std::string  &file,
+                                      std::vector<Sample> samples,
+                                      const double        half_width)
+    {
+      std::size_t middle = 0;
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        if (std::abs(samples[i].x) < std::abs(samples[middle].x))
+          middle = i;
+      const std::size_t before = middle > 0 ? middle - 1 : middle,
+                        after  = middle + 1 < samples.size() ? middle + 1 : middle;
+      if (samples[after].x < samples[before].x)
+        {
+          std::reverse(samples.begin(), samples.end());
+          middle = samples.size() - 1 - middle;
+        }
+      std::size_t begin = middle, end = middle;
+      while (begin > 0 && samples[begin - 1].x < samples[begin].x)
+        --begin;
+      while (end + 1 < samples.size() && samples[end].x < samples[end + 1].x)
+        ++end;
+      const bool folds_before = samples[begin].x > -half_width && begin > 0,
+                 folds_after  = samples[end].x < half_width && end + 1 < samples.size();
+      if (folds_before || folds_after)
+        fail(file, samples[folds_before ? begin - 1 : end + 1].line,
+             "the lateral coordinate turns back at " + in_mm(samples[folds_before ? begin : end].x) +
+               "; it must run on to " + in_mm(half_width) + " at both sides");
+      if (samples[begin].x > -half_width || samples[end].x < half_width)
+        fail(file, "reaches from " + in_mm(samples[begin].x) + " to " + in_mm(samples[end].x) +
+                     "; at least " + in_mm(half_width) + " at both sides are needed");
+      samples = std::vector<Sample>(samples.begin() + begin, samples.begin() + end + 1);
+      std::vector<Sample> needed;
+      for (const Sample &s : samples)
+        if (std::abs(s.x) <= half_width)
+          needed.push_back(s);
+      if (needed.size() < 4)
+        fail(file, "has less than four points within " + in_mm(half_width) + " of the middle");
+      refuse_gaps(file, needed);
+      return samples;
+    }
+  } // namespace
+
+
+  MeasuredLine::MeasuredLine(const std::vector<double> &x, const std::vector<double> &z)
+    : first(x.front())
+    , last(x.back())
+  {
+    auto abscissas = x, ordinates = z;
+    line = boost::math::interpolators::pchip<std::vector<double>>(std::move(abscissas), std::move(ordinates));
+  }
+
+
+  double MeasuredLine::operator()(const double x) const
+  {
+    return line(std::clamp(x, first, last));
+  }
+
+
+  double MeasuredLine::begin() const
+  {
+    return first;
+  }
+
+
+  double MeasuredLine::end() const
+  {
+    return last;
+  }
+
+
+  MeasuredLine read_longitudinal_profile(const std::string &file)
+  {
+    const std::vector<Sample> samples = read_samples(file);
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      if (samples[i].x <= samples[i - 1].x)
+        fail(file, samples[i].line, "x must increase from line to line");
+    refuse_gaps(file, samples);
+    return line_through(samples);
+  }
+
+
+  MeasuredLine read_rail_head(const std::string &file, const double half_width)
+  {
+    std::vector<Sample> samples = around_middle(file, read_samples(file), half_width);
+    const double        middle  = line_through(samples)(0.);
+    if (samples.front().z + samples.back().z > 2. * middle) // the sides lie below the top
+      for (Sample &s : samples)
+        s.z = -s.z;
+    double top = -1e300;
+    for (const Sample &s : samples)
+      if (std::abs(s.x) <= 20e-3)
+        top = std::max(top, s.z);
+    for (Sample &s : samples)
+      s.z -= top;
+    return line_through(samples);
+  }
+
+
+  MeasuredLine read_wheel_tread(const std::string &file, const double half_width)
+  {
+    std::vector<Sample> samples = read_samples(file);
+    const auto          in_middle =
+      std::min_element(samples.begin(), samples.end(),
+                       [](const Sample &a, const Sample &b) { return std::abs(a.x) < std::abs(b.x); });
+    const double middle = in_middle->z;
+    const auto   extreme =
+      std::max_element(samples.begin(), samples.end(), [&](const Sample &a, const Sample &b) {
+        return std::abs(a.z - middle) < std::abs(b.z - middle);
+      });
+    if (std::abs(extreme->z - middle) > 10e-3)
+      {
+        const double up = extreme->z < middle ? 1. : -1., along = extreme->x < 0. ? 1. : -1.;
+        for (Sample &s : samples)
+          {
+            s.x *= along;
+            s.z *= up;
+          }
+      }
+    samples            = around_middle(file, samples, half_width);
+    const double level = line_through(samples)(0.);
+    for (Sample &s : samples)
+      s.z -= level;
+    return line_through(samples);
+  }
+} // namespace tread

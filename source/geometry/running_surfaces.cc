@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/geometry/running_surfaces.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  double RunningSurfaces::gap(const double y) const
+  {
+    return -(tread_offset ? tread_offset(y) : 0.) - rail_top(y);
+  }
+
+
+  FirstContact first_contact(const RunningSurfaces &surfaces, const double center_x)
+  {
+    // Steps of 10 um miss the top of a crown of 13 mm radius by 1e-9 m.
+    const int    n    = static_cast<int>(surfaces.half_width / 1e-5);
+    const double step = surfaces.half_width / n;
+    FirstContact contact{0., 0., std::numeric_limits<double>::infinity()};
+    double       least = surfaces.gap(0.);
+    for (int i = 1; i <= n; ++i)
+      for (const double y : {-i * step, i * step})
+        // outwards only for what is more than round-off, so that the middle stays the middle
+        if (const double gap = surfaces.gap(y); gap < least - 1e-10)
+          {
+            least     = gap;
+            contact.y = y;
+          }
+    contact.lift = -least;
+
+    if (surfaces.defect)
+      {
+        // Along the path the wheel rises by 1 mm in 30 mm.
+        double highest = -1e300;
+        for (int j = -150; j <= 150; ++j)
+          for (int i = -300; i <= 300; ++i)
+            {
+              const double dx = 2e-4 * j, y = i / 300. * surfaces.half_width;
+              const double r = surfaces.radius + (surfaces.tread_offset ? surfaces.tread_offset(y) : 0.);
+              highest        = std::max(highest, surfaces.rail_top(y) + surfaces.defect(center_x + dx, y) +
+                                                   std::sqrt(r * r - dx * dx) - surfaces.radius);
+            }
+        contact.lift = std::max(highest, contact.lift - 1e-3);
+      }
+
+    // Least squares: the gap's second difference over its surroundings.
+    const double half = 5e-3;
+    double       sum = 0., weights = 0.;
+    for (int i = 1; i <= 50; ++i)
+      {
+        const double d = half * i / 50.;
+        sum +=
+          d * d * (surfaces.gap(contact.y + d) + surfaces.gap(contact.y - d) - 2. * surfaces.gap(contact.y));
+        weights += d * d * d * d;
+      }
+    if (sum > 0.)
+      contact.lateral_radius = weights / sum;
+    return contact;
+  }
+
+
+  double turned_line(const std::function<double(double)> &line, const double angle, const double y)
+  {
+    const double c = std::cos(angle), s = std::sin(angle);
+    double       own = y;
+    for (unsigned int i = 0; i < 60; ++i)
+      {
+        const double next = (y + s * line(own)) / c;
+        if (std::abs(next - own) < 1e-15)
+          break;
+        own = next;
+      }
+    return s * own + c * line(own);
+  }
+} // namespace tread

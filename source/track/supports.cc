@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/track/supports.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace tread
+{
+  namespace
+  {
+    /// Shape functions of a face at (x, y), seen along z; false if it lies outside.
+    bool shares_of_corners(const std::array<dealii::Point<3>, 4> &corner,
+                           const double                           x,
+                           const double                           y,
+                           std::array<double, 4>                 &share)
+    {
+      double       xi = 0., eta = 0., size = 0.;
+      const double sign_xi[4] = {-1., 1., 1., -1.}, sign_eta[4] = {-1., -1., 1., 1.};
+      for (const dealii::Point<3> &p : corner)
+        size = std::max({size, std::abs(p[0] - corner[0][0]), std::abs(p[1] - corner[0][1])});
+      if (std::hypot(x - corner[0][0], y - corner[0][1]) > 3. * size)
+        return false;
+      for (unsigned int iteration = 0; iteration < 20; ++iteration)
+        {
+          double dx = x, dy = y, J[2][2] = {};
+          for (unsigned int k = 0; k < 4; ++k)
+            {
+              const double a = 1. + sign_xi[k] * xi, b = 1. + sign_eta[k] * eta;
+              share[k] = 0.25 * a * b;
+              dx -= share[k] * corner[k][0];
+              dy -= share[k] * corner[k][1];
+              for (unsigned int d = 0; d < 2; ++d)
+                {
+                  J[d][0] += 0.25 * sign_xi[k] * b * corner[k][d];
+                  J[d][1] += 0.25 * sign_eta[k] * a * corner[k][d];
+                }
+            }
+          if (std::hypot(dx, dy) < 1e-12 * size)
+            break;
+          const double determinant = J[0][0] * J[1][1] - J[0][1] * J[1][0];
+          xi += (J[1][1] * dx - J[0][1] * dy) / determinant;
+          eta += (J[0][0] * dy - J[1][0] * dx) / determinant;
+          if (!(std::abs(xi) < 10. && std::abs(eta) < 10.))
+            return false;
+        }
+      constexpr double tolerance = 1e-6;
+      return std::max(std::abs(xi), std::abs(eta)) < 1. + tolerance;
+    }
+
+    /// The middles of n equal parts of [begin, end].
+    std::vector<double> middles(const double begin, const double end, const unsigned int n)
+    {
+      std::vector<double> middle;
+      for (unsigned int i = 0; i < n; ++i)
+        middle.push_back(begin + (end - begin) * (i + 0.5) / n);
+      return middle;
+    }
+  } // namespace
+
+
+  Supports::Supports(const Mesh                      &mesh,
+                     const unsigned int               rail_body,
+                     const std::vector<double>       &positions,
+                     const TrackParameters           &p,
+                     const std::vector<SolidSleeper> &solid_sleepers)
+    : rail_body(rail_body)
+    , positions(positions)
+    , parameters(p)
+    , solid_sleepers(solid_sleepers)
+    , mesh(mesh)
+    , rail_ends(positions.size())
+    , n_sleepers(p.two_layers && solid_sleepers.empty() ? positions.size() : 0)
+  {
+    if (!solid_sleepers.empty() && solid_sleepers.size() != positions.size())
+      throw std::invalid_argument("solid sleepers: one a support");
+    const unsigned int n    = p.points_along * p.points_across;
+    const Faces        foot = facing(rail_body, -1.);
+    for (unsigned int s = 0; s < positions.size(); ++s)
+      {
+        Faces top, bottom;
+        if (!solid_sleepers.empty())
+          {
+            top    = facing(solid_sleepers[s].body, 1.);
+            bottom = facing(solid_sleepers[s].body, -1.);
+          }
+        for (const double x :
+             middles(positions[s] - 0.5 * p.pad_length, positions[s] + 0.5 * p.pad_length, p.points_along))
+          for (const double y :
+               middles(p.pad_middle - 0.5 * p.pad_width, p.pad_middle + 0.5 * p.pad_width, p.points_across))
+            {
+              const unsigned int end = add_end(foot, x, y, -1.);
+              rail_ends[s].push_back(end);
+              const int below = !p.two_layers            ? -1
+                                : solid_sleepers.empty() ? static_cast<int>(s)
+                                                         : static_cast<int>(point_of(add_end(top, x, y, 1.)));
+              springs.push_back(
+                {static_cast<int>(point_of(end)), below, p.pad_stiffness / n, p.pad_damping / n, s, pad});
+            }
+        if (!p.two_layers)
+          continue;
+        if (solid_sleepers.empty())
+          springs.push_back({static_cast<int>(s), -1, p.ballast_stiffness, p.ballast_damping, s, ballast});
+        else
+          for (const double x : middles(positions[s] - 0.5 * solid_sleepers[s].width,
+                                        positions[s] + 0.5 * solid_sleepers[s].width, p.points_along))
+            for (const double y :
+                 middles(solid_sleepers[s].y_begin, solid_sleepers[s].y_end, p.points_across))
+              springs.push_back({static_cast<int>(point_of(add_end(bottom, x, y, -1.))), -1,
+                                 p.ballast_stiffness / n, p.ballast_damping / n, s, ballast});
+      }
+    displacement.assign(point_of(ends.size()), 0.);
+    velocity = displacement;
+    sleeper_force.assign(n_sleepers, 0.);
+    spring_force.assign(springs.size(), 0.);
+    damper_force = spring_force;
+  }
+
+
+  Supports::Faces Supports::facing(const unsigned int body, const double side) const
+  {
+    // Steeper faces, such as those of a web, carry nothing.
+    constexpr double least_slope = 0.7;
+    Faces            faces;
+    for (const Mesh::Face &face : mesh.faces)
+      if (face.body == body)
+        {
+          const dealii::Tensor<1, 3> normal =
+            dealii::cross_product_3d(mesh.nodes[face.nodes[2]] - mesh.nodes[face.nodes[0]],
+                                     mesh.nodes[face.nodes[3]] - mesh.nodes[face.nodes[1]]);
+          if (side * normal[2] > least_slope * normal.norm())
+            faces.push_back(&face);
+        }
+    return faces;
+  }
+
+
+  unsigned int Supports::add_end(const Faces &faces, const double x, const double y, const double side)
+  {
+    std::array<double, 4>           share, shares;
+    std::array<dealii::Point<3>, 4> corner;
+    const Mesh::Face               *found   = nullptr;
+    double                          highest = std::numeric_limits<double>::lowest();
+    for (const Mesh::Face *face : faces)
+      {
+        for (unsigned int k = 0; k < 4; ++k)
+          corner[k] = mesh.nodes[face->nodes[k]];
+        if (!shares_of_corners(corner, x, y, share))
+          continue;
+        double height = 0.;
+        for (unsigned int k = 0; k < 4; ++k)
+          height += side * share[k] * corner[k][2];
+        if (height > highest + 1e-9)
+          {
+            highest = height;
+            found   = face;
+            shares  = share;
+          }
+      }
+    // Where ranks meet several hold a face: the lowest one has the point.
+    const double best = dealii::Utilities::MPI::max(highest, mesh.comm);
+    if (best == std::numeric_limits<double>::lowest())
+      throw std::invalid_argument("no face of the body lies at x = " + std::to_string(1e3 * x) +
+                                  " mm, y = " + std::to_string(1e3 * y) + " mm");
+    const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
+    const unsigned int owner = dealii::Utilities::MPI::min(
+      found && highest > best - 1e-9 ? rank : std::numeric_limits<unsigned int>::max(), mesh.comm);
+    End end;
+    if (owner == rank)
+      {
+        std::map<unsigned int, double> of_node;
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            const unsigned int node = found->nodes[k];
+            const auto         h =
+              std::find_if(mesh.hanging_nodes.begin(), mesh.hanging_nodes.end(),
+                           [=](const Mesh::HangingNode &hanging) { return hanging.node == node; });
+            if (h == mesh.hanging_nodes.end())
+              of_node[node] += shares[k];
+            else
+              for (unsigned int i = 0; i < h->parents.size(); ++i)
+                of_node[h->parents[i]] += shares[k] * h->weights[i];
+          }
+        end.nodes.assign(of_node.begin(), of_node.end());
+      }
+    ends.push_back(end);
+    return ends.size() - 1;
+  }
+
+
+  unsigned int Supports::add_probe(const double x)
+  {
+    probes.push_back(add_end(facing(rail_body, -1.), x, parameters.pad_middle, -1.));
+    displacement.push_back(0.);
+    velocity.push_back(0.);
+    return probes.size() - 1;
+  }
+
+
+  std::vector<double> Supports::of_nodes(const Row *field, const bool from_reference) const
+  {
+    std::vector<double> values(ends.size(), 0.);
+    for (unsigned int e = 0; e < ends.size(); ++e)
+      for (const auto &[node, share] : ends[e].nodes)
+        values[e] += share * (field[node][2] - (from_reference ? mesh.nodes[node][2] : 0.));
+    dealii::Utilities::MPI::sum(values, mesh.comm, values);
+    return values;
+  }
+
+
+  void Supports::set_at_rest(const Row *x)
+  {
+    const std::vector<double> u = of_nodes(x, true);
+    std::copy(u.begin(), u.end(), displacement.begin() + n_sleepers);
+    std::fill(velocity.begin(), velocity.end(), 0.);
+    std::vector<double> stiffness(n_sleepers, 0.), load(n_sleepers, -parameters.sleeper_mass * gravity);
+    for (const Spring &spring : springs)
+      for (const int point : {spring.a, spring.b})
+        if (point >= 0 && point < static_cast<int>(n_sleepers))
+          {
+            const int other = spring.a + spring.b - point;
+            stiffness[point] += spring.stiffness;
+            load[point] += other < 0 ? 0. : spring.stiffness * displacement[other];
+          }
+    for (unsigned int s = 0; s < n_sleepers; ++s)
+      displacement[s] = load[s] / stiffness[s];
+  }
+
+
+  void Supports::give(const int point, const double value, Row *force) const
+  {
+    if (point >= static_cast<int>(n_sleepers))
+      for (const auto &[node, share] : ends[point - n_sleepers].nodes)
+        force[node][2] += share * value;
+  }
+
+
+  void Supports::add_forces(Row *force)
+  {
+    for (double &f : sleeper_force)
+      f = -parameters.sleeper_mass * gravity;
+    for (unsigned int i = 0; i < springs.size(); ++i)
+      {
+        const Spring &spring = springs[i];
+        damper_force[i]      = spring.damping * difference(velocity, spring);
+        const double f       = spring.stiffness * difference(displacement, spring) + damper_force[i];
+        spring_force[i]      = f;
+        give(spring.a, -f, force);
+        give(spring.b, f, force);
+        if (spring.a < static_cast<int>(n_sleepers))
+          sleeper_force[spring.a] -= f;
+        if (spring.b >= 0 && spring.b < static_cast<int>(n_sleepers))
+          sleeper_force[spring.b] += f;
+      }
+  }
+
+
+  void Supports::add_spring_forces(Row *force) const
+  {
+    for (const Spring &spring : springs)
+      {
+        const double f = spring.stiffness * difference(displacement, spring);
+        give(spring.a, -f, force);
+        give(spring.b, f, force);
+      }
+  }
+
+
+  void Supports::add_row_sums(Row *field) const
+  {
+    for (const Spring &spring : springs)
+      for (const int point : {spring.a, spring.b})
+        if (point >= static_cast<int>(n_sleepers))
+          {
+            const double neighbours = spring.b < 0 ? 1. : 2.;
+            for (const auto &[node, share] : ends[point - n_sleepers].nodes)
+              {
+                field[node][0] += neighbours * share * spring.stiffness;
+                field[node][1] += neighbours * share * spring.damping;
+              }
+          }
+  }
+
+
+  void Supports::sleeper_row_sums(double &stiffness_over_mass, double &damping_over_mass) const
+  {
+    stiffness_over_mass = damping_over_mass = 0.;
+    if (n_sleepers > 0)
+      {
+        stiffness_over_mass =
+          (2. * parameters.pad_stiffness + parameters.ballast_stiffness) / parameters.sleeper_mass;
+        damping_over_mass =
+          (2. * parameters.pad_damping + parameters.ballast_damping) / parameters.sleeper_mass;
+      }
+  }
+
+
+  void Supports::predict(const Row                 *v,
+                         const Row                 *force,
+                         const std::vector<double> &inverse_masses,
+                         const double               time_step,
+                         double                    *velocities) const
+  {
+    for (unsigned int e = 0; e < ends.size(); ++e)
+      {
+        velocities[e] = 0.;
+        for (const auto &[node, share] : ends[e].nodes)
+          velocities[e] += share * (v[node][2] + time_step * inverse_masses[node] * force[node][2]);
+      }
+  }
+
+
+  void Supports::advance(const double *velocities, const double time_step)
+  {
+    const std::vector<double> before = velocity;
+    for (unsigned int s = 0; s < n_sleepers; ++s)
+      velocity[s] += time_step * sleeper_force[s] / parameters.sleeper_mass;
+    std::copy(velocities, velocities + ends.size(), velocity.begin() + n_sleepers);
+    for (unsigned int i = 0; i < springs.size(); ++i)
+      damper_work += 0.5 * time_step * damper_force[i] *
+                     (difference(before, springs[i]) + difference(velocity, springs[i]));
+    for (unsigned int i = 0; i < displacement.size(); ++i)
+      displacement[i] += time_step * velocity[i];
+  }
+
+
+  void Supports::set_velocities(const Row *v, const std::vector<double> &sleeper_velocities)
+  {
+    const std::vector<double> of_ends = of_nodes(v, false);
+    std::copy(of_ends.begin(), of_ends.end(), velocity.begin() + n_sleepers);
+    std::copy_n(sleeper_velocities.begin(), n_sleepers, velocity.begin());
+  }
+
+
+  double Supports::force(const unsigned int support, const Layer layer) const
+  {
+    double compression = 0.;
+    for (unsigned int i = 0; i < springs.size(); ++i)
+      if (springs[i].support == support && springs[i].layer == layer)
+        compression -= spring_force[i];
+    return compression;
+  }
+
+
+  double Supports::largest_pad_pressure(const unsigned int support) const
+  {
+    double largest = 0.;
+    for (unsigned int i = 0; i < springs.size(); ++i)
+      if (springs[i].support == support && springs[i].layer == pad)
+        largest = std::max(largest, -spring_force[i]);
+    return largest * parameters.points_along * parameters.points_across /
+           (parameters.pad_length * parameters.pad_width);
+  }
+
+
+  double Supports::rail_displacement(const unsigned int support) const
+  {
+    double sum = 0.;
+    for (const unsigned int e : rail_ends[support])
+      sum += displacement[point_of(e)];
+    return sum / rail_ends[support].size();
+  }
+
+
+  double Supports::probe_displacement(const unsigned int probe) const
+  {
+    return displacement[point_of(probes[probe])];
+  }
+
+
+  double Supports::spring_energy() const
+  {
+    double energy = 0.;
+    for (const Spring &spring : springs)
+      energy += 0.5 * spring.stiffness * std::pow(difference(displacement, spring), 2);
+    return energy;
+  }
+
+
+  double Supports::sleeper_kinetic_energy(const double time_step) const
+  {
+    double energy = 0.;
+    for (unsigned int s = 0; s < n_sleepers; ++s)
+      energy += 0.5 * parameters.sleeper_mass * velocity[s] * velocity[s];
+    for (const Spring &spring : springs)
+      {
+        const double f = spring.stiffness * difference(displacement, spring);
+        if (spring.a < static_cast<int>(n_sleepers))
+          energy -= 0.5 * time_step * f * velocity[spring.a];
+        if (spring.b >= 0 && spring.b < static_cast<int>(n_sleepers))
+          energy += 0.5 * time_step * f * velocity[spring.b];
+      }
+    return energy;
+  }
+
+
+  double Supports::weight_potential(const double time_step) const
+  {
+    double potential = 0.;
+    for (unsigned int s = 0; s < n_sleepers; ++s)
+      potential += parameters.sleeper_mass * gravity * (displacement[s] - 0.5 * time_step * velocity[s]);
+    return potential;
+  }
+
+
+  std::vector<unsigned int> Supports::nodes() const
+  {
+    std::vector<unsigned int> all;
+    for (const End &end : ends)
+      for (const auto &[node, share] : end.nodes)
+        all.push_back(node);
+    return all;
+  }
+
+
+  std::vector<unsigned int> Supports::guided_nodes(const unsigned int direction) const
+  {
+    std::vector<unsigned int> chosen;
+    for (unsigned int s = 0; s < positions.size(); ++s)
+      {
+        // Points of the rail's foot under the pads, or those on the ballast of solid sleepers.
+        std::vector<unsigned int> candidates;
+        for (const Spring &spring : springs)
+          if (spring.support == s && spring.a >= static_cast<int>(n_sleepers) &&
+              spring.layer == (direction == 1 ? pad : ballast))
+            for (const auto &[node, share] : ends[spring.a - n_sleepers].nodes)
+              candidates.push_back(node);
+        const auto distance = [&](const unsigned int node) {
+          return std::abs(mesh.nodes[node][direction] -
+                          (direction == 0 ? positions[s] : parameters.pad_middle));
+        };
+        double nearest = std::numeric_limits<double>::max();
+        for (const unsigned int node : candidates)
+          nearest = std::min(nearest, distance(node));
+        nearest = dealii::Utilities::MPI::min(nearest, mesh.comm);
+        for (const unsigned int node : candidates)
+          if (distance(node) <= nearest + 1e-9)
+            chosen.push_back(node);
+      }
+    // A node is held on all ranks or on none.
+    NodalField marks(mesh.nodes.size(), Row{});
+    for (const unsigned int node : chosen)
+      marks[node][0] = 1.;
+    mesh.shared_nodes.sum(marks.data());
+    chosen.clear();
+    for (unsigned int i = 0; i < marks.size(); ++i)
+      if (marks[i][0] > 0.)
+        chosen.push_back(i);
+    return chosen;
+  }
+} // namespace tread

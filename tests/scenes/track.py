@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A wheel on a bar on sleepers, 20 mm of the tutorial scene: equilibrium at the start, steady rolling, ranks, resuming."""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from tread_runner import ROOT, Check, command, environment, run
+
+program = sys.argv[1]
+check = Check()
+
+SCENE = "tutorial/track.prm"
+SUPPORTS = range(-5, 7)
+SETTINGS = ["Motion/Rolled distance (mm)=20", "Rail/Margin (mm)=3590", "Track/Support 0 (mm)=-310",
+            "Output/Supports=" + ",".join(str(i) for i in SUPPORTS), "Contact/Tolerance=1e-12"]
+LOAD = 11906. * 9.81
+
+
+def history(folder):
+    with open(os.path.join(folder, "history.csv"), encoding="utf-8") as stream:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    one = run(program, SCENE, path("1"), SETTINGS)
+    rows = history(path("1"))
+    weight = 0.06 * 0.15 * 7.2 * 7800. * 9.81
+    sleepers = 12 * 200. * 9.81
+    first = rows[0]
+    pads = sum(first[f"support_{i}_pad_N"] for i in SUPPORTS)
+    ballast = sum(first[f"support_{i}_ballast_N"] for i in SUPPORTS)
+    # The crown takes 0.1 % of the bar's volume.
+    check.relative("pads carry wheel and rail at the start (kN)", 1e-3 * pads, 1e-3 * (LOAD + weight), 3e-3)
+    check.relative("ballast carries the sleepers as well (kN)", 1e-3 * ballast, 1e-3 * (LOAD + weight + sleepers), 3e-3)
+    check.relative("contact force at the start (kN)", 1e-3 * first["normal_force_N"], 1e-3 * LOAD, 5e-3)
+    # The wheel passes the middle of a span, and of the rail, at x = -10 mm.
+    middle = min(rows, key=lambda row: abs(row["position_m"] + 10e-3))
+    for i in range(3):
+        check.relative(f"wheel at mid-span: supports {-i} and {1 + i} alike", middle[f"support_{-i}_pad_N"],
+                       middle[f"support_{1 + i}_pad_N"], 0.02)
+    check.below("rolling: contact force off the static load, share", max(abs(r["normal_force_N"] / LOAD - 1.) for r in rows), 0.02)
+    check.below("energy residual, share of the work", one["energy_residual_share"], 1e-3)
+
+    two = run(program, SCENE, path("2"), SETTINGS, ranks=2)
+    for key in ("normal_force_N", "max_pressure_Pa", "energy_residual_J"):
+        check.absolute(f"2 ranks against 1: {key} over that of 1", two[key] / one[key], 1., 1e-6)
+    for name in ("support_0_pad_N", "support_0_ballast_N", "support_1_rail_m"):
+        check.relative(f"2 ranks against 1: {name}", history(path("2"))[-1][name], rows[-1][name], 1e-7)
+
+    arguments = [os.path.join(ROOT, "prm", SCENE), "--output", path("parts")]
+    for setting in SETTINGS:
+        arguments += ["-s", setting]
+    process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL)
+    deadline = time.time() + 600
+    while time.time() < deadline and process.poll() is None:
+        table = os.path.join(path("parts"), "history.csv")
+        if os.path.exists(table) and sum(1 for _ in open(table, encoding="utf-8")) > 5:
+            break
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=120)
+    check.that("interrupted", process.returncode == 130)
+    resumed = run(program, SCENE, path("parts"), SETTINGS, more=["--resume"], ranks=2)
+    # The coupling of the contact is integrated anew at a checkpoint.
+    for name in ("support_0_pad_N", "support_0_ballast_N", "support_1_rail_m", "normal_force_N"):
+        check.relative(f"resumed on 2 ranks against never stopped: {name}", history(path("parts"))[-1][name], rows[-1][name], 1e-4)
+    check.below("resumed: energy residual, share of the work", resumed["energy_residual_share"], 1e-3)
+check.exit()
