@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <sstream>
@@ -494,6 +495,7 @@ namespace tread
       }
     for (const std::string &setting : settings)
       set(setting);
+    folder = std::filesystem::path(file).parent_path();
     make_shapes();
     check();
   }

@@ -59,7 +59,7 @@ namespace tread
     prm.add_parameter(
       "Profile file", defect_file,
       "Columns x and z in mm, z up; depth is counted from the straight line between the ends. Looked for in "
-      "the present folder.",
+      "the present folder and beside the parameter file.",
       dealii::Patterns::Anything());
     prm.add_parameter(
       "Lateral law", defect_lateral_law,
@@ -68,6 +68,13 @@ namespace tread
       Selection("parabola|uniform"));
     prm.add_parameter("Reversed", defect_reversed, "A profile is rolled over from its other end.");
     prm.leave_subsection();
+  }
+
+
+  std::string Scene::located(const std::string &file) const
+  {
+    return !std::filesystem::exists(file) && std::filesystem::exists(folder / file) ? (folder / file).string()
+                                                                                    : file;
   }
 
 
@@ -83,7 +90,7 @@ namespace tread
     try
       {
         if (const auto offset =
-              tread_offset(tread, running_half_width + 1e-3 * std::abs(lateral_position_mm)))
+              tread_offset(located(tread), running_half_width + 1e-3 * std::abs(lateral_position_mm)))
           surfaces.tread_offset = [offset, y_circle = 1e-3 * lateral_position_mm](const double y) {
             return offset(y - y_circle);
           };
@@ -112,7 +119,7 @@ namespace tread
         if (!measured_head.empty())
           try
             {
-              const MeasuredLine line = read_rail_head(measured_head, running_half_width);
+              const MeasuredLine line = read_rail_head(located(measured_head), running_half_width);
               // Beside the measured part the difference fades out over 5 mm.
               height = [line, nominal, edge](const double y) {
                 const double measured =
@@ -171,7 +178,7 @@ namespace tread
         require(!defect_file.empty(), "'Defect/Shape' profile needs 'Defect/Profile file'");
         try
           {
-            *defect = defect_along(read_longitudinal_profile(defect_file), defect_reversed);
+            *defect = defect_along(read_longitudinal_profile(located(defect_file)), defect_reversed);
           }
         catch (const std::runtime_error &error)
           {

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -215,6 +216,8 @@ namespace tread
     void set(const std::string &setting);
     void check() const;
     void check_track() const;
+    /// A file that a parameter names: as it is, or from the folder of the parameter file.
+    std::string located(const std::string &file) const;
     /// @throws SceneError
     void                          make_shapes();
     std::shared_ptr<const Defect> make_defect() const;
@@ -229,6 +232,7 @@ namespace tread
                           const double       end_mm) const;
 
     mutable dealii::ParameterHandler handler;
+    std::filesystem::path            folder; ///< of the parameter file
     std::shared_ptr<const Shapes>    shapes;
   };
 } // namespace tread

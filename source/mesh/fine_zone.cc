@@ -106,12 +106,13 @@ namespace tread
                        const FineZone &zone,
                        const double    far_stretch)
   {
-    const double from = std::max(begin, zone.cubes_begin), to = std::min(end, zone.cubes_end);
+    if (zone.path_stretch <= 1. && far_stretch <= 1.)
+      return {coarse_lines(begin, end, (begin <= 0. && 0. <= end) ? 0. : 0.5 * (begin + end), size), size};
+    const double from = std::max({begin, zone.x_begin, zone.cubes_begin}),
+                 to   = std::min({end, zone.x_end, zone.cubes_end});
     if (!(from < to))
       throw std::invalid_argument("path_lines: no cubes between begin and end");
     const double anchor = (from <= 0. && 0. <= to) ? 0. : 0.5 * (from + to);
-    if (zone.path_stretch <= 1. && far_stretch <= 1.)
-      return {coarse_lines(begin, end, anchor, size), size};
 
     constexpr double growth = 1.4;
     // distances from the anchor, without the anchor itself

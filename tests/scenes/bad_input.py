@@ -51,6 +51,16 @@ SETTINGS = [
     ("Rail/Plastic zones=-30:-20:8:-400:21", ["Rail/Plastic zones", "yield stress -400", "above 0"]),
     ("Rail/Plastic zones=-30:-20:8:400:210", ["Rail/Plastic zones", "tangent modulus 210", "below Young's modulus"]),
     ("Motion/Passages=0", ["Motion/Passages", "allowed"]),
+    ("Wheel/Tread profile=S1003", ["Wheel/Tread profile", "S1003", "cannot be read", "S1002"]),
+    ("Wheel/Lateral position (mm)=99", ["Wheel/Lateral position (mm)", "allowed"]),
+    ("Rail/Inclination=1:30", ["Rail/Inclination", "1:40", "1:20"]),
+    ("Rail/Measured head=nothing.prr", ["Rail/Measured head", "nothing.prr", "cannot be read"]),
+    ("Rail/Length (mm)=100", ["Rail/Length (mm)", "must hold"]),
+    ("Defect/Shape=crater", ["Defect/Shape", "dip", "profile"]),
+    ("Defect/Shape=dip", ["Defect/Length (mm)", "Defect/Depth (mm)"]),
+    ("Defect/Shape=profile", ["Defect/Profile file"]),
+    ("Mesh/Fine from (mm)=5", ["Mesh/Fine from (mm)", "Mesh/Fine to (mm)"]),
+    ("Mesh/Path cell (mm)=5", ["Mesh/Path cell (mm)", "Mesh/Fine from (mm)"]),
     ("Rail/Profile=50E6", ["Rail/Profile", "54E1", "60E1"]),
     ("Scene/Density scale=0.5", ["Scene/Density scale", "allowed"]),
     ("Scene/Density scale=1000", ["Scene/Density scale", "allowed"]),
@@ -60,6 +70,7 @@ SETTINGS = [
 # A bar of 7.2 m with a support every 0.6 m.
 BAR = ["Rail/Shape=block", "Rail/Block width (mm)=60", "Rail/Block height (mm)=150", "Rail/Margin (mm)=3570",
        "Track/Foundation=two-layer", "Track/Pad width (mm)=50", "Track/Support 0 (mm)=-330", "Scene/Density scale=1"]
+DIP = ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"]
 PAIRS = [
     (["Track/Foundation=two-layer"], ["Track/Foundation", "Rail/Shape"]),
     (BAR + ["Track/Sleeper spacing (m)=0.63"], ["Track/Sleeper spacing (m)", "does not fit the rail"]),
@@ -70,6 +81,15 @@ PAIRS = [
     (BAR + ["Scene/Quasi-static=true", "Scene/Density scale=4"], ["Scene/Density scale", "Track/Foundation"]),
     (BAR + ["Output/Supports=0,17"], ["Output/Supports", "17"]),
     (BAR + ["Track/Sleepers=solid", "Track/Sleeper length (m)=1.2"], ["Track/Sleeper length (m)", "Rail distance"]),
+    (DIP + ["Defect/Position (mm)=50"], ["Defect/Position (mm)", "50", "70", "outside the rail"]),
+    (DIP + ["Defect/Position (mm)=-900"], ["Defect/Position (mm)", "outside the rail"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=80"], ["Defect/Width (mm)", "40 mm", "head"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Lateral position (mm)=30"], ["Lateral position (mm)", "head"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Rounded leading edge (mm)=30"], ["Rounded leading edge (mm)", "at most half"]),
+    (["Defect/Shape=profile", "Defect/Profile file=nothing.txt"], ["Defect/Profile file", "nothing.txt", "cannot be read"]),
+    (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "path"]),
+    (["Rail/Shape=block", "Rail/Inclination=1:40"], ["Rail/Inclination", "full section"]),
+    (["Wheel/Tread profile=S1002", "Wheel/Lateral position (mm)=20"], ["beside the running surface", "Wheel/Lateral position (mm)"]),
     (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
     (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
     (["Scene/Density scale=100", "Wheel/Young's modulus (GPa)=70"], ["Scene/Density scale", "inertia error"]),
@@ -116,6 +136,20 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("on 3 ranks", base + ["-s", "Motion/Drive=rocket"], ["Motion/Drive"], ranks=3)
     coarse = ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Mesh/Fine half width (mm)=9"]
     must_fail("on 3 ranks, when the mesh is known", base + coarse + ["-s", "Wheel/Mass (kg)=1"], ["Wheel/Mass (kg)"], ranks=3)
+
+    # Files with measured profiles.
+    for name, text, words in (("gap", "0 0\n1 -.1\n2 -.2\n3 -.2\n30 0\n31 0\n", ["line 5", "gap of 27 mm"]),
+                              ("columns", "0 0 1\n1 -.1 1\n2 -.2 1\n3 0 1\n", ["line 1", "two numbers"]),
+                              ("backwards", "0 0\n2 -.1\n1 -.2\n3 0\n", ["line 3", "x must increase"]),
+                              ("hill", "0 0\n1 .1\n2 .1\n3 0\n", ["below the line between its ends"])):
+        with open(os.path.join(folder, name + ".txt"), "w", encoding="utf-8") as stream:
+            stream.write(text)
+        must_fail(f"profile with {name}", base + ["-s", "Defect/Shape=profile", "-s", "Defect/Profile file=" + stream.name],
+                  ["Defect/Profile file", *words])
+    with open(os.path.join(folder, "narrow.prr"), "w", encoding="utf-8") as stream:
+        stream.write("point.begin\n" + "".join(f"{y} {1e-3 * y * y}\n" for y in range(-9, 10)) + "point.end\n")
+    must_fail("a measured head that is too narrow", base + ["-s", "Rail/Measured head=" + stream.name],
+              ["Rail/Measured head", "-9 mm to 9 mm", "25 mm"])
 
     must_fail("missing file", [os.path.join(folder, "nothing.prm"), "--output", results], ["nothing.prm"])
     must_fail("no scene", ["--output", results], ["no scene"])

@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Draw longitudinal profiles of defects, one beside the other.
+
+    plot-defects.py FILE... [--output PICTURE]
+
+Each file has columns x and z in mm; lines that start with # are passed over.
+"""
+
+import argparse
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="+")
+    parser.add_argument("--output", default="defects.png")
+    arguments = parser.parse_args()
+    figure, axis = plt.subplots(figsize=(7, 3))
+    for path in arguments.files:
+        x, z = np.loadtxt(path, unpack=True)
+        axis.plot(x, z, label=os.path.splitext(os.path.basename(path))[0])
+    axis.set_xlabel("x from the leading edge, mm")
+    axis.set_ylabel("z, mm")
+    axis.grid(linewidth=0.3)
+    axis.legend()
+    figure.tight_layout()
+    figure.savefig(arguments.output, dpi=110)
+
+
+main()

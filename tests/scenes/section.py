@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A wheel over a rail of full section with a dip, on a rigid foundation: the run beside its smooth twin, on 2 ranks beside 1,
+and what measured profiles and other treads do."""
+
+import csv
+import math
+import os
+import sys
+import tempfile
+
+from tread_runner import ROOT, Check, run
+
+program = sys.argv[1]
+check = Check()
+SCENE = os.path.join("tutorial", "dip.prm")
+SMOOTH = ["Defect/Shape=none"]
+SHORT = ["Motion/Rolled distance (mm)=4", "Defect/Shape=none", "Mesh/Fine from (mm)=0", "Mesh/Fine to (mm)=0",
+         "Mesh/Path cell (mm)=0"]
+
+
+def history(folder):
+    with open(os.path.join(folder, "history.csv"), encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    column = lambda name: [float(row[name]) for row in rows]
+    return [1e3 * x for x in column("position_m")], column("normal_force_N"), column("lateral_force_N")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    dip = run(program, SCENE, path("dip"))
+    smooth = run(program, SCENE, path("smooth"), SMOOTH)
+    x, force, lateral = history(path("dip"))
+    x_smooth, force_smooth, _ = history(path("smooth"))
+    check.that("the same rows", x == x_smooth and dip["cells"] == smooth["cells"])
+    static = (900. + 13400.) * 9.81
+
+    # The dip begins at -50 mm; a patch of 8 mm semi-axis, twice that for what nodes of the patch's rim feel.
+    begin = -50.
+    before = [a / b - 1. for p, a, b in zip(x, force, force_smooth) if p < begin - 16.]
+    check.below("before the dip: force as without it", max(map(abs, before)), 1e-9)
+    check.below("without it: steady force, share of the load", max(abs(f / static - 1.) for f in force_smooth), 0.03)
+    after = [(p, a / static) for p, a in zip(x, force) if p > begin - 16.]
+    least, largest = min(after, key=lambda row: row[1]), max(after, key=lambda row: row[1])
+    print(f"least force {least[1]:.3f} at {least[0]:.1f} mm, largest {largest[1]:.3f} at {largest[0]:.1f} mm, share of the load")
+    check.that("the force falls by a tenth or more, in the dip's first half", least[1] < 0.9 and begin - 8. < least[0] < begin + 15.)
+    check.that("it rises by a tenth or more, later", largest[1] > 1.1 and largest[0] > least[0])
+    check.below("energy residual, share", dip["energy_residual_share"], 3e-3)
+
+    # The patch is normal to the rail, which leans by 1:40: without traction the force is, too.
+    check.absolute("lateral over normal force", lateral[0] / force[0], -1. / 40., 2e-3)
+
+    two = run(program, SCENE, path("two"), ["Contact/Tolerance=1e-12", *SHORT], 2)
+    one = run(program, SCENE, path("one"), ["Contact/Tolerance=1e-12", *SHORT])
+    for key in ("normal_force_N", "lateral_force_N", "max_pressure_Pa", "patch_area_m2"):
+        check.relative(f"2 ranks against 1: {key}", two[key], one[key], 1e-8)
+
+    # A head as measured: an arc of 200 mm, by which Hertz's patch is narrower.
+    with open(path("head.txt"), "w", encoding="utf-8") as stream:
+        for y in range(-34, 35):
+            stream.write(f"{y} {math.sqrt(200.**2 - y * y) - 200.:.6f}\n")
+    narrow = run(program, SCENE, path("narrow"),
+                 [*SHORT, "Rail/Measured head=" + path("head.txt"), "Rail/Inclination=none", "Wheel/Tread profile=cylinder"])
+    check.relative("measured head of 200 mm: largest pressure over Hertz's", narrow["max_pressure_Pa"],
+                   narrow["reference"]["max_pressure_Pa"]["Hertz"]["value"], 0.04)
+    check.relative("measured head of 200 mm: Hertz's semi-axis b, mm", 1e3 * narrow["reference"]["semi_axis_y_m"]["Hertz"]["value"],
+                   4.80, 0.02)
+    # S1002 on an inclined 60E1 touches beside the running circle; the start finds it.
+    run(program, SCENE, path("s1002"), [*SHORT, "Rail/Profile=60E1", "Wheel/Tread profile=S1002", "Wheel/Lateral position (mm)=-4"])
+check.exit()
