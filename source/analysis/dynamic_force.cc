@@ -75,19 +75,25 @@ namespace tread
                                          "'Output/History interval (mm)' alike",
                                          run.name.c_str(), 1e3 * of_run.length, smooth_twin.name.c_str(),
                                          1e3 * of_twin.length));
-    const double begin = std::max({from, of_run.middle.front(), of_twin.middle.front()}),
-                 end   = std::min({to, of_run.middle.back(), of_twin.middle.back()});
-    if (end - begin < 15. * of_run.length)
-      throw std::invalid_argument(format("%s and its smooth twin %s have fewer than 16 intervals in common",
-                                         run.name.c_str(), smooth_twin.name.c_str()));
+    // Equally spaced from a row of the run on.
+    const std::vector<double> &rows = of_run.middle;
+    const auto   first = std::lower_bound(rows.begin(), rows.end(), std::max(from, of_twin.middle.front()));
+    const double begin = first == rows.end() ? rows.back() : *first,
+                 end   = std::min({to, rows.back(), of_twin.middle.back()});
+    const std::size_t n =
+      end < begin ? 0 : static_cast<std::size_t>((end - begin) / of_run.length + 1e-6) + 1;
+    if (n < 16)
+      throw std::invalid_argument(
+        format("%s and its smooth twin %s have %zu intervals in common; a dynamic force needs "
+               "at least 16",
+               run.name.c_str(), smooth_twin.name.c_str(), n));
 
     DynamicForces result;
-    result.speed        = of_run.speed;
-    result.interval     = of_run.length / of_run.speed;
-    const std::size_t n = static_cast<std::size_t>((end - begin) / of_run.length * (1. + 1e-9)) + 1;
+    result.speed    = of_run.speed;
+    result.interval = of_run.length / of_run.speed;
     for (std::size_t i = 0; i < n; ++i)
       {
-        result.position.push_back(std::min(begin + i * of_run.length, end));
+        result.position.push_back(begin + i * of_run.length);
         result.time.push_back(run.time.front() + (result.position[i] - run.position.front()) / result.speed);
       }
     for (std::size_t column = 0; column < run.columns.size(); ++column)

@@ -53,7 +53,7 @@ namespace tread
       std::size_t end           = begin;
       while (end < envelope.size() && envelope[end] > 0.02 * envelope[largest])
         ++end;
-      if (end < begin + span / 2)
+      if (end < begin + span / 4)
         return nan;
       double sum = 0., sum_t = 0., sum_y = 0., sum_tt = 0., sum_ty = 0.;
       for (std::size_t i = begin; i < end; ++i)
