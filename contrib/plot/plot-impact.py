@@ -42,7 +42,7 @@ COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, "black")
 SECOND_MOMENT = {"54E1": 2337.9e-8, "60E1": 3038.3e-8}
 CONTACT = "normal_force_N"
 
-plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "legend.fontsize": 8, "axes.grid": True, "grid.color": "#E3E3E3",
+plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "legend.fontsize": 8, "axes.grid": True, "axes.axisbelow": True, "grid.color": "#E3E3E3",
                      "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.3,
                      "savefig.dpi": 120, "savefig.bbox": "tight"})
 
@@ -134,8 +134,8 @@ def draw_contact_force(run):
     for i in top:
         axes[0].plot(run.x[i], force[i], "v", color=RED, ms=4)
     for i, j in zip(top, top[1:]):
-        axes[0].annotate(f"{run.x[j] - run.x[i]:.0f} mm", (0.5 * (run.x[i] + run.x[j]), max(force[i], force[j])), ha="center",
-                         va="bottom", fontsize=8, color=RED)
+        axes[0].annotate(f"{run.x[j] - run.x[i]:.0f} mm", (0.5 * (run.x[i] + run.x[j]), min(force[i], force[j])), xytext=(0, -4),
+                         textcoords="offset points", ha="center", va="top", fontsize=8, color=RED)
     axes[0].set_ylabel("normal force [kN]")
     axes[0].legend()
     for axis, column, factor, label in ((axes[1], "max_pressure_Pa", 1e-6, "largest\npressure [MPa]"),
@@ -178,7 +178,7 @@ def draw_patches(run):
         if len(points) > 3:
             filled = axis.tricontourf(points[:, 0] - centre, points[:, 1], pressure, levels=np.linspace(1e-3 * largest, largest, 13),
                                       cmap="viridis")
-        axis.set(title=f"wheel at {centre:.1f} mm, {1e-3 * normal:.1f} kN, {pressure.max(initial=0):.0f} MPa", aspect="equal",
+        axis.set(title=f"wheel at {centre:.1f} mm\n{1e-3 * normal:.1f} kN, {pressure.max(initial=0):.0f} MPa", aspect="equal",
                  xlim=(-14, 14), ylim=(-11, 11), xlabel="x from the wheel [mm]")
     axes[0, 0].set_ylabel("y [mm]")
     axes[1, 0].set_ylabel("y [mm]")
@@ -237,7 +237,7 @@ def draw_dynamic_force(run):
         text = f"{line['frequency_Hz']:.0f} Hz, {1e3 * line['wavelength_m']:.0f} mm"
         if line["logarithmic_decrement"] is not None:
             text += f"\ndecrement {line['logarithmic_decrement']:.2f}"
-        axes[1].annotate(text, (line["frequency_Hz"], 1e-3 * line["amplitude_N"]), xytext=(6, 2), textcoords="offset points", fontsize=8)
+        axes[1].annotate(text, (line["frequency_Hz"], 1e-3 * line["amplitude_N"]), xytext=(8, -8), textcoords="offset points", fontsize=8)
     entry = run.figures["forces"][CONTACT]
     axes[0].set_title(f"peak {1e-3 * entry['peak_N']:.1f} kN at {1e3 * entry['peak_position_m']:.1f} mm, {run.label}")
     return figure
@@ -255,6 +255,7 @@ def draw_supports(run):
         labels = [f"{layer} {n}" for n in sorted(numbers)]
         draw_lines(row[0], run, columns, labels)
         draw_spectra(row[1], run, columns, labels)
+    figure.tight_layout()
     return figure
 
 

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-from tread_runner import Check, command, environment
+from tread_runner import ROOT, Check, command, environment
 
 program = sys.argv[1]
 check = Check()
@@ -126,6 +126,15 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("a section: begins, mm", 1e3 * section["from_m"], -100, 1e3 * ROW)
     check.absolute("a section: ends, mm", 1e3 * section["to_m"], 100, 1e3 * ROW)
     check.relative("a section: Hann's resolution x record", section["resolution_Hz"] * section["record_s"], 2.0, 1e-9)
+
+    write(path("fast-run"), 2000, speed=1.4 * SPEED, defect=True)
+    write(path("fast-twin"), 2000, speed=1.4 * SPEED)
+    drawn = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("run"), path("fast-run"),
+                            "--smooth-twin", path("twin"), path("fast-twin"), "--program", program, "--output", path("pictures")],
+                           env=environment(), capture_output=True, text=True)
+    if not check.that("pictures of two speeds", drawn.returncode == 0 and set(os.listdir(path("pictures"))) == {
+            f"{name}.png" for name in ("contact-force", "dynamic-force", "supports", "distribution", "speeds")}):
+        print(drawn.stdout, drawn.stderr)
 
     fails("no twin named", ["--dynamic-force", path("run")], ["--smooth-twin"])
     fails("a scene beside", both + ["scene.prm"], ["takes no scene"])
