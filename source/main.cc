@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
+#include <tread/dynamic_force_files.h>
 #include <tread/reference_only.h>
 #include <tread/scene.h>
 #include <tread/simulation.h>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <thread>
 
 namespace
@@ -24,21 +26,30 @@ namespace
   --resume                  go on from the last checkpoint in that folder
   --reference-only          print and write the half-space answer of the scene in a second; roll nothing
   --dry-run                 print size and cost of the run; run and write nothing
+  --dynamic-force RUN --smooth-twin TWIN [--window Hann] [--from MM] [--to MM]
+                            what a defect adds: forces of the run in one folder minus those of the run without
+                            the defect in another, with spectra
   --print-parameters        print all parameters with units, ranges and meaning, and stop
   --version, --help
 )";
 
   struct CommandLine
   {
-    std::string              scene;
-    std::vector<std::string> settings;
-    std::string              output;
+    std::string                scene;
+    std::vector<std::string>   settings;
+    std::string                output;
+    tread::DynamicForceRequest dynamic;
     bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
   };
 
   CommandLine parse(const int argc, char **argv)
   {
-    CommandLine line;
+    CommandLine                                line;
+    const std::map<std::string, std::string *> dynamic_force{{"--dynamic-force", &line.dynamic.run},
+                                                             {"--smooth-twin", &line.dynamic.smooth_twin},
+                                                             {"--window", &line.dynamic.window},
+                                                             {"--from", &line.dynamic.from_mm},
+                                                             {"--to", &line.dynamic.to_mm}};
     for (int i = 1; i < argc; ++i)
       {
         const std::string argument = argv[i];
@@ -51,6 +62,8 @@ namespace
           line.settings.push_back(value());
         else if (argument == "--output")
           line.output = value();
+        else if (const auto option = dynamic_force.find(argument); option != dynamic_force.end())
+          *option->second = value();
         else if (argument == "--resume")
           line.resume = true;
         else if (argument == "--reference-only")
@@ -68,6 +81,10 @@ namespace
       }
     if (line.resume + line.reference_only + line.dry_run > 1)
       throw tread::SceneError("only one of --resume, --reference-only and --dry-run can be asked for");
+    if (line.dynamic.run.empty() != line.dynamic.smooth_twin.empty())
+      throw tread::SceneError("--dynamic-force and --smooth-twin need each other: folders of two runs");
+    if (!line.dynamic.run.empty() && !line.scene.empty())
+      throw tread::SceneError("--dynamic-force reads two runs; it takes no scene");
     return line;
   }
 
@@ -83,7 +100,13 @@ namespace
                                                                  : std::string(usage));
           return 0;
         }
-    const CommandLine line = parse(argc, argv);
+    CommandLine line = parse(argc, argv);
+    if (!line.dynamic.run.empty())
+      {
+        line.dynamic.output = line.output;
+        tread::write_dynamic_force(line.dynamic, comm);
+        return 0;
+      }
     if (line.scene.empty() && !line.print_parameters)
       throw tread::SceneError("no scene given; tread --help shows how, prm/ holds scenes to start from");
     tread::Scene scene;

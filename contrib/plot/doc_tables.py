@@ -14,10 +14,10 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PROGRAM = os.path.join(ROOT, "build/source/tread")
 
 
-def command(arguments, ranks):
+def command(arguments, ranks, program=PROGRAM):
     """The program on so many ranks; one rank needs no mpirun."""
     launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
-    return launch + [PROGRAM] + arguments
+    return launch + [program] + arguments
 
 
 def environment():

@@ -115,7 +115,7 @@ namespace tread
         const std::string       name = entry.path().filename();
         static const std::regex own(
           "(summary\\.json|history\\.csv|(patch|patch_averaged|reference_patch|subsurface|rail_cells|"
-          "rail_surface|passages)\\.csv|"
+          "rail_surface|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());

@@ -240,7 +240,8 @@ with tempfile.TemporaryDirectory() as folder:
         check.below("full wheel: energy residual, share of the work", wheel["energy_residual_share"], 1e-3)
 
     elif what == "shipped":
-        shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names]
+        shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
+                   if name.endswith(".prm")]
         for scene in sorted(shipped):
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
             dry = subprocess.run(command(program, [scene, "--dry-run"]), env=environment(), capture_output=True, text=True)

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_analysis_dynamic_force_h
+#define tread_analysis_dynamic_force_h
+
+#include <tread/analysis/spectrum.h>
+
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// The forces of a run's history.csv. Each row is the mean since the row before.
+  struct ForceHistory
+  {
+    std::string                      name;     ///< of the run, for messages
+    std::vector<double>              time;     ///< s, of each row
+    std::vector<double>              position; ///< of the wheel, m
+    std::vector<std::string>         columns;  ///< those whose name ends with _N
+    std::vector<std::vector<double>> force;    ///< N, [column][row]
+  };
+
+  /// What a defect adds to the force of one column.
+  struct DynamicForce
+  {
+    std::string              column;
+    std::vector<double>      values;                   ///< run minus smooth twin, N, at DynamicForces::time
+    double                   peak;                     ///< the value of largest size, N
+    double                   peak_time, peak_position; ///< s, m
+    double                   force_at_peak;            ///< of the run, N
+    double                   smooth_mean;              ///< of the smooth twin over the section, N
+    AmplitudeSpectrum        spectrum;
+    std::vector<Oscillation> oscillations; ///< at most five
+  };
+
+  struct DynamicForces
+  {
+    double                    speed, interval; ///< m/s; s between the values
+    std::vector<double>       time, position;  ///< middle of the intervals, equally spaced, s and m
+    std::vector<DynamicForce> forces;
+  };
+
+  /// The forces of a run minus those of its smooth twin with the wheel at the same position: what is left of
+  /// the mesh, the sleepers' spacing and the start goes with the twin.
+  /// @param from, to section of the position, m
+  /// @throws std::invalid_argument with one line, if the two were not recorded alike
+  DynamicForces dynamic_forces(const ForceHistory &run,
+                               const ForceHistory &smooth_twin,
+                               const Window        window,
+                               const double        from,
+                               const double        to);
+} // namespace tread
+
+#endif

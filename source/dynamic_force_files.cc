@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/dynamic_force.h>
+#include <tread/dynamic_force_files.h>
+#include <tread/output/run_folder.h>
+#include <tread/scene.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    std::vector<std::string> split(const std::string &line)
+    {
+      return dealii::Utilities::split_string_list(line, ',');
+    }
+
+    ForceHistory read_forces(const std::string &folder)
+    {
+      if (!std::filesystem::is_directory(folder))
+        throw SceneError("no folder '" + folder + "'");
+      ForceHistory history;
+      history.name = folder + "/history.csv";
+      std::ifstream file(history.name);
+      std::string   line;
+      if (!std::getline(file, line))
+        throw SceneError("cannot read '" + history.name + "': is '" + folder + "' the folder of a run?");
+      const std::vector<std::string> names = split(line);
+      std::vector<std::size_t>       place; // of the forces
+      const auto                     find = [&](const std::string &name) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        if (at == names.end())
+          throw SceneError(history.name + " has no column '" + name + "'");
+        return static_cast<std::size_t>(at - names.begin());
+      };
+      const std::size_t time = find("time_s"), position = find("position_m");
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i].size() > 2 && names[i].compare(names[i].size() - 2, 2, "_N") == 0)
+          {
+            place.push_back(i);
+            history.columns.push_back(names[i]);
+          }
+      if (place.empty())
+        throw SceneError(history.name + " has no column of a force, whose name ends with _N");
+      history.force.resize(place.size());
+      for (std::size_t row = 1; std::getline(file, line); ++row)
+        {
+          const std::string where = history.name + ", row " + std::to_string(row) + ": ";
+          const auto        parts = split(line);
+          if (parts.size() != names.size())
+            throw SceneError(where + std::to_string(parts.size()) + " entries for " +
+                             std::to_string(names.size()) + " columns");
+          const auto number = [&](const std::size_t i) {
+            try
+              {
+                return dealii::Utilities::string_to_double(parts[i]);
+              }
+            catch (const dealii::ExceptionBase &)
+              {
+                throw SceneError(where + "'" + parts[i] + "' is no number");
+              }
+          };
+          history.time.push_back(number(time));
+          history.position.push_back(number(position));
+          for (std::size_t i = 0; i < place.size(); ++i)
+            history.force[i].push_back(number(place[i]));
+        }
+      return history;
+    }
+
+    double millimetres(const std::string &text, const std::string &option, const double otherwise)
+    {
+      if (text.empty())
+        return otherwise;
+      try
+        {
+          return 1e-3 * dealii::Utilities::string_to_double(text);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          throw SceneError(option + " cannot be '" + text + "'; allowed: a position of the wheel in mm");
+        }
+    }
+
+    std::string forces_text(const DynamicForces &dynamic)
+    {
+      std::ostringstream text;
+      text << "time_s,position_m" << std::setprecision(9);
+      for (const DynamicForce &force : dynamic.forces)
+        text << ',' << force.column;
+      for (std::size_t i = 0; i < dynamic.time.size(); ++i)
+        {
+          text << '\n' << dynamic.time[i] << ',' << dynamic.position[i];
+          for (const DynamicForce &force : dynamic.forces)
+            text << ',' << force.values[i];
+        }
+      text << '\n';
+      return text.str();
+    }
+
+    std::string spectra_text(const DynamicForces &dynamic)
+    {
+      const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
+      std::ostringstream       text;
+      text << "frequency_Hz,wavelength_m" << std::setprecision(9);
+      for (const DynamicForce &force : dynamic.forces)
+        text << ',' << force.column;
+      for (std::size_t i = 1; i < first.amplitude.size(); ++i)
+        {
+          const double frequency = i * first.interval;
+          text << '\n' << frequency << ',' << dynamic.speed / frequency;
+          for (const DynamicForce &force : dynamic.forces)
+            text << ',' << force.spectrum.amplitude[i];
+        }
+      text << '\n';
+      return text.str();
+    }
+
+    std::string figures_text(const DynamicForces &dynamic, const DynamicForceRequest &request)
+    {
+      const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
+      nlohmann::ordered_json   json;
+      json["run"]                   = request.run;
+      json["smooth_twin"]           = request.smooth_twin;
+      json["speed_m_per_s"]         = dynamic.speed;
+      json["from_m"]                = dynamic.position.front();
+      json["to_m"]                  = dynamic.position.back();
+      json["window"]                = request.window;
+      json["record_s"]              = first.record;
+      json["resolution_Hz"]         = first.resolution;
+      json["frequency_interval_Hz"] = first.interval;
+      for (const DynamicForce &force : dynamic.forces)
+        {
+          nlohmann::ordered_json &entry = json["forces"][force.column];
+          entry["peak_N"]               = force.peak;
+          entry["peak_time_s"]          = force.peak_time;
+          entry["peak_position_m"]      = force.peak_position;
+          entry["force_at_peak_N"]      = force.force_at_peak;
+          entry["smooth_mean_N"]        = force.smooth_mean;
+          entry["oscillations"]         = nlohmann::ordered_json::array();
+          for (const Oscillation &line : force.oscillations)
+            {
+              nlohmann::ordered_json each = {{"frequency_Hz", line.frequency},
+                                             {"wavelength_m", dynamic.speed / line.frequency},
+                                             {"amplitude_N", line.amplitude},
+                                             {"logarithmic_decrement", nullptr}};
+              if (std::isfinite(line.decay_rate))
+                each["logarithmic_decrement"] = line.logarithmic_decrement();
+              entry["oscillations"].push_back(each);
+            }
+        }
+      return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    }
+
+    void print_table(const DynamicForces &dynamic, const DynamicForceRequest &request)
+    {
+      const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
+      std::printf("dynamic force of %s over %s, wheel from %.2f to %.2f mm at %.4g km/h\n"
+                  "spectrum: %s window, record of %.4g ms, resolution %.3g Hz, a value every %.3g Hz\n\n"
+                  "%-24s %10s %10s %10s %10s   %s\n",
+                  request.run.c_str(), request.smooth_twin.c_str(), 1e3 * dynamic.position.front(),
+                  1e3 * dynamic.position.back(), 3.6 * dynamic.speed, request.window.c_str(),
+                  1e3 * first.record, first.resolution, first.interval, "", "peak, kN", "at x, mm",
+                  "at t, ms", "run, kN", "vibrations: Hz (wavelength mm, logarithmic decrement)");
+      for (const DynamicForce &force : dynamic.forces)
+        {
+          std::printf("%-24s %10.4g %10.2f %10.4f %10.4g  ", force.column.c_str(), 1e-3 * force.peak,
+                      1e3 * force.peak_position, 1e3 * force.peak_time, 1e-3 * force.force_at_peak);
+          for (std::size_t i = 0; i < std::min<std::size_t>(3, force.oscillations.size()); ++i)
+            {
+              const Oscillation &line = force.oscillations[i];
+              std::printf(" %.0f (%.3g, ", line.frequency, 1e3 * dynamic.speed / line.frequency);
+              std::printf(std::isfinite(line.decay_rate) ? "%.2g)" : "-)", line.logarithmic_decrement());
+            }
+          std::printf("\n");
+        }
+    }
+  } // namespace
+
+
+  void write_dynamic_force(const DynamicForceRequest &request, const MPI_Comm comm)
+  {
+    DynamicForces dynamic;
+    const double  infinity = std::numeric_limits<double>::infinity();
+    try
+      {
+        dynamic = dynamic_forces(read_forces(request.run), read_forces(request.smooth_twin),
+                                 window_of(request.window), millimetres(request.from_mm, "--from", -infinity),
+                                 millimetres(request.to_mm, "--to", infinity));
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw SceneError(error.what());
+      }
+    const RunFolder folder(request.output.empty() ? request.run : request.output, comm);
+    folder.write("dynamic.csv", forces_text(dynamic));
+    folder.write("spectrum.csv", spectra_text(dynamic));
+    folder.write("dynamic.json", figures_text(dynamic, request));
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        print_table(dynamic, request);
+        std::printf("\nResults in %s: dynamic.csv, spectrum.csv, dynamic.json\n", folder.path("").c_str());
+      }
+  }
+} // namespace tread

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The dynamic force of a run over its smooth twin, from histories that are known."""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+from tread_runner import ROOT, Check, command, environment
+
+program = sys.argv[1]
+check = Check()
+
+SPEED = 100 / 3.6
+ROW = 0.25e-3  # m
+STATIC = 116.8e3
+BEGIN = -0.1001  # the blow, m: within a row
+FREQUENCIES, DECREMENTS, AMPLITUDES = (297.0, 1061.0), (0.4, 0.6), (60e3, 30e3)
+PAD_DELAY, PAD_SHARE = 0.1e-3, 0.5  # s
+
+
+def blow(t):
+    """N, t after the blow."""
+    if t <= 0.0:
+        return 0.0
+    return sum(a * math.exp(-d * f * t) * math.sin(2 * math.pi * f * t) for f, d, a in zip(FREQUENCIES, DECREMENTS, AMPLITUDES))
+
+
+def mean(signal, begin, end):
+    """Over an interval, as the program records it: Simpson's rule."""
+    return (signal(begin) + 4 * signal(0.5 * (begin + end)) + signal(end)) / 6
+
+
+def smooth(t):
+    """What a smooth rail has: load, and the passage of sleepers 0.6 m apart."""
+    return STATIC + 3e3 * math.sin(2 * math.pi * SPEED / 0.6 * t)
+
+
+def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_force_N", "support_1_pad_N")):
+    """history.csv; the last row is a short one, as a run's end gives. `shift`: rows begin later, m."""
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "history.csv"), "w", encoding="utf-8") as stream:
+        stream.write(",".join(("time_s", "position_m") + columns + ("creepage",)) + "\n")
+        positions = [-0.3 + shift + ROW * i for i in range(rows)]
+        positions.append(positions[-1] + 0.1 * ROW)
+        before = positions[0] - ROW
+        for x in positions:
+            a, b = before / SPEED, x / SPEED
+            since = lambda t: t - BEGIN / SPEED
+            contact = mean(lambda t: smooth(t) + (blow(since(t)) if defect else 0.0), a, b)
+            pad = mean(lambda t: 0.4 * smooth(t) + (PAD_SHARE * blow(since(t) - PAD_DELAY) if defect else 0.0), a, b)
+            values = dict(normal_force_N=contact, support_1_pad_N=pad)
+            stream.write(",".join(f"{value:.12g}" for value in [(x + 0.3) / speed, x] + [values[c] for c in columns] + [0.003]) + "\n")
+            before = x
+
+
+def fails(name, arguments, words, code=1):
+    result = subprocess.run(command(program, arguments), env=environment(), capture_output=True, text=True)
+    lines = result.stderr.splitlines()
+    if not check.that(name, result.returncode == code and len(lines) == 1 and all(word in lines[0] for word in words)):
+        print(result.returncode, result.stderr)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    # The twin's rows lie between those of the run, and it begins a little later.
+    write(path("run"), 2000, defect=True)
+    write(path("twin"), 2000, shift=0.4 * ROW)
+    both = ["--dynamic-force", path("run"), "--smooth-twin", path("twin")]
+    result = subprocess.run(command(program, both), env=environment(), capture_output=True, text=True)
+    if not check.that("a run and its twin: exit code 0", result.returncode == 0):
+        print(result.stdout, result.stderr)
+        check.exit()
+    check.that("the terminal has window, resolution and a line for each force",
+               all(word in result.stdout for word in ("rectangular window", "resolution", "normal_force_N", "support_1_pad_N")))
+
+    with open(path("run/dynamic.json"), encoding="utf-8") as stream:
+        figures = json.load(stream)
+    with open(path("run/dynamic.csv"), encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    contact, pad = figures["forces"]["normal_force_N"], figures["forces"]["support_1_pad_N"]
+    # Means over an interval h differ from the value in its middle by (2 pi f h)^2/24, 1.5e-4 at 1061 Hz; so does what
+    # lies between two rows of the twin. The onset is a kink of slope k, of which a mean misses up to k h/8.
+    errors = [(abs(float(row["normal_force_N"]) - blow((float(row["position_m"]) - BEGIN) / SPEED)),
+               abs(float(row["position_m"]) - BEGIN)) for row in rows]
+    check.below("contact: worst error of a row, kN", max(error for error, away in errors if away > ROW) / 1e3, 0.02)
+    slope = sum(a * 2 * math.pi * f for a, f in zip(AMPLITUDES, FREQUENCIES))
+    check.below("contact: error at the onset, kN", max(error for error, away in errors if away <= ROW) / 1e3,
+                slope * ROW / SPEED / 8 / 1e3)
+    times = [1e-6 * i for i in range(100000)]
+    peak = max(times, key=lambda t: abs(blow(t)))
+    check.relative("contact: peak", contact["peak_N"], blow(peak), 2e-3)
+    check.absolute("contact: where, mm", 1e3 * contact["peak_position_m"], 1e3 * (BEGIN + SPEED * peak), 0.5e3 * ROW + 0.01)
+    check.absolute("contact: when, ms", 1e3 * contact["peak_time_s"], 1e3 * ((BEGIN + 0.3) / SPEED + peak), 0.5e3 * ROW / SPEED + 1e-3)
+    check.relative("contact: force of the run at the peak", contact["force_at_peak_N"],
+                   blow(peak) + smooth(BEGIN / SPEED + peak), 2e-3)
+    check.relative("contact: mean of the twin", contact["smooth_mean_N"], STATIC, 0.02)
+    check.relative("pad: peak", pad["peak_N"], PAD_SHARE * blow(peak), 2e-3)
+    check.absolute("pad: later than the contact, ms", 1e3 * (pad["peak_time_s"] - contact["peak_time_s"]),
+                   1e3 * PAD_DELAY, 1e3 * ROW / SPEED)
+    check.absolute("contact: number of vibrations", len(contact["oscillations"]), 2, 0)
+    for line, frequency, decrement in zip(contact["oscillations"], FREQUENCIES, DECREMENTS):
+        # The top of a decaying line lies beside its frequency by (decrement/2 pi)^2 of it; a line is certain to a tenth
+        # of the resolution.
+        check.absolute(f"contact: {frequency:.0f} Hz: frequency, Hz", line["frequency_Hz"], frequency,
+                       (decrement / (2 * math.pi)) ** 2 * frequency + 0.1 * figures["resolution_Hz"])
+        check.relative(f"contact: {frequency:.0f} Hz: wavelength x frequency over speed",
+                       line["wavelength_m"] * line["frequency_Hz"] / SPEED, 1.0, 1e-6)
+        check.relative(f"contact: {frequency:.0f} Hz: decrement", line["logarithmic_decrement"] or math.nan, decrement, 0.10)
+    with open(path("run/spectrum.csv"), encoding="utf-8") as stream:
+        spectrum = list(csv.DictReader(stream))
+    largest = max(spectrum, key=lambda row: float(row["normal_force_N"]))
+    check.absolute("spectrum.csv: largest amplitude, distance to the first vibration in values",
+                   (float(largest["frequency_Hz"]) - contact["oscillations"][0]["frequency_Hz"]) / figures["frequency_interval_Hz"],
+                   0.0, 0.51)
+    check.relative("spectrum.csv: its amplitude", float(largest["normal_force_N"]), contact["oscillations"][0]["amplitude_N"], 0.01)
+
+    subprocess.run(command(program, both + ["--window", "Hann", "--from", "-100", "--to", "100", "--output", path("section")]),
+                   env=environment(), check=True, capture_output=True)
+    with open(path("section/dynamic.json"), encoding="utf-8") as stream:
+        section = json.load(stream)
+    check.absolute("a section: begins, mm", 1e3 * section["from_m"], -100, 1e3 * ROW)
+    check.absolute("a section: ends, mm", 1e3 * section["to_m"], 100, 1e3 * ROW)
+    check.relative("a section: Hann's resolution x record", section["resolution_Hz"] * section["record_s"], 2.0, 1e-9)
+
+    write(path("fast-run"), 2000, speed=1.4 * SPEED, defect=True)
+    write(path("fast-twin"), 2000, speed=1.4 * SPEED)
+    drawn = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("run"), path("fast-run"),
+                            "--smooth-twin", path("twin"), path("fast-twin"), "--program", program, "--output", path("pictures")],
+                           env=environment(), capture_output=True, text=True)
+    if not check.that("pictures of two speeds", drawn.returncode == 0 and set(os.listdir(path("pictures"))) == {
+            f"{name}.png" for name in ("contact-force", "dynamic-force", "supports", "distribution", "speeds")}):
+        print(drawn.stdout, drawn.stderr)
+
+    fails("no twin named", ["--dynamic-force", path("run")], ["--smooth-twin"])
+    fails("a scene beside", both + ["scene.prm"], ["takes no scene"])
+    fails("no such folder", ["--dynamic-force", path("none"), "--smooth-twin", path("twin")], ["no folder", "none"])
+    os.makedirs(path("empty"))
+    fails("no history", ["--dynamic-force", path("run"), "--smooth-twin", path("empty")], ["history.csv", "empty"])
+    write(path("short"), 10)
+    fails("too few rows", ["--dynamic-force", path("run"), "--smooth-twin", path("short")], ["11 rows", "at least 16"])
+    write(path("fast"), 2000, speed=1.4 * SPEED)
+    fails("another speed", ["--dynamic-force", path("run"), "--smooth-twin", path("fast")], ["100 km/h", "140 km/h"])
+    ROW *= 2
+    write(path("coarse"), 1000)
+    ROW /= 2
+    fails("another interval", ["--dynamic-force", path("run"), "--smooth-twin", path("coarse")], ["0.25 mm", "0.5 mm", "History interval"])
+    write(path("elsewhere"), 2000, shift=2.0)
+    fails("no common section", ["--dynamic-force", path("run"), "--smooth-twin", path("elsewhere")], ["in common"])
+    write(path("contact"), 2000, columns=("normal_force_N",))
+    fails("a column that the twin has not", ["--dynamic-force", path("run"), "--smooth-twin", path("contact")],
+          ["contact/history.csv", "support_1_pad_N"])
+    write(path("nothing"), 2000, columns=())
+    fails("no forces", ["--dynamic-force", path("nothing"), "--smooth-twin", path("twin")], ["nothing/history.csv", "_N"])
+    write(path("damaged"), 20)
+    with open(path("damaged/history.csv"), "a", encoding="utf-8") as stream:
+        stream.write("1,2\n")
+    fails("a row that is cut off", ["--dynamic-force", path("damaged"), "--smooth-twin", path("twin")], ["row 22", "2 entries"])
+    fails("an unknown window", both + ["--window", "Hamming"], ["Hamming", "rectangular", "Hann"])
+    fails("no position", both + ["--from", "here"], ["--from", "here", "mm"])
+
+check.exit()
