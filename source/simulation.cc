@@ -313,8 +313,9 @@ namespace tread
 
   double Simulation::memory_of_cells_and_nodes() const
   {
-    const double on_this_rank = solid.memory_consumption() + mesh.nodes.size() * (6. * sizeof(Row) + 40.);
-    return dealii::Utilities::MPI::sum(on_this_rank, comm);
+    const std::size_t on_this_rank =
+      mesh.memory_consumption() + solid.memory_consumption() + dynamics.memory_consumption();
+    return dealii::Utilities::MPI::sum(double(on_this_rank), comm);
   }
 
 

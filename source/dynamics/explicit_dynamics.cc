@@ -62,9 +62,10 @@ namespace tread
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     NodalField mass(mesh.nodes.size(), Row{});
+    const auto cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       for (unsigned int a = 0; a < 8; ++a)
-        mass[mesh.cells[c].nodes[a]][0] += solid.cell_masses()[c][a];
+        mass[mesh.cells[c].nodes[a]][0] += cell_masses[c][a];
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());
     for (unsigned int i = 0; i < mass.size(); ++i)

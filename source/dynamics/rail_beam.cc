@@ -30,7 +30,8 @@ namespace tread
     for (unsigned int s = 0; s < supports.solid_sleepers.size(); ++s)
       support_of_body[supports.solid_sleepers[s].body] = s;
 
-    double volume = 0., first = 0., second = 0., low = 1e300, high = -1e300;
+    double     volume = 0., first = 0., second = 0., low = 1e300, high = -1e300;
+    const auto cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (mesh.cells[c].body == supports.rail_body)
         {
@@ -38,7 +39,7 @@ namespace tread
           for (unsigned int a = 0; a < 8; ++a)
             {
               const dealii::Point<3> &p = mesh.nodes[mesh.cells[c].nodes[a]];
-              mass += solid.cell_masses()[c][a];
+              mass += cell_masses[c][a];
               z += 0.125 * p[2];
               bottom = std::min(bottom, p[2]);
               top    = std::max(top, p[2]);

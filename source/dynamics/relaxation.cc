@@ -19,12 +19,12 @@ namespace tread
     // Masses with which a unit "time" step is stable, and equally so, for every cell.
     constexpr double highest_frequency = 1.8;
     NodalField       mass(x.size(), Row{});
+    const auto       cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         const double ratio = solid.cell_frequencies()[c] / highest_frequency;
         for (unsigned int a = 0; a < 8; ++a)
-          mass[mesh.cells[c].nodes[a]][0] +=
-            ratio * ratio * parameters.density_scale * solid.cell_masses()[c][a];
+          mass[mesh.cells[c].nodes[a]][0] += ratio * ratio * parameters.density_scale * cell_masses[c][a];
       }
     mesh.condense_hanging_nodes(mass.data());
     if (supports)

@@ -73,22 +73,6 @@ namespace tread
   } // namespace
 
 
-  double linear_pattern(const unsigned int direction, const unsigned int node)
-  {
-    return ((node >> direction) & 1) ? 1. : -1.;
-  }
-
-
-  double hourglass_pattern(const unsigned int mode, const unsigned int node)
-  {
-    double product = 1.;
-    for (unsigned int d = 0; d < 3; ++d)
-      if (d != mode)
-        product *= linear_pattern(d, node);
-    return product;
-  }
-
-
   HexahedronIntegrals::HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes)
     : volume(0.)
     , gradient{}

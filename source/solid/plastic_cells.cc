@@ -45,10 +45,7 @@ namespace tread
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (zone_of_cell[c] == static_cast<int>(z))
             {
-              std::array<dealii::Point<3>, 8> corners;
-              for (unsigned int a = 0; a < 8; ++a)
-                corners[a] = mesh.nodes[mesh.cells[c].nodes[a]];
-              const HexahedronIntegrals integrals(corners);
+              const HexahedronIntegrals integrals(mesh.corners(c));
               const double stiffness = hourglass_stiffness(integrals, range.elastic, hourglass_coefficient);
               if (lane == n_lanes)
                 {

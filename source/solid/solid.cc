@@ -80,14 +80,10 @@ namespace tread
     if (!zones.empty() && (full || needs_velocity()))
       throw std::invalid_argument("plastic zones are for one-point cells without bulk viscosity");
     frequencies.resize(n_cells);
-    masses.resize(n_cells);
     levels_of_cells.assign(n_cells, 0);
     std::vector<double> stiffness(n_cells);
     const auto          integrals_of = [&](const unsigned int c) {
-      std::array<dealii::Point<3>, 8> corners;
-      for (unsigned int a = 0; a < 8; ++a)
-        corners[a] = mesh.nodes[mesh.cells[c].nodes[a]];
-      return HexahedronIntegrals(corners);
+      return HexahedronIntegrals(mesh.corners(c));
     };
     double highest = 0.;
     for (unsigned int c = 0; c < n_cells; ++c)
@@ -98,8 +94,6 @@ namespace tread
         frequencies[c] =
           highest_frequency_bound(integrals, material, stiffness[c], full, parameters.density_scale);
         highest = std::max(highest, frequencies[c]);
-        for (unsigned int a = 0; a < 8; ++a)
-          masses[c][a] = material.density * integrals.node_volume[a];
       }
     highest = dealii::Utilities::MPI::max(highest, mesh.comm);
     for (unsigned int c = 0; c < n_cells; ++c)
@@ -173,6 +167,19 @@ namespace tread
                   }
               });
           }
+  }
+
+
+  std::vector<std::array<double, 8>> Solid::cell_masses(const Mesh &mesh) const
+  {
+    std::vector<std::array<double, 8>> masses(n_cells);
+    for (unsigned int c = 0; c < n_cells; ++c)
+      {
+        masses[c] = HexahedronIntegrals(mesh.corners(c)).node_volume;
+        for (double &mass : masses[c])
+          mass *= materials[mesh.cells[c].body].density;
+      }
+    return masses;
   }
 
 

@@ -177,10 +177,11 @@ int main(int argc, char **argv)
           // The front lies between the cells that yielded and those that did not.
           const std::vector<double> strain =
             shell.solid.plastic().equivalent_plastic_strain(shell.dynamics.history);
-          double plastic_volume = 0.;
+          const auto masses         = shell.solid.cell_masses(shell.mesh);
+          double     plastic_volume = 0.;
           for (unsigned int cell = 0; cell < shell.mesh.cells.size(); ++cell)
             if (strain[cell] > 0.)
-              for (const double mass : shell.solid.cell_masses()[cell])
+              for (const double mass : masses[cell])
                 plastic_volume += mass / steel.density;
           const double front = std::cbrt(a3 + 0.75 / dealii::numbers::PI * plastic_volume);
           check.absolute(at + "front, cells", std::log(front / c) / std::log(outer / inner) * n_radial, 0.,

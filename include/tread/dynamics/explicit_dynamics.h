@@ -149,6 +149,15 @@ namespace tread
     std::uint64_t  n_steps = 0;
     StepTimes      times;
 
+    /// Bytes that the nodes of this rank hold here.
+    std::size_t memory_consumption() const
+    {
+      std::size_t bytes = x.size() * (4 * sizeof(Row) + 3 * sizeof(double) + 3 + sizeof(level_of_node[0]));
+      for (const auto &shares : slow_shares)
+        bytes += shares.size() * sizeof(SlowShare);
+      return bytes;
+    }
+
     const std::vector<double> &inverse_masses() const
     {
       return inverse_mass;

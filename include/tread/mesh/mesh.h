@@ -58,6 +58,22 @@ namespace tread
     /// A name for a node that does not depend on ranks: body and reference position in nm.
     std::array<long long, 4> node_key(const unsigned int node) const;
 
+    /// Reference positions of a cell's nodes, m.
+    std::array<dealii::Point<3>, 8> corners(const unsigned int cell) const
+    {
+      std::array<dealii::Point<3>, 8> points;
+      for (unsigned int a = 0; a < 8; ++a)
+        points[a] = nodes[cells[cell].nodes[a]];
+      return points;
+    }
+
+    /// Bytes that the cells and nodes of this rank hold.
+    std::size_t memory_consumption() const
+    {
+      return cells.size() * sizeof(Cell) +
+             nodes.size() * (sizeof(nodes[0]) + sizeof(global_ids[0]) + sizeof(node_bodies[0]) + 1);
+    }
+
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
     /// @param max_level of time steps that the cells will be run with: what ranks share fairly.
     /// @throws std::runtime_error when a body has a cell that is turned inside out.

@@ -32,11 +32,21 @@ namespace tread
     bool is_parallelepiped() const;
   };
 
-  /// Pattern of the nodes of a cell in lexicographic order, 1 or -1: hourglass modes eta zeta, zeta xi, xi
-  /// eta, xi eta zeta.
-  double hourglass_pattern(const unsigned int mode, const unsigned int node);
-  /// The same of the linear modes xi, eta, zeta.
-  double linear_pattern(const unsigned int direction, const unsigned int node);
+  /// Linear mode xi, eta or zeta at a node of a cell in lexicographic order: 1 or -1.
+  constexpr double linear_pattern(const unsigned int direction, const unsigned int node)
+  {
+    return ((node >> direction) & 1) ? 1. : -1.;
+  }
+
+  /// Hourglass mode eta zeta, zeta xi, xi eta or xi eta zeta at a node: 1 or -1.
+  constexpr double hourglass_pattern(const unsigned int mode, const unsigned int node)
+  {
+    double product = 1.;
+    for (unsigned int d = 0; d < 3; ++d)
+      if (d != mode)
+        product *= linear_pattern(d, node);
+    return product;
+  }
 
   /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a box the
   /// stiffness of a plate that bends along its longest edge: E/(1 - nu^2) V min_i(sum_a B_ai^2)/24.

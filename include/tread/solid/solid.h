@@ -135,10 +135,8 @@ namespace tread
     }
 
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
-    const std::vector<std::array<double, 8>> &cell_masses() const
-    {
-      return masses;
-    }
+    /// Computed anew: nothing of it is kept.
+    std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
 
     bool needs_velocity() const
     {
@@ -199,7 +197,6 @@ namespace tread
     std::vector<Range>                             ranges;
     std::vector<double>                            frequencies;
     std::vector<unsigned int>                      levels_of_cells;
-    std::vector<std::array<double, 8>>             masses;
     std::size_t                                    n_cells;
   };
 } // namespace tread
