@@ -60,8 +60,8 @@ namespace
     for (int i = -int(n_supports / 2); i <= int(n_supports / 2); ++i)
       positions.push_back(tests::TrackRail::spacing * i);
     const double                   end = .5 * n_supports * tests::TrackRail::spacing;
-    const reference::SupportedBeam beam(tests::TrackRail::section(), tests::TrackRail::layers(track),
-                                        positions, -end, end, .0125);
+    const reference::SupportedBeam beam(tests::TrackRail::section(), track.layers(), positions, -end, end,
+                                        .0125);
     std::vector<Complex>           receptance;
     for (unsigned int k = 0; k < n_lines; ++k)
       receptance.push_back(beam.respond({{x, 1.}}, 2. * dealii::numbers::PI * frequency(k)).deflection(x));
