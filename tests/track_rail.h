@@ -108,20 +108,6 @@ namespace tread::tests
       s.rotary_inertia = steel().density * I;
       return s;
     }
-
-    static reference::SupportLayers layers(const TrackParameters &track)
-    {
-      reference::SupportLayers l;
-      l.pad_stiffness = track.pad_stiffness;
-      l.pad_damping   = track.pad_damping;
-      if (track.two_layers)
-        {
-          l.sleeper_mass      = track.sleeper_mass;
-          l.ballast_stiffness = track.ballast_stiffness;
-          l.ballast_damping   = track.ballast_damping;
-        }
-      return l;
-    }
   };
 } // namespace tread::tests
 

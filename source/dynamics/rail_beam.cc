@@ -62,10 +62,7 @@ namespace tread
       shear_coefficient * rail.young_modulus / (2. * (1. + rail.poisson_ratio)) * area;
     rail_section.mass           = rail.density * area;
     rail_section.rotary_inertia = rail.density * moment_of_inertia;
-    const TrackParameters &p    = supports.parameters;
-    layers.pad_stiffness        = p.pad_stiffness;
-    if (p.two_layers)
-      layers.ballast_stiffness = p.ballast_stiffness;
+    layers                      = supports.parameters.layers();
     beam = std::make_unique<reference::SupportedBeam>(rail_section, layers, supports.positions, begin, end,
                                                       element_length);
   }

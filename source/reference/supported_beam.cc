@@ -159,7 +159,12 @@ namespace tread::reference
         upper[e] = {{{-12. * k, 6. * L * k}, {-6. * L * k, (2. - phi) * L * L * k}}};
       }
     for (const unsigned int i : node_of_support)
-      diagonal[i][0][0] += layers.stiffness(omega);
+      {
+        diagonal[i][0][0] += layers.stiffness(omega);
+        // The sleeper does not turn.
+        diagonal[i][1][1] +=
+          layers.pad_radius * layers.pad_radius * Complex(layers.pad_stiffness, omega * layers.pad_damping);
+      }
     for (const Load &l : loads)
       {
         double             s;

@@ -64,6 +64,24 @@ namespace tread
   } // namespace
 
 
+  reference::SupportLayers TrackParameters::layers() const
+  {
+    reference::SupportLayers l;
+    l.pad_stiffness = pad_stiffness;
+    l.pad_damping   = pad_damping;
+    // Of n equal points in the middles of n parts.
+    const double n = points_along;
+    l.pad_radius   = pad_length * std::sqrt((1. - 1. / (n * n)) / 12.);
+    if (two_layers)
+      {
+        l.sleeper_mass      = sleeper_mass;
+        l.ballast_stiffness = ballast_stiffness;
+        l.ballast_damping   = ballast_damping;
+      }
+    return l;
+  }
+
+
   Supports::Supports(const Mesh                      &mesh,
                      const unsigned int               rail_body,
                      const std::vector<double>       &positions,
@@ -186,7 +204,10 @@ namespace tread
               for (unsigned int i = 0; i < h->parents.size(); ++i)
                 of_node[h->parents[i]] += shares[k] * h->weights[i];
           }
-        end.nodes.assign(of_node.begin(), of_node.end());
+        // On an edge two faces hold a point, by the nodes of the edge alone.
+        for (const auto &[node, part] : of_node)
+          if (part > 1e-9)
+            end.nodes.emplace_back(node, part);
       }
     ends.push_back(end);
     return ends.size() - 1;

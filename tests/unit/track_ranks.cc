@@ -88,12 +88,12 @@ int main(int argc, char **argv)
       check.below(name + "energy residual/gross work", alone.worst_residual, 1e-3);
       check.that(name + "dampers have taken energy", l.damping > .05 * l.external_work);
       check.relative(name + "time step (us)", 1e6 * together.time_step, 1e6 * alone.time_step, 1e-12);
-      // Sums over ranks differ in order. A node at 1 m is rounded by 1e-16 m, a force of E h 1e-16 = 1e-6 N in
-      // each step: after 4000 of them velocities differ by some 1e-10 m/s, displacements of 5 mm by some 1e-14 m.
-      check.below(name + "forces on other ranks", difference(together.forces, alone.forces), 1e-8);
+      // Sums over ranks differ in order: 1e-16 a step, and rounding of positions (1e-16 m) over displacements
+      // of mm.
+      check.below(name + "forces on other ranks", difference(together.forces, alone.forces), 1e-10);
       check.below(name + "displacements on other ranks",
-                  difference(together.displacements, alone.displacements), 1e-8);
-      check.below(name + "energies on other ranks", difference(together.energies, alone.energies), 1e-8);
+                  difference(together.displacements, alone.displacements), 1e-10);
+      check.below(name + "energies on other ranks", difference(together.energies, alone.energies), 1e-10);
     }
   return check.exit_code();
 }

@@ -21,9 +21,10 @@ namespace tread::reference
   /// ballast.
   struct SupportLayers
   {
-    double pad_stiffness     = 0.;                                      ///< N/m
-    double pad_damping       = 0.;                                      ///< N s/m
-    double sleeper_mass      = 0.;                                      ///< kg
+    double pad_stiffness     = 0.; ///< N/m
+    double pad_damping       = 0.; ///< N s/m
+    double pad_radius        = 0.; ///< of gyration along the rail: it holds the slope as well, m
+    double sleeper_mass      = 0.; ///< kg
     double ballast_stiffness = std::numeric_limits<double>::infinity(); ///< N/m; infinite: one layer
     double ballast_damping   = 0.;                                      ///< N s/m
 

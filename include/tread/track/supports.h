@@ -3,6 +3,7 @@
 #define tread_track_supports_h
 
 #include <tread/mesh/mesh.h>
+#include <tread/reference/supported_beam.h>
 
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ namespace tread
     double sleeper_mass      = 200.; ///< kg; of a rigid sleeper that moves in z only
     double ballast_stiffness = 45e6; ///< N/m
     double ballast_damping   = 32e3; ///< N s/m
+
+    /// The same for a beam; rigid sleepers do not turn.
+    reference::SupportLayers layers() const;
   };
 
   /// A sleeper that is a body of the mesh: where the ballast lies under it.
