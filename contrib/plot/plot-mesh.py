@@ -6,7 +6,7 @@
 
 Needs the first volume picture of a run, volume-0000.vtu. Writes
   section.png   rail and wheel cut across the path, where cells are finest and at the end of the rail
-  path.png      the rail's cells under the middle of the path, heights 20 times enlarged in the lower half
+  path.png      the rail's cells under the middle of the path, and the height of its top
 """
 
 import argparse
@@ -33,9 +33,9 @@ def decode(array):
     kind = TYPES[array.get("type")]
     if array.get("format") == "ascii":
         return np.array(text.split(), dtype=kind)
-    n_blocks = np.frombuffer(base64.b64decode(text[:8]), np.uint32)[0]
+    n_blocks = np.frombuffer(base64.b64decode(text[:8])[:4], np.uint32)[0]
     header_length = 4 * ((4 * (3 + int(n_blocks)) + 2) // 3)
-    sizes = np.frombuffer(base64.b64decode(text[:header_length]), np.uint32)[3:3 + n_blocks]
+    sizes = np.frombuffer(base64.b64decode(text[:header_length])[:4 * (3 + int(n_blocks))], np.uint32)[3:]
     data, begin, blocks = base64.b64decode(text[header_length:]), 0, []
     for size in sizes:
         blocks.append(zlib.decompress(data[begin:begin + size]))
@@ -115,8 +115,11 @@ def main():
     axes[0].set_ylim(-40, 2)
     axes[0].set_ylabel("z, mm")
     top = rail[:, (4, 5)][abs(rail[:, (4, 5), 1]).max(1) < 0.05]
-    top = top[top[:, :, 2].max(1) > -2.]
+    highest = {}
     for edge in top:
+        x = round(edge[0, 0], 1)
+        highest[x] = max(highest.get(x, edge), edge, key=lambda e: e[0, 2])
+    for edge in highest.values():
         axes[1].plot(edge[:, 0], 1e3 * edge[:, 2], "k.-", linewidth=0.8, markersize=3)
     axes[1].set_ylabel("z of the rail top, um")
     axes[1].set_xlabel("x, mm")

@@ -295,7 +295,7 @@ namespace tread
     outline.turn(edge, -1e-3 * d.edge_upper_radius, at(d.foot_half_width, d.foot_edge_z));
     corners_.foot_top = length_to_last(0.5);
     outline.turn(base, -1e-3 * d.edge_lower_radius, at(d.foot_half_width, 0.));
-    corners_.foot_base = length_to_last(1.);
+    corners_.foot_edge = length_to_last(0.);
     outline.go_to(at(0., 0.));
     outline_.insert(outline_.end(), outline.pieces.begin(), outline.pieces.end());
   }

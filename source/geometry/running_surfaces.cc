@@ -27,6 +27,14 @@ namespace tread
             least     = gap;
             contact.y = y;
           }
+    // and 100 times finer about it, for corners
+    const double middle = contact.y;
+    for (int i = -100; i <= 100; ++i)
+      if (const double y = middle + 0.01 * i * step, gap = surfaces.gap(y); gap < least - 1e-10)
+        {
+          least     = gap;
+          contact.y = y;
+        }
     contact.lift = -least;
 
     if (surfaces.defect)

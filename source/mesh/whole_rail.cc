@@ -35,7 +35,8 @@ namespace tread
         , head_fillet(profile.outline_point(corners.head_fillet))
         , foot_fillet(profile.outline_point(corners.foot_fillet))
         , foot_top(profile.outline_point(corners.foot_top))
-        , foot_base(profile.outline_point(corners.foot_base))
+        , foot_edge(profile.outline_point(corners.foot_edge))
+        , foot_corner(foot_edge[0], -profile.height())
       {
       }
 
@@ -97,16 +98,18 @@ namespace tread
       {
         const Point2 upper =
           profile.outline_point(corners.foot_fillet + u * (corners.foot_top - corners.foot_fillet));
-        const Point2 edge =
-          profile.outline_point(corners.foot_top + v * (corners.foot_base - corners.foot_top));
-        const Point2 base(foot_fillet[0] + u * (foot_base[0] - foot_fillet[0]), -profile.height());
-        return Point2((1. - v) * upper + v * base + u * (edge - ((1. - v) * foot_top + v * foot_base)));
+        // The lower rounding is left out: its corner is nearer to the section than a chord.
+        Point2 edge = profile.outline_point(corners.foot_top + v * (corners.foot_edge - corners.foot_top));
+        edge[1]     = foot_top[1] +
+                  (edge[1] - foot_top[1]) * (foot_top[1] + profile.height()) / (foot_top[1] - foot_edge[1]);
+        const Point2 base(foot_fillet[0] + u * (foot_edge[0] - foot_fillet[0]), -profile.height());
+        return Point2((1. - v) * upper + v * base + u * (edge - ((1. - v) * foot_top + v * foot_corner)));
       }
 
       RailProfile          profile;
       Chart                chart;
       RailProfile::Corners corners;
-      Point2               head_fillet, foot_fillet, foot_top, foot_base;
+      Point2               head_fillet, foot_fillet, foot_top, foot_edge, foot_corner;
     };
 
     /// Quadrilaterals of the chart's section; vertices in the order of (s, -depth).

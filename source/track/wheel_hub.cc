@@ -54,17 +54,21 @@ namespace tread
     const Motion before     = motion;
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double vertical_outside = static_force() - suspension;
+    const double vertical_force = force[2] + static_force() - suspension;
+    const double acceleration   = vertical_force / parameters.mass;
 
-    motion.velocity_z += time_step * (force[2] + vertical_outside) / parameters.mass;
+    motion.velocity_z += time_step * acceleration;
     double moment_x, moment_z;
     first_moment(moment_x, moment_z, motion.angle);
-    const double weight_moment = moment_x * parameters.gravity;
-    double turning_outside     = -moment; // with it the angular velocity stays; includes the weight's moment
+    // The rest that balances the cells lags behind when the axle moves up: a moment.
+    const double lag = moment_x * acceleration;
+    double       turning_outside =
+      -moment - lag; // with it the angular velocity stays; includes the weight's moment
     if (drive == Drive::torque)
       {
-        turning_outside = drive_torque + weight_moment;
-        motion.angular_velocity += time_step * (moment + turning_outside) / parameters.moment_of_inertia;
+        turning_outside = drive_torque + moment_x * parameters.gravity;
+        motion.angular_velocity +=
+          time_step * (moment + turning_outside + lag) / parameters.moment_of_inertia;
       }
     if (parameters.sprung_mass > 0.)
       motion.sprung_velocity += time_step * suspension / parameters.sprung_mass;
@@ -79,7 +83,10 @@ namespace tread
     const double pull   = before.angular_velocity * before.angular_velocity * moment_x;
     const double faster = moment_z * (motion.angular_velocity - before.angular_velocity);
     const double along  = (faster - time_step * (force[0] + pull)) * motion.velocity_x;
-    const double up     = time_step * vertical_outside * 0.5 * (before.velocity_z + motion.velocity_z);
+    // Its centrifugal force is no work from outside.
+    const double centrifugal = before.angular_velocity * before.angular_velocity * moment_z;
+    const double up =
+      time_step * (vertical_force - force[2] - centrifugal) * 0.5 * (before.velocity_z + motion.velocity_z);
     const double turn =
       time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
     work += along + up + turn;

@@ -32,13 +32,15 @@ with tempfile.TemporaryDirectory() as folder:
     smooth = run(program, SCENE, path("smooth"), SMOOTH)
     x, force, lateral = history(path("dip"))
     x_smooth, force_smooth, _ = history(path("smooth"))
-    check.that("the same rows", x == x_smooth and dip["cells"] == smooth["cells"])
+    # Time steps differ a little with the shape of the cells, so rows end up to a step, 8 um, apart.
+    check.that("the same cells", dip["cells"] == smooth["cells"])
+    check.below("rows of the history are at the same places, mm", max(abs(a - b) for a, b in zip(x, x_smooth)), 0.02)
     static = (900. + 13400.) * 9.81
 
     # The dip begins at -50 mm; a patch of 8 mm semi-axis, twice that for what nodes of the patch's rim feel.
     begin = -50.
     before = [a / b - 1. for p, a, b in zip(x, force, force_smooth) if p < begin - 16.]
-    check.below("before the dip: force as without it", max(map(abs, before)), 1e-9)
+    check.below("before the dip: force as without it", max(map(abs, before)), 1e-3)
     check.below("without it: steady force, share of the load", max(abs(f / static - 1.) for f in force_smooth), 0.03)
     after = [(p, a / static) for p, a in zip(x, force) if p > begin - 16.]
     least, largest = min(after, key=lambda row: row[1]), max(after, key=lambda row: row[1])
@@ -57,7 +59,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # A head as measured: an arc of 200 mm, by which Hertz's patch is narrower.
     with open(path("head.txt"), "w", encoding="utf-8") as stream:
-        for y in range(-34, 35):
+        for y in range(-26, 27):
             stream.write(f"{y} {math.sqrt(200.**2 - y * y) - 200.:.6f}\n")
     narrow = run(program, SCENE, path("narrow"),
                  [*SHORT, "Rail/Measured head=" + path("head.txt"), "Rail/Inclination=none", "Wheel/Tread profile=cylinder"])

@@ -69,7 +69,8 @@ namespace
             std::array<std::array<double, 2>, 3> t;
             const unsigned int                   corners[3] = {0, last - 1, last};
             for (unsigned int i = 0; i < 3; ++i)
-              t[i] = {{mesh.nodes[face.nodes[corners[i]]][1], mesh.nodes[face.nodes[corners[i]]][2] + height}};
+              t[i] = {
+                {mesh.nodes[face.nodes[corners[i]]][1], mesh.nodes[face.nodes[corners[i]]][2] + height}};
             const double a = 0.5 * std::abs((t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) -
                                             (t[2][0] - t[0][0]) * (t[1][1] - t[0][1]));
             area += a;

@@ -81,7 +81,7 @@ namespace tread
       double head_fillet; ///< middle of the fillet of underside and web
       double foot_fillet; ///< middle of the fillet of web and foot
       double foot_top;    ///< middle of the upper rounding of the foot's edge
-      double foot_base;   ///< end of its lower rounding, on the base
+      double foot_edge;   ///< where its vertical edge ends in the lower rounding
     };
     const Corners &corners() const;
 
