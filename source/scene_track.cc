@@ -106,7 +106,7 @@ namespace tread
                                                        text_of(1e3 * sleeper_spacing_m));
     const double base_mm = rail_shape == "block"
                              ? block_width_mm
-                             : 2e3 * rail_profile().outline_point(rail_profile().corners().foot_base)[0];
+                             : 2e3 * rail_profile().outline_point(rail_profile().corners().foot_edge)[0];
     require(pad_width_mm <= base_mm, "'Track/Pad width (mm)' " + text_of(pad_width_mm) +
                                        " exceeds the flat width of the rail's base, " + text_of(base_mm));
     const std::vector<double> positions = support_positions();

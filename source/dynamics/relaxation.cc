@@ -100,7 +100,7 @@ namespace tread
             inertia            = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
             const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
             // Stable for omega^2 < 2 (1 + keep): with highest_frequency 1.8 keep must exceed 0.62.
-            keep = std::clamp(1. - 2. * omega, 0.75, 0.999);
+            keep = std::clamp(1. - 2. * omega, 0.75, 0.9998);
           }
         if (remember)
           previous = force;
