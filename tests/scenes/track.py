@@ -43,8 +43,8 @@ with tempfile.TemporaryDirectory() as folder:
     # The wheel passes the middle of a span, and of the rail, at x = -10 mm.
     middle = min(rows, key=lambda row: abs(row["position_m"] + 10e-3))
     for i in range(3):
-        check.relative(f"wheel at mid-span: supports {-i} and {1 + i} alike", middle[f"support_{-i}_pad_N"],
-                       middle[f"support_{1 + i}_pad_N"], 0.02)
+        check.below(f"wheel at mid-span: supports {-i} and {1 + i} alike, difference over the load",
+                    (middle[f"support_{-i}_pad_N"] - middle[f"support_{1 + i}_pad_N"]) / LOAD, 5e-3)
     check.below("rolling: contact force off the static load, share", max(abs(r["normal_force_N"] / LOAD - 1.) for r in rows), 0.02)
     check.below("energy residual, share of the work", one["energy_residual_share"], 1e-3)
 

@@ -81,7 +81,7 @@ namespace
               return tread(y - 1e-3 * shift);
             };
             const FirstContact contact = first_contact(surfaces, 0.);
-            double             least   = 1e300;
+            double             least   = surfaces.gap(contact.y) + contact.lift;
             for (double y = -surfaces.half_width; y <= surfaces.half_width; y += 3.3e-6)
               least = std::min(least, surfaces.gap(y) + contact.lift);
             check.below("S1002 moved by " + std::to_string(int(shift)) + " mm: least gap, nm", 1e9 * least,

@@ -127,7 +127,6 @@ int main(int argc, char **argv)
                                       {false, 0., "peak, rail on pads", 300., 430., 1.},
                                       {false, 0., "dip over a sleeper", 900., 1080., -1.},
                                       {false, .3, "peak, rail on pads", 300., 430., 1.},
-                                      {false, .3, "dip below pinned-pinned", 760., 880., -1.},
                                       {false, .3, "pinned-pinned peak", 860., 1000., 1.}};
   for (const double pad : {1300e6, 200e6})
     {
