@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <stdexcept>
+#include <tuple>
 
 namespace tread
 {
