@@ -167,10 +167,10 @@ with tempfile.TemporaryDirectory() as folder:
                                                                         "Rail/Young's modulus (GPa)=70"], 2)
         check.absolute("unlike bodies, free rolling: traction coefficient", soft["traction_coefficient"], 0., 0.02)
         plain = run(program, "smooth-rolling.prm", path("plain"), base + ["Scene/Density scale=1"], 2)
-        check.relative("density x 9: a third of the steps", drive["steps"] / plain["steps"], 1. / 3., 0.01)
-        check.relative("density x 9: normal force", drive["normal_force_N"], plain["normal_force_N"], 0.001)
-        check.relative("density x 9: maximum pressure", drive["max_pressure_Pa"], plain["max_pressure_Pa"], 0.002)
-        check.relative("density x 9: traction coefficient", drive["traction_coefficient"], plain["traction_coefficient"], 0.005)
+        check.relative("density x 25: a fifth of the steps", drive["steps"] / plain["steps"], 1. / 5., 0.01)
+        check.relative("density x 25: normal force", drive["normal_force_N"], plain["normal_force_N"], 0.001)
+        check.relative("density x 25: maximum pressure", drive["max_pressure_Pa"], plain["max_pressure_Pa"], 0.002)
+        check.relative("density x 25: traction coefficient", drive["traction_coefficient"], plain["traction_coefficient"], 0.005)
         check.below("density 1: energy residual, share of the work", plain["energy_residual_share"], 1e-3)
         levels = run(program, "smooth-rolling.prm", path("levels"), base + ["Time stepping/Levels=4"], 2)
         for key in ("max_pressure_Pa", "patch_area_m2", "max_shear_Pa", "adhesion_share", "traction_coefficient"):
@@ -246,6 +246,9 @@ with tempfile.TemporaryDirectory() as folder:
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
             dry = subprocess.run(command(program, [scene, "--dry-run"]), env=environment(), capture_output=True, text=True)
             check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
+            with open(scene, encoding="utf-8") as stream:
+                if "subsection Track" in stream.read():
+                    continue  # the rail lies about the path as its sleepers want it; track.py rolls on one
             short = run(program, name, path("start"), SHORT[:2] + ["Motion/Rolled distance (mm)=4", "Motion/Hold distance (mm)=1",
                                                                   "Output/Write volume=false"])
             check.that(f"{name}: starts and ends", short["completed"])
