@@ -86,6 +86,8 @@ namespace tread
       bool                heading = false;
       for (unsigned int line = 1; std::getline(in, text); ++line)
         {
+          if (line == 1 && text.compare(0, 3, "\xef\xbb\xbf") == 0) // byte order mark
+            text.erase(0, 3);
           const std::size_t first = text.find_first_not_of(" \t\r");
           if (first == std::string::npos || text[first] == '#' || text[first] == '!')
             continue;
