@@ -85,6 +85,9 @@ namespace
       throw tread::SceneError("--dynamic-force and --smooth-twin need each other: folders of two runs");
     if (!line.dynamic.run.empty() && !line.scene.empty())
       throw tread::SceneError("--dynamic-force reads two runs; it takes no scene");
+    if (!line.dynamic.run.empty() && (line.resume || line.reference_only || line.dry_run))
+      throw tread::SceneError(
+        "--dynamic-force reads what two runs left; --resume, --reference-only and --dry-run are for a scene");
     return line;
   }
 
