@@ -337,13 +337,13 @@ namespace tread
       "the path are cubes; elsewhere they are as long as 'Path cell' says. Both 0: the whole path.",
       Double(-1e5, 1e5));
     prm.add_parameter("Fine to (mm)", fine_to_mm, "See 'Fine from (mm)'.", Double(-1e5, 1e5));
-    prm.add_parameter("Path cell (mm)", path_cell_mm,
-                      "Largest length along the path of cells outside the fine zone; their cross-section "
-                      "stays as fine. Saves "
-                      "cells where the wheel only has to arrive, but the contact force ripples as it rolls "
-                      "over long cells: at "
-                      "most half a semi-axis. 0: the finest cell.",
-                      Double(0., 100.));
+    prm.add_parameter(
+      "Path cell (mm)", path_cell_mm,
+      "Largest length along the path of cells outside 'Fine from' to 'Fine to'; from twice the "
+      "finest cell on they are as many levels of the octree coarser. Saves cells and time steps "
+      "where the wheel only has to arrive, but the contact force ripples as it rolls over "
+      "large cells: at most half a semi-axis. 0: the finest cell.",
+      Double(0., 100.));
     prm.add_parameter("Longest row (mm)", longest_row_mm,
                       "Full section: largest length of the coarse cells of the rail beside the path.",
                       Double(1., 1000.));

@@ -62,7 +62,8 @@ namespace tread
         {
           on_rail.cubes_begin  = 1e-3 * (scene.defect_position_mm + scene.fine_from_mm);
           on_rail.cubes_end    = 1e-3 * (scene.defect_position_mm + scene.fine_to_mm);
-          on_rail.path_stretch = scene.path_cell_mm / scene.finest_mm;
+          on_rail.path_level   = std::floor(std::log2(scene.path_cell_mm / scene.finest_mm) + 1e-9);
+          on_rail.path_stretch = std::ldexp(scene.path_cell_mm / scene.finest_mm, -on_rail.path_level);
         }
       FineZone on_wheel = on_rail;
       on_wheel.cubes_begin += rolled;

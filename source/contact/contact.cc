@@ -203,6 +203,14 @@ namespace tread
             corners_around.back().push_back(compact_number(i));
       }
 
+    involved_hanging.clear();
+    for (const ContactSurfaces::HangingNode &h : surfaces.hanging_nodes)
+      if (number[h.node] >= 0)
+        {
+          const unsigned int a = compact_number(h.parents[0]), b = compact_number(h.parents[1]);
+          involved_hanging.push_back({static_cast<unsigned int>(number[h.node]), {{a, b}}});
+        }
+
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
     involved_of_rank.assign(n_ranks, {});
     position.resize(involved.size());
@@ -341,6 +349,8 @@ namespace tread
       }
     for (unsigned int i = 0; i < involved.size(); ++i)
       position[i] += time_step * velocity[i];
+    for (const ContactSurfaces::HangingNode &h : involved_hanging)
+      position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
     time_since_refresh += time_step;
     return result;
   }

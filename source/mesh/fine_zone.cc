@@ -54,7 +54,16 @@ namespace tread
 
   double FineZone::wanted_size(const double x, const double y, const double depth_of_point) const
   {
-    return wanted_size(distance(x, y, depth_of_point));
+    if (path_level == 0)
+      return wanted_size(distance(x, y, depth_of_point));
+    FineZone path         = *this;
+    path.path_level       = 0;
+    path.finest_cell_size = std::ldexp(finest_cell_size, path_level);
+    FineZone cubes        = *this;
+    cubes.path_level      = 0;
+    cubes.x_begin         = std::max(x_begin, cubes_begin);
+    cubes.x_end           = std::min(x_end, cubes_end);
+    return std::min(path.wanted_size(x, y, depth_of_point), cubes.wanted_size(x, y, depth_of_point));
   }
 
   double regular_length(const double length, const double size)

@@ -123,14 +123,15 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
-    ContactProblem                         problem;
-    std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
-    std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-    std::vector<Row>                       position, velocity, velocity_before; ///< by compact number
-    std::vector<Row>                       nodal_impulse;             ///< of the last step, by compact number
-    std::vector<Row>                       impulse, previous_impulse; ///< by constraint
-    std::vector<double>                    gap_rate;
-    std::vector<double>                    slid;        ///< since the last refresh, m
+    ContactProblem                            problem;
+    std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
+    std::vector<std::vector<unsigned int>>    involved_of_rank; ///< compact numbers
+    std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
+    std::vector<Row>                          position, velocity, velocity_before; ///< by compact number
+    std::vector<Row>                          nodal_impulse; ///< of the last step, by compact number
+    std::vector<Row>                          impulse, previous_impulse; ///< by constraint
+    std::vector<double>                       gap_rate;
+    std::vector<double>                       slid;     ///< since the last refresh, m
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
