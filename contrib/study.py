@@ -321,7 +321,9 @@ def main():
 
     members, twins = [], {}
     for values in study.members:
-        left = {name: value for name, value in values.items() if name not in study.without_defect}
+        no_defect = study.without_defect.get("Defect/Shape") == "none"
+        left = {name: value for name, value in values.items()
+                if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
         name = "smooth-twin" + ("_" + folder_name(left) if left else "")
         if study.without_defect and name not in twins:
             twins[name] = Run(study, root, name, {**study.settings, **left, **study.without_defect}, arguments)
