@@ -54,7 +54,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-4";
+        std::string text = "tread-checkpoint-5";
         for (const std::size_t n : {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy),
                                     sizeof(StepTimes), sizeof(WheelHub), sizeof(PatchNode),
                                     sizeof(PatchMeasures), sizeof(CellHistory), sizeof(Passage)})
@@ -138,9 +138,6 @@ namespace tread
     bytes(archive, s.solution_taken);
     bytes(archive, s.interval_force);
     bytes(archive, s.interval_steps);
-    bytes(archive, s.next_history);
-    bytes(archive, s.next_surface);
-    bytes(archive, s.next_volume);
     byte_vector(archive, s.solution_patch);
     byte_vector(archive, s.passages);
     bytes(archive, s.last_force_sum);

@@ -267,9 +267,6 @@ namespace tread
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
     , end_position(0.5e-3 * scene.finest_mm)
-    , next_history(-1e-3 * (scene.rolled_mm - scene.history_mm))
-    , next_surface(scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300)
-    , next_volume(scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300)
   {
     const double omega = scene.speed() / scene.rolling_radius();
     hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
@@ -302,6 +299,15 @@ namespace tread
     const std::uint64_t together = std::uint64_t(1) << dynamics.max_level();
     return together * static_cast<std::uint64_t>(
                         std::ceil((end_position - position()) / (scene.speed() * step * together)));
+  }
+
+
+  bool Simulation::interval_ended(const double interval_mm) const
+  {
+    const auto number = [&](const double x) {
+      return std::floor((x + 1e-3 * scene.rolled_mm) / (1e-3 * interval_mm));
+    };
+    return interval_mm > 0. && number(position()) > number(checked_position);
   }
 
 
@@ -519,14 +525,12 @@ namespace tread
     hub.motion.angular_velocity = scene.speed() / scene.rolling_radius();
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
-    next_history                     = -1e-3 * (scene.rolled_mm - scene.history_mm);
-    next_surface    = scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300;
-    next_volume     = scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300;
-    average         = PatchAverage();
-    last_force_sum  = Row{};
-    last_force_low  = 1e300;
-    last_force_high = -1e300;
-    last_steps      = 0;
+    checked_position                 = position();
+    average                          = PatchAverage();
+    last_force_sum                   = Row{};
+    last_force_low                   = 1e300;
+    last_force_high                  = -1e300;
+    last_steps                       = 0;
     prepare_start(progress);
   }
 
@@ -565,19 +569,8 @@ namespace tread
         format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));
 
     if (resume)
-      {
-        // The intervals may have been changed since.
-        const auto next = [&](const double start, const double interval_mm) {
-          const double interval = 1e-3 * interval_mm;
-          return interval > 0. ? start + interval * (std::floor((position() - start) / interval) + 1.)
-                               : 1e300;
-        };
-        next_history = next(-1e-3 * scene.rolled_mm, scene.history_mm);
-        next_surface = next(-1e-3 * scene.rolled_mm, scene.surface_mm);
-        next_volume  = next(-1e-3 * scene.rolled_mm, scene.volume_mm);
-        progress.say(
-          format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
-      }
+      progress.say(
+        format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
     else
       {
         try
@@ -591,7 +584,9 @@ namespace tread
           }
         folder.remove_results();
       }
-    folder.open_history(resume, dynamics.time, scene.recorded_supports());
+    // Times are written with twelve digits.
+    folder.open_history(resume, dynamics.time + 0.5 * dynamics.time_step, scene.recorded_supports());
+    checked_position = position();
 
     std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
     const std::uint64_t first_step = dynamics.n_steps;
@@ -613,21 +608,13 @@ namespace tread
 
         if (!solution_taken && position() >= 0.)
           take_solution(folder);
-        if (position() >= next_history)
-          {
-            end_interval(folder);
-            next_history += 1e-3 * scene.history_mm;
-          }
-        if (position() >= next_surface)
-          {
-            folder.write_surface(dynamics, contact, rail_body);
-            next_surface += 1e-3 * scene.surface_mm;
-          }
-        if (scene.write_volume && position() >= next_volume)
-          {
-            folder.write_volume(dynamics, hub, wheel_body);
-            next_volume += 1e-3 * scene.volume_mm;
-          }
+        if (interval_ended(scene.history_mm))
+          end_interval(folder);
+        if (interval_ended(scene.surface_mm))
+          folder.write_surface(dynamics, contact, rail_body);
+        if (scene.write_volume && interval_ended(scene.volume_mm))
+          folder.write_volume(dynamics, hub, wheel_body);
+        checked_position = position();
 
         // Before any checkpoint, so that none is made of a wheel at its end.
         if (dynamics.n_steps == n_steps && passages.size() + 1 < scene.passages)

@@ -38,21 +38,26 @@ def arguments_of(output, settings):
     return arguments
 
 
-def interrupt(output, settings, ranks=1):
-    """Start a run, press Ctrl-C when it rolls; the ended process and what it wrote to stderr."""
+def interrupt(output, settings, ranks=1, rows=12, more=()):
+    """Start a run, press Ctrl-C when its history has so many rows; the ended process and what it wrote to stderr."""
     # mpirun waits a second, tells its ranks to end, and kills them a second later: too soon on a busy machine.
     patient = dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="3")
-    process = subprocess.Popen(command(program, arguments_of(output, settings), ranks), env=patient,
+    process = subprocess.Popen(command(program, arguments_of(output, settings) + list(more), ranks), env=patient,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     history = os.path.join(output, "history.csv")
     deadline = time.time() + 600
     while time.time() < deadline and process.poll() is None:
-        if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 12:
+        if os.path.exists(history) and len(lines_of(output)) > rows:
             break
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=120)
     return process, errors
+
+
+def lines_of(output):
+    with open(os.path.join(output, "history.csv"), encoding="utf-8") as stream:
+        return stream.read().splitlines()
 
 
 def read_summary(output):
@@ -126,6 +131,17 @@ with tempfile.TemporaryDirectory() as folder:
                 stream.write(b"another program's")
             fails(f"a {name} checkpoint is refused on all ranks in one line",
                   arguments_of(path(name), settings) + ["--resume"], [word], ranks=2)
+
+        # Every step ends a row of the history, so every interruption comes at the end of a row.
+        every = COARSE + ["Motion/Rolled distance (mm)=1.5", "Scene/Density scale=1", "Output/History interval (mm)=0.001",
+                          "Output/Write volume=false"]
+        run(program, "smooth-rolling.prm", path("every"), every)
+        codes = [interrupt(path("every-parts"), every, rows=rows, more=["--resume"] if rows > 60 else [])[0].returncode
+                 for rows in (60, 150, 240, 330)]
+        check.that("interrupted four times at the end of a row", codes == [130] * 4)
+        run(program, "smooth-rolling.prm", path("every-parts"), every, more=["--resume"])
+        when = lambda name: [line.split(",")[0] for line in lines_of(path(name))]
+        check.that("the history has exactly the rows of the run that was never stopped", when("every-parts") == when("every"))
 
         longer = COARSE + ["Motion/Rolled distance (mm)=100", "Scene/Density scale=1"]
         interrupt(path("two-ranks"), longer, ranks=2)
