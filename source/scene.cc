@@ -16,7 +16,7 @@ namespace tread
 {
   namespace
   {
-    using dealii::Patterns::Bool;
+    using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
@@ -232,7 +232,7 @@ namespace tread
         "(mm; of the wheel along the tread, from where it touches at the start), depth (mm), yield stress "
         "(MPa), tangent modulus (GPa), separated by colons, as in -30:-20:8:400:21. Several: separated by "
         "commas; where they overlap the last counts.",
-        dealii::Patterns::Anything());
+        Anything());
     };
 
     prm.enter_subsection("Wheel");
@@ -271,7 +271,7 @@ namespace tread
       "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
       "mm "
       "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
-      dealii::Patterns::Anything());
+      Anything());
     prm.add_parameter("Lateral position (mm)", lateral_position_mm,
                       "y of the running circle over the rail's middle; the flange lies at y < 0.",
                       Double(-30., 30.));
@@ -290,14 +290,18 @@ namespace tread
       "Measured head", measured_head,
       "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
       "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. Empty: a new rail.",
-      dealii::Patterns::Anything());
+      Anything());
     prm.add_parameter(
       "Inclination", rail_inclination,
       "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the same slope "
       "touches it on the middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.",
       Selection("none|1:40|1:20"));
-    prm.add_parameter("Length (mm)", rail_length_mm,
-                      "Of the whole rail, as much before the path as behind it. 0: as Margin says.",
+    prm.add_parameter(
+      "Begin (mm)", rail_begins_at,
+      "x of the rail's first end. automatic: before the path as much as behind it where Length "
+      "is given, else by Margin.",
+      Anything());
+    prm.add_parameter("Length (mm)", rail_length_mm, "Of the whole rail. 0: to Margin behind the path.",
                       Double(0., 1e5));
     prm.add_parameter("Crown radius (mm)", crown_radius_mm, "Of a block. Sets the lateral curvature.",
                       Double(10., 1e6));
@@ -399,10 +403,16 @@ namespace tread
     prm.add_parameter("Speed (km per h)", speed_kmh, "Of the wheel's centre, kept along x. At least 0.1.",
                       Double(0., 1000.));
     prm.add_parameter(
-      "Rolled distance (mm)", rolled_mm,
-      "From the start to the solution instant, when the wheel stands over x = 0. The tangential solution "
-      "needs three to four patch lengths to become steady.",
-      Double(tiny, 10000.));
+      "Start (mm)", starts_at,
+      "x of the wheel at the start. automatic: minus the rolled distance, so that the solution instant is at "
+      "x = 0. A number keeps the wheel, the rail with its supports and a defect in their places when the "
+      "rolled "
+      "distance is changed.",
+      Anything());
+    prm.add_parameter("Rolled distance (mm)", rolled_mm,
+                      "From the start to the solution instant. The tangential solution needs three to four "
+                      "patch lengths to become steady.",
+                      Double(tiny, 10000.));
     prm.add_parameter(
       "Drive", drive,
       "creepage: the angular velocity is kept. torque: a torque of traction coefficient x load x radius acts "
@@ -416,7 +426,7 @@ namespace tread
       "Creepage", creepage,
       "(angular velocity x radius - speed) / speed, counted from free rolling, positive when driving; "
       "or 'predicted': what half-space theory gives for the traction coefficient.",
-      dealii::Patterns::Anything());
+      Anything());
     prm.add_parameter(
       "Hold distance (mm)", hold_mm,
       "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",

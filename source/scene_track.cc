@@ -46,8 +46,7 @@ namespace tread
                       "spacing beyond its last supports.",
                       Double(0.05, 10.));
     prm.add_parameter("Support 0 (mm)", support_0_mm,
-                      "x of the support with number 0; the wheel stands over x = 0 at the solution instant. "
-                      "Numbers grow in rolling direction.",
+                      "x of the support with number 0. Numbers grow in rolling direction.",
                       Double(-20000., 20000.));
     prm.add_parameter("Pad stiffness (MN per m)", pad_stiffness_MN_m, "Of a whole support, vertical.",
                       Double(tiny));
@@ -167,9 +166,10 @@ namespace tread
       {
         const double spacing_mm = 1e3 * sleeper_spacing_m;
         const int    size       = support_positions().size();
-        const int    first =
-                    std::max<int>(first_support(), std::floor((-rolled_mm - support_0_mm) / spacing_mm)),
-                  last = std::min<int>(first_support() + size - 1, std::ceil(-support_0_mm / spacing_mm));
+        const int    first      = std::max<int>(first_support(),
+                                        std::floor((1e3 * path_begin() - support_0_mm) / spacing_mm)),
+                  last          = std::min<int>(first_support() + size - 1,
+                                       std::ceil((1e3 * path_end() - support_0_mm) / spacing_mm));
         for (int i = first; i <= last; ++i)
           numbers.push_back(i);
       }

@@ -47,13 +47,13 @@ namespace tread
 
     std::vector<Body> make_bodies(const Scene &scene)
     {
-      const double rolled = 1e-3 * scene.rolled_mm;
-      const double patch  = 1.4 * hertz(scene, scene.static_load()).semi_axis_x + 2e-3 * scene.finest_mm;
+      const double rolled = 1e-3 * scene.rolled_mm, begin = scene.path_begin(), end = scene.path_end();
+      const double patch = 1.4 * hertz(scene, scene.static_load()).semi_axis_x + 2e-3 * scene.finest_mm;
 
       FineZone on_rail;
       on_rail.finest_cell_size = 1e-3 * scene.finest_mm;
-      on_rail.x_begin          = -rolled - patch;
-      on_rail.x_end            = patch;
+      on_rail.x_begin          = begin - patch;
+      on_rail.x_end            = end + patch;
       on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
       on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.cells_per_level;
@@ -65,8 +65,8 @@ namespace tread
           on_rail.path_stretch = scene.path_cell_mm / scene.finest_mm;
         }
       FineZone on_wheel = on_rail;
-      on_wheel.cubes_begin += rolled;
-      on_wheel.cubes_end += rolled;
+      on_wheel.cubes_begin -= begin;
+      on_wheel.cubes_end -= begin;
       on_wheel.x_begin = -patch;
       on_wheel.x_end   = rolled + patch;
 
@@ -107,7 +107,7 @@ namespace tread
       if (scene.wheel_shape == "sector")
         {
           WheelSector sector;
-          sector.center_x           = -rolled;
+          sector.center_x           = begin;
           sector.lift               = scene.first_contact().lift;
           sector.tread_offset       = scene.surfaces().tread_offset;
           sector.radius             = 1e-3 * scene.radius_mm;
@@ -121,7 +121,7 @@ namespace tread
       else
         {
           FullWheel wheel;
-          wheel.center_x           = -rolled;
+          wheel.center_x           = begin;
           wheel.lift               = scene.first_contact().lift;
           wheel.tread_offset       = scene.surfaces().tread_offset;
           wheel.radius             = 1e-3 * scene.radius_mm;
@@ -201,15 +201,15 @@ namespace tread
             zones.push_back(
               {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa),
                [=, &scene](const dealii::Point<3> &p) {
-                 const double dx = p[0] + rolled, dz = p[2] - scene.axle_height();
+                 const double dx = p[0] - scene.path_begin(), dz = p[2] - scene.axle_height();
                  const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
                  const double below = wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
                  return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
                }});
           };
           const double depth = 1e-3 * material.plastic_depth_mm;
-          const double begin = -(wheel ? 0. : rolled) - patch - depth,
-                       end   = (wheel ? rolled : 0.) + patch + depth;
+          const double begin = (wheel ? 0. : scene.path_begin()) - patch - depth,
+                       end   = (wheel ? rolled : scene.path_end()) + patch + depth;
           if (material.yield_stress_MPa > 0.)
             add(begin, end, depth, material.yield_stress_MPa, material.tangent_modulus_GPa);
           for (const Scene::Material::Zone &zone : material.zones())
@@ -266,10 +266,10 @@ namespace tread
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
-    , end_position(0.5e-3 * scene.finest_mm)
+    , end_position(scene.path_end() + 0.5e-3 * scene.finest_mm)
   {
     const double omega = scene.speed() / scene.rolling_radius();
-    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
+    hub.place(scene.path_begin(), scene.axle_height());
     hub.motion.angular_velocity = omega;
     if (scene.has_supports())
       {
@@ -305,7 +305,7 @@ namespace tread
   bool Simulation::interval_ended(const double interval_mm) const
   {
     const auto number = [&](const double x) {
-      return std::floor((x + 1e-3 * scene.rolled_mm) / (1e-3 * interval_mm));
+      return std::floor((x - scene.path_begin()) / (1e-3 * interval_mm));
     };
     return interval_mm > 0. && number(position()) > number(checked_position);
   }
@@ -401,7 +401,7 @@ namespace tread
   void Simulation::set_drive()
   {
     if (scene.drive == "torque" && !torque_released &&
-        position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
+        position() >= scene.path_begin() + 1e-3 * scene.hold_mm)
       {
         hub.drive        = Drive::torque;
         hub.drive_torque = scene.traction_coefficient * scene.static_load() *
@@ -416,14 +416,14 @@ namespace tread
     const Row force = (1. / dynamics.time_step) * contact.total_impulse();
     interval_force += force;
     ++interval_steps;
-    if (position() <= 0. && position() >= -10e-3)
+    if (position() <= scene.path_end() && position() >= scene.path_end() - 10e-3)
       {
         last_force_sum += force;
         last_force_low  = std::min(last_force_low, force[2]);
         last_force_high = std::max(last_force_high, force[2]);
         ++last_steps;
       }
-    if (std::abs(position()) <= end_position)
+    if (std::abs(position() - scene.path_end()) <= 0.5e-3 * scene.finest_mm)
       average.add(contact.active_nodes(), position(), dynamics.time_step);
   }
 
@@ -479,7 +479,7 @@ namespace tread
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
-    const double middle = -0.5e-3 * scene.rolled_mm, half_length = 5e-3, on_line = 1e-6;
+    const double middle = 0.5 * (scene.path_begin() + scene.path_end()), half_length = 5e-3, on_line = 1e-6;
     double       settled = 0., shifted = 0., n_nodes = 0., strain = 0., residual = 0.;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (const dealii::Point<3> &p = mesh.nodes[i];
@@ -521,7 +521,7 @@ namespace tread
         dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     solid.plastic().forget(wheel_body, dynamics.history);
     hub.motion = WheelHub::Motion();
-    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
+    hub.place(scene.path_begin(), scene.axle_height());
     hub.motion.angular_velocity = scene.speed() / scene.rolling_radius();
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
@@ -606,7 +606,7 @@ namespace tread
         if (!dynamics.synchronised())
           continue;
 
-        if (!solution_taken && position() >= 0.)
+        if (!solution_taken && position() >= scene.path_end())
           take_solution(folder);
         if (interval_ended(scene.history_mm))
           end_interval(folder);
@@ -761,7 +761,7 @@ namespace tread
     summary.set("density_scale", scene.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
     summary.set("passages", scene.passages);
-    const double rolled = position() + 1e-3 * scene.rolled_mm;
+    const double rolled = position() - scene.path_begin();
     const double patch_lengths =
       (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * hertz(scene, normal).semi_axis_x);
     const bool long_enough = patch_lengths >= 3.;
