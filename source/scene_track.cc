@@ -62,8 +62,8 @@ namespace tread
                       "sleeper). 1: the slope of the rail is free.",
                       Integer(1, 50));
     prm.add_parameter("Points across", points_across,
-                      "The same across the rail. 1: nothing keeps the rail from rolling over, so only for "
-                      "scenes symmetric to y = 0.",
+                      "The same across the rail. 1: nothing keeps the rail from tipping over, so only for "
+                      "upright rails that are loaded on y = 0 and whose crown radius exceeds their height.",
                       Integer(1, 50));
     prm.add_parameter("Sleeper mass (kg)", sleeper_mass,
                       "What one rail's support carries: half a sleeper. Sets the height of a solid one.",
@@ -108,6 +108,16 @@ namespace tread
                              : 2e3 * rail_profile().outline_point(rail_profile().corners().foot_edge)[0];
     require(pad_width_mm <= base_mm, "'Track/Pad width (mm)' " + text_of(pad_width_mm) +
                                        " exceeds the flat width of the rail's base, " + text_of(base_mm));
+    // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
+    // its foot.
+    const double height_mm = rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().height();
+    require(points_across > 1 ||
+              (inclination() == 0. && measured_head.empty() && std::abs(first_contact().y) < 1e-6 &&
+               (!defect() || defect_lateral_mm == 0.) && 1e3 * lateral_radius() > height_mm),
+            "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
+            "('Rail/Inclination' none), wheel and defect meet it on y = 0, and its crown radius exceeds its "
+            "height, " +
+              text_of(height_mm) + " mm");
     const std::vector<double> positions = support_positions();
     const double              begin_mm = 1e3 * rail_begin(), end_mm = 1e3 * rail_end();
     require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " leaves " +
