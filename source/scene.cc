@@ -487,6 +487,8 @@ namespace tread
 
   void Scene::read(const std::string &file, const std::vector<std::string> &settings)
   {
+    if (std::filesystem::is_directory(file))
+      throw SceneError("parameter file '" + file + "' is a folder");
     if (!file.empty() && !std::ifstream(file))
       throw SceneError("cannot read parameter file '" + file + "'");
     try

@@ -191,6 +191,9 @@ namespace tread
       {
         require(defect_length_mm > 0. && defect_depth_mm > 0.,
                 "a dip needs 'Defect/Length (mm)' and 'Defect/Depth (mm)' above 0");
+        require(!defect_reversed,
+                "'Defect/Reversed' is for 'Defect/Shape' profile; a dip is rolled over from its other "
+                "end with its rounded edges exchanged");
         defect->width             = 1e-3 * (defect_width_mm > 0. ? defect_width_mm : defect_length_mm);
         defect->leading_rounding  = 1e-3 * leading_rounding_mm;
         defect->trailing_rounding = 1e-3 * trailing_rounding_mm;
@@ -244,6 +247,13 @@ namespace tread
                 "the defect, from 'Defect/Position (mm)' " + number(defect_position_mm) + " to " +
                   number(end_mm) + " mm, lies outside the rail, which is from " + number(1e3 * rail_begin()) +
                   " to " + number(1e3 * rail_end()) + " mm");
+        const std::string of_width = defect_width_mm > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
+        for (const auto &[name, size] :
+             {std::make_pair(std::string("'Defect/Length (mm)'"), defect()->length),
+              {of_width, defect()->width}})
+          require(1e3 * size >= finest_mm,
+                  name + " " + number(1e3 * size) +
+                    " is lost between the nodes; at least 'Mesh/Finest cell (mm)', " + number(finest_mm));
         const double head_mm = rail_shape == "block"
                                  ? 0.5 * block_width_mm
                                  : 1e3 * rail_profile().head_point(rail_profile().shoulder_length())[0];
@@ -266,6 +276,9 @@ namespace tread
             "'Mesh/Fine from (mm)' to 'Fine to (mm)', from the defect's leading edge at " +
               number(defect_position_mm) + " mm, must lie on the rail from " + number(1e3 * rail_begin()) +
               " to " + number(1e3 * rail_end()) + " mm at least in part");
+    require(path_cell_mm == 0. || path_cell_mm >= finest_mm, "'Mesh/Path cell (mm)' " + number(path_cell_mm) +
+                                                               " must be at least 'Mesh/Finest cell (mm)' " +
+                                                               number(finest_mm) + ", or 0 for the same");
     require(path_cell_mm <= finest_mm || fine_from_mm < fine_to_mm,
             "'Mesh/Path cell (mm)' needs 'Mesh/Fine from (mm)' and 'Fine to (mm)'");
   }

@@ -123,12 +123,19 @@ namespace tread
     require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " leaves " +
                                      std::to_string(positions.size()) + " supports on the rail of " +
                                      text_of(end_mm - begin_mm) + " mm; at least 2 are needed");
-    for (const double overhang : {1e3 * positions.front() - begin_mm, end_mm - 1e3 * positions.back()})
-      require(overhang >= 0.5 * pad_length_mm - 1e-6 && overhang <= 500. * sleeper_spacing_m + 1e-6,
-              "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " does not fit the rail from " +
-                text_of(begin_mm) + " to " + text_of(end_mm) + " mm: it ends " + text_of(overhang) +
-                " mm beyond a support; from half a pad, " + text_of(0.5 * pad_length_mm) +
-                ", to half a spacing, " + text_of(500. * sleeper_spacing_m) + ", is allowed");
+    constexpr double round_off_mm   = 1e-6;
+    const auto       check_overhang = [&](const double overhang_mm, const std::string &begins,
+                                    const std::string &support) {
+      require(overhang_mm >= 0.5 * pad_length_mm - round_off_mm &&
+                      overhang_mm <= 500. * sleeper_spacing_m + round_off_mm,
+                    "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " does not fit the rail from " +
+                      text_of(begin_mm) + " to " + text_of(end_mm) + " mm: it " + begins + " " +
+                      text_of(overhang_mm < round_off_mm ? 0. : overhang_mm) + " mm " + support +
+                      "; from half a pad, " + text_of(0.5 * pad_length_mm) + ", to half a spacing, " +
+                      text_of(500. * sleeper_spacing_m) + ", is allowed");
+    };
+    check_overhang(1e3 * positions.front() - begin_mm, "begins", "before its first support");
+    check_overhang(end_mm - 1e3 * positions.back(), "ends", "behind its last support");
     if (has_solid_sleepers())
       {
         require(pad_length_mm <= sleeper_width_mm && sleeper_width_mm < 1e3 * sleeper_spacing_m,
