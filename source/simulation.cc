@@ -564,7 +564,8 @@ namespace tread
     if (scene.density_scale > 1.)
       progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%",
                           scene.density_scale, 100. * scene.inertia_error_estimate()));
-    if (const double gain = dynamics.ideal_gain_of_levels(); gain > 1.)
+    const double gain = dynamics.ideal_gain_of_levels(), updates_of_step = mesh.n_global_cells / gain;
+    if (gain > 1.)
       progress.say(
         format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));
 
@@ -668,10 +669,11 @@ namespace tread
               {
                 const Row    force = (1. / dynamics.time_step) * contact.total_impulse();
                 const double spent = now - loop_began, done = dynamics.n_steps - first_step;
-                progress.show(format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left",
-                                     1e3 * position(), 1e-3 * force[2], force[0] / force[2],
-                                     1e9 * spent / done / mesh.cells.size(),
-                                     spent / done * (n_steps - dynamics.n_steps)));
+                progress.show(
+                  format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left",
+                         1e3 * position(), 1e-3 * force[2], force[0] / force[2],
+                         1e9 * spent / done / updates_of_step * dealii::Utilities::MPI::n_mpi_processes(comm),
+                         spent / done * (n_steps - dynamics.n_steps)));
               }
           }
       }
@@ -713,7 +715,6 @@ namespace tread
     const double        normal = force[2];
     const double        creepage =
       hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
-    const double steps = std::max<double>(1., dynamics.n_steps);
 
     Summary             summary;
     const ContactAnswer answer{force, creepage, mean};
@@ -775,8 +776,9 @@ namespace tread
     summary.set("wall_s_contact", max(times.contact + times.search, comm));
     summary.set("wall_s_communication", max(times.communication, comm));
     summary.set("wall_s_nodes", max(times.nodes, comm));
-    summary.set("element_updates_per_s",
-                mesh.n_global_cells * steps / std::max(1e-9, max(times.internal_forces, comm)));
+    const double updates = mesh.n_global_cells / dynamics.ideal_gain_of_levels() * dynamics.n_steps;
+    summary.set("element_updates", updates);
+    summary.set("element_updates_per_s", updates / std::max(1e-9, max(times.internal_forces, comm)));
     summary.set("cells_and_nodes_bytes", memory_of_cells_and_nodes());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());

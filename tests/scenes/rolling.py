@@ -92,8 +92,16 @@ with tempfile.TemporaryDirectory() as folder:
             same(f"{ranks} ranks against 1", run(program, "smooth-rolling.prm", path(str(ranks)), tight, ranks), one, 1e-8)
         levels = tight + ["Time stepping/Levels=3"]
         one_of_levels = run(program, "smooth-rolling.prm", path("levels-1"), levels)
-        same("levels of time steps, 2 ranks against 1", run(program, "smooth-rolling.prm", path("levels-2"), levels, 2),
-             one_of_levels, 1e-8)
+        two_of_levels = run(program, "smooth-rolling.prm", path("levels-2"), levels, 2)
+        same("levels of time steps, 2 ranks against 1", two_of_levels, one_of_levels, 1e-8)
+        dry = subprocess.run(command(program, arguments_of(path("dry"), levels) + ["--dry-run"]), env=environment(),
+                             capture_output=True, text=True)
+        gain = float(re.search(r"cell updates fall to 1/([\d.]+)", dry.stdout)[1])
+        check.that("levels: most cells wait", gain > 1.5)
+        for ranks, summary in ((1, one_of_levels), (2, two_of_levels)):
+            # The gain has three digits.
+            check.relative(f"levels: updates of cells in a step, {ranks} rank(s)", summary["element_updates"] / summary["steps"],
+                           summary["cells"] / gain, 5e-3)
 
     elif what == "resume":
         # Small steps, so that there is time for an interruption.
@@ -109,8 +117,9 @@ with tempfile.TemporaryDirectory() as folder:
         identical("resumed against never stopped", "parts", "whole")
         for key in ("wall_s", "wall_s_internal_forces", "wall_s_contact"):
             check.that(f"{key} counts both parts", resumed[key] > part[key])
+        check.relative("element updates: all cells in all steps", resumed["element_updates"], resumed["cells"] * resumed["steps"], 1e-9)
         check.relative("element updates of both parts over their time", resumed["element_updates_per_s"],
-                       resumed["cells"] * resumed["steps"] / resumed["wall_s_internal_forces"], 1e-9)
+                       resumed["element_updates"] / resumed["wall_s_internal_forces"], 1e-9)
         same("resumed on 4 ranks against never stopped on 1",
              run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 1e-6)
 
