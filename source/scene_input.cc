@@ -47,7 +47,7 @@ namespace tread
 
     struct Entry
     {
-      std::string path, section, name, pattern;
+      std::string path, section, name, value, pattern;
     };
 
     /// All declared entries, by walking the handler's own description.
@@ -68,6 +68,7 @@ namespace tread
               name += mangled[i];
           if (child.get_optional<std::string>("value"))
             entries.push_back({section.empty() ? name : section + "/" + name, section, name,
+                               child.get<std::string>("value"),
                                child.get<std::string>("pattern_description", "")});
           else if (!child.empty())
             list_entries(child, section.empty() ? name : section + "/" + name, entries);
@@ -77,7 +78,8 @@ namespace tread
     std::vector<Entry> all_entries(const dealii::ParameterHandler &handler)
     {
       std::ostringstream json;
-      handler.print_parameters(json, dealii::ParameterHandler::JSON);
+      handler.print_parameters(json, dealii::ParameterHandler::JSON |
+                                       dealii::ParameterHandler::KeepDeclarationOrder);
       boost::property_tree::ptree tree;
       std::istringstream          in(json.str());
       boost::property_tree::read_json(in, tree);
@@ -110,16 +112,15 @@ namespace tread
   } // namespace
 
 
-  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
+  void Scene::parse(const std::string &file)
   {
     if (std::filesystem::is_directory(file))
       throw SceneError("parameter file '" + file + "' is a folder");
-    if (!file.empty() && !std::ifstream(file))
+    if (!std::ifstream(file))
       throw SceneError("cannot read parameter file '" + file + "'");
     try
       {
-        if (!file.empty())
-          handler.parse_input(file, "", false, true);
+        handler.parse_input(file, "", false, true);
       }
     catch (const dealii::ParameterHandler::ExcEntryUndeclared &error)
       {
@@ -130,6 +131,13 @@ namespace tread
         std::string text = one_line(error);
         throw SceneError(text.find(file) == std::string::npos ? file + ": " + text : text);
       }
+  }
+
+
+  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
+  {
+    if (!file.empty())
+      parse(file);
     for (const std::string &setting : settings)
       set(setting);
     folder = std::filesystem::path(file).parent_path();
@@ -166,6 +174,17 @@ namespace tread
           return;
         }
     throw SceneError("no parameter '" + path + "'; " + did_you_mean(handler, path));
+  }
+
+
+  std::vector<Scene::Parameter> Scene::parameters_in(const std::string &file)
+  {
+    Scene scene;
+    scene.parse(file);
+    std::vector<Parameter> parameters;
+    for (const Entry &entry : all_entries(scene.handler))
+      parameters.push_back({entry.path, entry.value});
+    return parameters;
   }
 
 

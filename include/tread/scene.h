@@ -130,6 +130,14 @@ namespace tread
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
 
+    struct Parameter
+    {
+      std::string path, value; ///< Section/Name
+    };
+    /// All that a scene with this parameter file has, in the order of declaration; only names and ranges are
+    /// checked. @throws SceneError
+    static std::vector<Parameter> parameters_in(const std::string &file);
+
     double speed() const
     {
       return speed_kmh / 3.6;
@@ -225,6 +233,7 @@ namespace tread
       FirstContact                          contact;
     };
 
+    void parse(const std::string &file);
     void declare();
     void declare_defect();
     void declare_track();
