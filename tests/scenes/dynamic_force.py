@@ -143,8 +143,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("a section: ends, mm", 1e3 * section["to_m"], 100, 1e3 * ROW)
     check.relative("a section: Hann's resolution x record", section["resolution_Hz"] * section["record_s"], 2.0, 1e-9)
 
-    # Groups of eight steps of 3.3 and of 3.1 um: a row in three is longer by a tenth than the others, and not the same rows in
-    # both. Between rows a straight line misses up to (2 pi f h)^2/8 of a wave, the mean of a row (2 pi f h)^2/24.
+    # Groups of eight steps of 3.3 and of 3.1 um: rows have nine or ten of the run's, ten or eleven of the twin's. Between rows a
+    # straight line misses up to (2 pi f h)^2/8 of a wave, the mean of a row (2 pi f h)^2/24.
     write(path("steps-run"), 2000, defect=True, steps=26.4e-6)
     write(path("steps-twin"), 2000, steps=24.8e-6)
     result = subprocess.run(command(program, ["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")]),
