@@ -444,9 +444,16 @@ namespace tread
         contact->refresh(x.data(), v.data(), time_step);
       }
     hold_guided_nodes(v);
+    set_damped_positions();
+  }
+
+
+  void ExplicitDynamics::set_damped_positions()
+  {
     const double beta = parameters.damping_steps * time_step;
     for (unsigned int i = 0; i < x.size(); ++i)
       x_damped[i] = x[i] + beta * v[i];
+    mesh.distribute_hanging_nodes(x_damped.data());
   }
 
 

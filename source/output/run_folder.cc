@@ -213,7 +213,7 @@ namespace tread
                                  std::istreambuf_iterator<char>());
           const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
           for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
-            if (std::stod((*i)[1]) <= time * (1. + 1e-9))
+            if (std::stod((*i)[1]) <= time)
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
     std::string kept = history_header(supports);
@@ -223,7 +223,7 @@ namespace tread
         std::string   line;
         std::getline(old, line);
         while (std::getline(old, line))
-          if (!line.empty() && std::atof(line.c_str()) <= time * (1. + 1e-12))
+          if (!line.empty() && std::atof(line.c_str()) <= time)
             kept += line + '\n';
       }
     write("history.csv", kept);

@@ -103,9 +103,6 @@ namespace tread
 
     const ContactSurfaces surfaces;
 
-    /// Impulses by surface node (warm start); public for checkpoints.
-    std::vector<Row> impulse_of_node;
-
   private:
     /// Whether an impulse is below the bound of friction.
     bool adheres(const Row impulse, const double normal_impulse, const Row normal) const;
@@ -116,6 +113,8 @@ namespace tread
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Row>          &x);
+    /// Room for what each step finds, by the pairs and involved nodes of now.
+    void make_room();
 
     MPI_Comm                           comm;
     ContactParameters                  parameters;
@@ -123,6 +122,7 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
+    std::vector<Row>                          impulse_of_node; ///< by surface node: the warm start
     ContactProblem                            problem;
     std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
     std::vector<std::vector<unsigned int>>    involved_of_rank; ///< compact numbers
@@ -142,6 +142,8 @@ namespace tread
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
     std::uint64_t             unconverged_steps = 0;
+
+    friend class Checkpoint;
   };
 } // namespace tread
 

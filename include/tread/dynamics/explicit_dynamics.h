@@ -176,6 +176,7 @@ namespace tread
   private:
     /// Time step, inverse masses and all that follows from positions and velocities.
     void                set_inertia();
+    void                set_damped_positions();
     std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
     double              highest_frequency(const unsigned int first_level) const;
     void                set_node_levels();

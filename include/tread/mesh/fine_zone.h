@@ -2,6 +2,7 @@
 #ifndef tread_mesh_fine_zone_h
 #define tread_mesh_fine_zone_h
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -28,6 +29,9 @@ namespace tread
     double       cubes_end    = std::numeric_limits<double>::infinity();
     double       path_stretch = 1.;
     unsigned int path_level   = 0;
+
+    /// The cubes that lie in the box along the path; where none do, its middle twice (m).
+    std::array<double, 2> cubes() const;
 
     /// How far the box reaches from the middle of the body (m).
     double reach() const
