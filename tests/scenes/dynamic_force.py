@@ -168,6 +168,22 @@ with tempfile.TemporaryDirectory() as folder:
             f"{name}.png" for name in ("contact-force", "dynamic-force", "supports", "distribution", "speeds")}):
         print(drawn.stdout, drawn.stderr)
 
+    # 54E1, pads and ballast of 1300 and 45 MN/m: characteristic length and largest share of a support as published.
+    with open(path("twin/parameters.prm"), "w", encoding="utf-8") as stream:
+        stream.write("subsection Rail\nset Profile = 54E1\nset Young's modulus (GPa) = 210\nend\nsubsection Track\n"
+                     "set Foundation = two-layer\nset Sleeper spacing (m) = 0.6\nset Support 0 (mm) = -500\n"
+                     "set Pad stiffness (MN per m) = 1300\nset Ballast stiffness (MN per m) = 45\nend\n")
+    table = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("twin"), "--zimmermann"],
+                           env=environment(), capture_output=True, text=True).stdout
+    rows = [[float(cell.split()[0]) for cell in line.strip("| ").split("|")] for line in table.splitlines()[2:]]
+    check.that("Zimmermann: two instants", len(rows) == 2)
+    for row, at, distance in zip(rows, (-200.0, 25.0), (0.3, 0.075)):
+        share = 100 * 48.57 / 116.8 * math.exp(-distance / 0.7214) * (math.cos(distance / 0.7214) + math.sin(distance / 0.7214))
+        check.absolute(f"Zimmermann: support 1 at {at:.0f} mm: the wheel's position, mm", row[0], at, 0.01)
+        check.absolute(f"Zimmermann: support 1 at {at:.0f} mm: share, %", row[2], 40.0, 0.01)
+        check.absolute(f"Zimmermann: support 1 at {at:.0f} mm: by the beam, %", row[3], share, 0.01)
+        check.absolute(f"Zimmermann: support 1 at {at:.0f} mm: difference, %", row[4], 100 * (40.0 / share - 1), 0.1)
+
     fails("no twin named", ["--dynamic-force", path("run")], ["--smooth-twin"])
     fails("a scene beside", both + ["scene.prm"], ["takes no scene"])
     fails("no such folder", ["--dynamic-force", path("none"), "--smooth-twin", path("twin")], ["no folder", "none"])
