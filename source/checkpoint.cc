@@ -54,10 +54,11 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-4";
-        for (const std::size_t n : {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy),
-                                    sizeof(StepTimes), sizeof(WheelHub), sizeof(PatchNode),
-                                    sizeof(PatchMeasures), sizeof(CellHistory), sizeof(Passage)})
+        std::string text = "tread-checkpoint-5";
+        for (const std::size_t n :
+             {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
+              sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
+              sizeof(Passage), sizeof(StoredPeak)})
           text += "." + std::to_string(n);
         return text;
       }
@@ -199,6 +200,11 @@ namespace tread
     for (const CellHistory &cell : simulation.solid.plastic().stored(d.history))
       cells.append(reinterpret_cast<const char *>(&cell), sizeof cell);
     cells = folder.gather(cells);
+    std::string peaks;
+    if (simulation.strip)
+      for (const StoredPeak &peak : simulation.strip->stored())
+        peaks.append(reinterpret_cast<const char *>(&peak), sizeof peak);
+    peaks = folder.gather(peaks);
 
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -210,7 +216,7 @@ namespace tread
             std::string                     text = fingerprint(simulation);
             archive << text;
             state(archive, simulation);
-            archive << nodes << cells;
+            archive << nodes << cells << peaks;
           }
           const Header       header(content.str());
           std::ostringstream file;
@@ -282,8 +288,8 @@ namespace tread
                          new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
       }
     state(archive, simulation);
-    std::string nodes, cells;
-    archive >> nodes >> cells;
+    std::string nodes, cells, peaks;
+    archive >> nodes >> cells >> peaks;
 
     if (!reads)
       d.totals.damping = d.totals.external_work = d.totals.gross_work = d.totals.plastic =
@@ -312,6 +318,11 @@ namespace tread
     missing                     = plastic.restore(histories, d.history) != plastic.n_cells() || missing;
     if (dealii::Utilities::MPI::logical_or(missing, comm))
       throw SceneError("--resume: '" + path + "' belongs to another mesh");
+    std::vector<StoredPeak> stored_peaks(peaks.size() / sizeof(StoredPeak));
+    if (!stored_peaks.empty())
+      std::memcpy(stored_peaks.data(), peaks.data(), stored_peaks.size() * sizeof(StoredPeak));
+    if (simulation.strip)
+      simulation.strip->restore(stored_peaks);
     d.set_inertia();
   }
 } // namespace tread
