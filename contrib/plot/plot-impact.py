@@ -4,6 +4,7 @@
 thesis.
 
     plot-impact.py RUN [RUN ...] [--smooth-twin TWIN [TWIN ...]] [--output DIR]
+    plot-impact.py RUN --zimmermann
 
 Written to RUN/pictures (the first run's), each where its data is there:
   contact-force.png   normal force beside the static load and the twin, distances of its peaks; largest pressure, patch area
@@ -16,6 +17,8 @@ Written to RUN/pictures (the first run's), each where its data is there:
   distribution.png    forces of all pads and ballast supports at the instants of the largest, run beside twin
   zimmermann.png      shares of the twin's supports between two sleepers and near one, beside Zimmermann's beam
   speeds.png          of several runs: dynamic forces, their spectra, and peaks over speed
+
+--zimmermann prints the table of the last but one and draws nothing. RUN is then a smooth one, or --smooth-twin names it.
 
 Twins are those of the runs in the same order; one serves runs that share it. Without --smooth-twin the dynamic.csv that is there
 is drawn.
@@ -323,8 +326,9 @@ def zimmermann_share(distance, spacing, length):
     return spacing / (2 * length) * np.exp(-s) * (np.cos(s) + np.sin(s))
 
 
-def draw_zimmermann(run):
-    """Five supports of a smooth rail, wheel between two and near one."""
+def zimmermann(run):
+    """Five most loaded supports of a smooth rail, wheel between two and near one: [(position of the wheel in mm, {support: (share
+    of the contact force in its pad, share by Zimmermann)})], or None."""
     run = run.twin or run
     p = run.parameters
     names = ["Track/Sleeper spacing (m)", "Track/Support 0 (mm)", "Track/Pad stiffness (MN per m)", "Rail/Young's modulus (GPa)"]
@@ -335,23 +339,45 @@ def draw_zimmermann(run):
     if p.get("Track/Foundation") == "two-layer":
         stiffness = 1 / (1 / pad + 1 / float(p["Track/Ballast stiffness (MN per m)"]))
     length = (4 * young * 1e9 * SECOND_MOMENT[p["Rail/Profile"]] / (stiffness * 1e6 / spacing)) ** 0.25
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4), sharey=True)
     # As far from the ends of the record as can be: over a mid-span, and an eighth of a spacing before a sleeper.
     middle = 0.5 * (run.x[0] + run.x[-1])
-    for axis, phase in zip(axes, (0.5, 0.875)):
+    instants = []
+    for phase in (0.5, 0.875):
         at = origin + 1e3 * spacing * (round((middle - origin) / (1e3 * spacing) - phase) + phase)
         at = float(np.clip(at, run.x[0], run.x[-1]))
         contact = np.interp(at, run.x, run.force(CONTACT))
-        numbers = sorted(sorted(run.supports("pad"), key=lambda n: abs(origin + 1e3 * spacing * n - at))[:5])
-        own = [np.interp(at, run.x, run.force(f"support_{n}_pad_N")) / contact for n in numbers]
-        theory = [zimmermann_share(1e-3 * (origin - at) + spacing * n, spacing, length) for n in numbers]
-        axis.bar(np.array(numbers) - 0.2, own, 0.4, color=BLUE, label="tread")
-        axis.bar(np.array(numbers) + 0.2, theory, 0.4, color=ORANGE, label="Zimmermann")
+        own = {n: np.interp(at, run.x, run.force(f"support_{n}_pad_N")) / contact for n in run.supports("pad")}
+        most = sorted(sorted(own, key=own.get)[-5:])
+        instants.append((at, {n: (own[n], zimmermann_share(1e-3 * (origin - at) + spacing * n, spacing, length)) for n in most}))
+    return instants
+
+
+def draw_zimmermann(run):
+    instants = zimmermann(run)
+    if instants is None:
+        return None
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4), sharey=True)
+    for axis, (at, shares) in zip(axes, instants):
+        numbers = np.array(list(shares))
+        own, theory = np.array(list(shares.values())).T
+        axis.bar(numbers - 0.2, own, 0.4, color=BLUE, label="tread")
+        axis.bar(numbers + 0.2, theory, 0.4, color=ORANGE, label="Zimmermann")
         most = int(np.argmax(own))
         axis.set(title=f"wheel at {at:.1f} mm; most loaded: {100 * (own[most] / theory[most] - 1):+.1f} %", xlabel="support",
                  ylabel="force over contact force", xticks=numbers)
         axis.legend()
     return figure
+
+
+def print_zimmermann(run):
+    """What draw_zimmermann() draws, as a table in Markdown."""
+    instants = zimmermann(run)
+    if instants is None:
+        raise DataError(f"{run.folder}: no supports of a known rail in history.csv and parameters.prm")
+    print("| wheel at | support | share of the contact force | Zimmermann | difference |\n|---|---|---|---|---|")
+    for at, shares in instants:
+        for n, (own, theory) in shares.items():
+            print(f"| {at:.1f} mm | {n} | {100 * own:.2f} % | {100 * theory:.2f} % | {100 * (own / theory - 1):+.1f} % |")
 
 
 def draw_speeds(runs):
@@ -394,6 +420,7 @@ def main():
     parser.add_argument("runs", metavar="RUN", nargs="+")
     parser.add_argument("--smooth-twin", metavar="TWIN", nargs="+", default=[])
     parser.add_argument("--output", help="folder of the pictures; default: pictures/ in the first run")
+    parser.add_argument("--zimmermann", action="store_true", help="print the shares of the supports beside Zimmermann's")
     parser.add_argument("--program", default=PROGRAM, help="tread itself")
     arguments = parser.parse_args()
     twins = arguments.smooth_twin
@@ -401,6 +428,10 @@ def main():
         raise DataError(f"{len(arguments.runs)} runs and {len(twins)} smooth twins: one for each or one for all")
     twins = (twins * len(arguments.runs) if len(twins) == 1 else twins) or [None] * len(arguments.runs)
     runs = [Run(folder, twin, arguments.program) for folder, twin in zip(arguments.runs, twins)]
+    if arguments.zimmermann:
+        for run in runs:
+            print_zimmermann(run)
+        return
     folder = arguments.output or os.path.join(runs[0].folder, "pictures")
     os.makedirs(folder, exist_ok=True)
     pictures = [("contact-force", draw_contact_force), ("patches", draw_patches), ("strip", draw_strip), ("cells", draw_cells),

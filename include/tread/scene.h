@@ -73,6 +73,7 @@ namespace tread
     Material    wheel_material;
     // Rail
     std::string rail_shape = "head", profile = "54E1", rail_inclination = "none", measured_head;
+    std::string rail_begins_at  = "automatic";
     double      rail_length_mm  = 0.;
     double      crown_radius_mm = 300., block_width_mm = 120., block_height_mm = 60., rail_margin_mm = 60.;
     Material    rail_material;
@@ -106,6 +107,7 @@ namespace tread
            gravity = 9.81;
     // Motion
     double       speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
+    std::string  starts_at = "automatic";
     std::string  drive = "creepage", creepage = "predicted";
     double       traction_coefficient = 0.3;
     unsigned int passages             = 1;
@@ -128,6 +130,14 @@ namespace tread
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
+
+    struct Parameter
+    {
+      std::string path, value; ///< Section/Name
+    };
+    /// All that a scene with this parameter file has, in the order of declaration; only names and ranges are
+    /// checked. @throws SceneError
+    static std::vector<Parameter> parameters_in(const std::string &file);
 
     double speed() const
     {
@@ -163,10 +173,22 @@ namespace tread
     /// Places in the rail in the reference position, m, whose cells cells.csv has. @throws SceneError
     std::vector<dealii::Point<3>> recorded_cells() const;
 
+    /// x of the wheel at the start and at the solution instant, m.
+    double path_begin() const
+    {
+      return shapes->path_begin;
+    }
+    double path_end() const
+    {
+      return shapes->path_end;
+    }
     /// Of a rail head or a full section.
     RailProfile rail_profile() const;
     /// Ends of the rail, m.
-    double rail_begin() const;
+    double rail_begin() const
+    {
+      return shapes->rail_begin;
+    }
     double rail_end() const;
     /// The top leans to the gauge side, y < 0, by this, rad.
     double inclination() const;
@@ -204,7 +226,7 @@ namespace tread
       return shapes->patch;
     }
     /// Middle of the finely meshed path: first contact, moved in whole cells towards the patch's middle, m.
-    double path_middle() const;
+    double path_y() const;
     /// Below the running surface, of a point in the reference position, m.
     double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
@@ -218,9 +240,10 @@ namespace tread
     double lateral_radius() const;
 
   private:
-    /// What follows from the files and shapes that the parameters name.
+    /// What follows from the places, files and shapes that the parameters name.
     struct Shapes
     {
+      double                                path_begin, path_end, rail_begin; ///< x, m
       RunningSurfaces                       surfaces;
       std::function<double(double, double)> rail_height;
       std::shared_ptr<const Defect>         defect;
@@ -228,6 +251,7 @@ namespace tread
       PatchExtent                           patch;
     };
 
+    void parse(const std::string &file);
     void declare();
     void declare_defect();
     void declare_track();

@@ -60,7 +60,10 @@ namespace tread
       return hub.motion.x;
     }
     std::uint64_t remaining_steps() const;
-    double        memory_of_cells_and_nodes() const; // bytes, of all ranks
+    /// Whether the wheel has passed the end of one of the intervals that the path is divided into since
+    /// checked_position; never for 0. No sums, so that a run that resumes finds the same.
+    bool   interval_ended(const double interval_mm) const;
+    double memory_of_cells_and_nodes() const; // bytes, of all ranks
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 
@@ -83,7 +86,7 @@ namespace tread
     Row          interval_force{};
     unsigned int interval_steps      = 0;
     double       interval_start_time = 0., interval_start_speed = 0.; ///< of the hub, vertical: m/s
-    double       next_history, next_surface, next_volume;
+    double       checked_position = 0.; ///< of the wheel when the ends of intervals were last looked at, m
 
     PatchAverage           average; ///< while rolling one cell about the solution instant
     std::vector<PatchNode> solution_patch;

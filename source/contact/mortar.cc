@@ -276,12 +276,32 @@ namespace tread
         slave_faces.push_back(std::move(slave));
       }
 
+    // A hanging node gives its row to its parents. What they need are all the faces around them and around
+    // the nodes that hang on them.
+    for (const auto &h : surfaces.hanging_nodes)
+      if (near_node[h.node])
+        for (const unsigned int parent : h.parents)
+          near_node[parent] = true;
+    std::vector<char> integrated = near_node;
+    for (const auto &h : surfaces.hanging_nodes)
+      for (const unsigned int parent : h.parents)
+        integrated[h.node] |= near_node[parent];
+
     // Second pass: integrate all faces around the nodes that are near.
     struct NodeSum
     {
       Row                      normal{};
       double                   area = 0., covered = 0., whole = 0.;
       std::vector<MortarEntry> entries;
+
+      void add(const NodeSum &other, const double share)
+      {
+        area += share * other.area;
+        covered += share * other.covered;
+        whole += share * other.whole;
+        for (const MortarEntry &entry : other.entries)
+          add(entry.node, share * entry.coefficient);
+      }
 
       void add(const unsigned int node, const double value)
       {
@@ -306,7 +326,7 @@ namespace tread
     for (const SlaveFace &slave : slave_faces)
       {
         const auto &n = slave.face->nodes;
-        if (std::none_of(n.begin(), n.end(), [&](const unsigned int i) { return near_node[i]; }))
+        if (std::none_of(n.begin(), n.end(), [&](const unsigned int i) { return integrated[i]; }))
           continue;
         Quadrilateral corners;
         for (unsigned int k = 0; k < 4; ++k)
@@ -393,6 +413,28 @@ namespace tread
           }
       }
 
+    for (const auto &h : surfaces.hanging_nodes)
+      if (const auto hanging = sums.find(h.node); hanging != sums.end())
+        {
+          for (const unsigned int parent : h.parents)
+            sums[parent].add(hanging->second, 0.5);
+          sums.erase(hanging);
+        }
+    std::map<unsigned int, std::array<unsigned int, 2>> parents_of;
+    for (const auto &h : surfaces.hanging_nodes)
+      parents_of[h.node] = h.parents;
+    if (!parents_of.empty())
+      for (auto &[node, sum] : sums)
+        {
+          const std::vector<MortarEntry> entries = std::move(sum.entries);
+          sum.entries.clear();
+          for (const MortarEntry &entry : entries)
+            if (const auto h = parents_of.find(entry.node); h == parents_of.end())
+              sum.add(entry.node, entry.coefficient);
+            else
+              for (const unsigned int parent : h->second)
+                sum.add(parent, 0.5 * entry.coefficient);
+        }
     for (auto &[node, sum] : sums)
       {
         if (!near_node[node] || sum.covered < 0.5 * sum.whole || sum.area < 0.25 * sum.whole)

@@ -225,27 +225,25 @@ namespace tread
   }
 
 
-  bool RunFolder::open_table(std::ofstream     &table,
+  void RunFolder::open_table(std::ofstream     &table,
                              const std::string &name,
                              const std::string &header,
                              const bool         resume,
                              const double       time) const
   {
     std::string kept = header + "\n";
-    if (std::ifstream old(path(name)); resume && old)
+    if (resume)
       {
-        std::string line;
+        std::ifstream old(path(name));
+        std::string   line;
         std::getline(old, line);
-        if (line != header)
-          return false;
         while (std::getline(old, line))
-          if (!line.empty() && std::atof(line.c_str()) <= time * (1. + 1e-12))
+          if (!line.empty() && std::atof(line.c_str()) <= time)
             kept += line + '\n';
       }
     write(name, kept);
     table.open(path(name), std::ios::app);
     table << std::setprecision(12);
-    return true;
   }
 
 
@@ -254,8 +252,9 @@ namespace tread
                                  const std::vector<int> &supports,
                                  const std::size_t       n_cells)
   {
-    std::string problem;
-    if (writes_tables && resume)
+    if (!writes_tables)
+      return;
+    if (resume)
       for (const bool surface : {false, true})
         {
           std::ifstream     collection(path(surface ? "surface.pvd" : "volume.pvd"));
@@ -263,17 +262,12 @@ namespace tread
                                  std::istreambuf_iterator<char>());
           const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
           for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
-            if (std::stod((*i)[1]) <= time * (1. + 1e-9))
+            if (std::stod((*i)[1]) <= time)
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    if (writes_tables && !open_table(history, "history.csv", history_header(supports), resume, time))
-      problem = "history.csv' has other columns: --resume needs 'Output/Supports' as before";
-    else if (writes_tables && n_cells > 0 &&
-             !open_table(cell_history, "cells.csv", cells_header(n_cells), resume, time))
-      problem = "cells.csv' has other columns: --resume needs 'Output/Cells' as before";
-    problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
-    if (!problem.empty())
-      throw std::runtime_error("'" + path(problem));
+    open_table(history, "history.csv", history_header(supports), resume, time);
+    if (n_cells > 0)
+      open_table(cell_history, "cells.csv", cells_header(n_cells), resume, time);
   }
 
 

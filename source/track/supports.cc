@@ -201,8 +201,8 @@ namespace tread
             if (h == mesh.hanging_nodes.end())
               of_node[node] += shares[k];
             else
-              for (unsigned int i = 0; i < h->parents.size(); ++i)
-                of_node[h->parents[i]] += shares[k] * h->weights[i];
+              for (const unsigned int parent : h->parents)
+                of_node[parent] += shares[k] * Mesh::HangingNode::weight;
           }
         // On an edge two faces hold a point, by the nodes of the edge alone.
         for (const auto &[node, part] : of_node)

@@ -47,7 +47,7 @@ int main()
   // Elements of a tenth of the semi-axis; the outermost centres lie inside.
   check.absolute("round crown: half the patch's width over Hertz's",
                  0.5 * (crown.patch_extent().end - crown.patch_extent().begin) / b, 0.95, 0.051);
-  check.absolute("round crown: the path's middle, mm", 1e3 * crown.path_middle(), 0., 0.);
+  check.absolute("round crown: the path's middle, mm", 1e3 * crown.path_y(), 0., 0.);
 
   for (const std::string profile : {"54E1", "60E1"})
     {
@@ -70,7 +70,7 @@ int main()
       check.absolute(name + "the other side, mm", 1e3 * (patch.end - y), 1e3 * end, 1e3 * element);
       check.that(name + "it is twice as wide to one side", patch.end - y > 2. * (y - patch.begin));
       check.below(name + "the path's middle from the patch's, cells",
-                  (scene.path_middle() - 0.5 * (patch.begin + patch.end)) / 1.3e-3, 1.);
+                  (scene.path_y() - 0.5 * (patch.begin + patch.end)) / 1.3e-3, 1.);
       auto narrow = s1002(profile, "0");
       narrow.push_back("Mesh/Fine half width (mm)=9");
       check.that(name + "cells fine on 9 mm to each side do not hold it",

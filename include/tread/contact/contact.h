@@ -105,9 +105,6 @@ namespace tread
 
     const ContactSurfaces surfaces;
 
-    /// Impulses by surface node (warm start); public for checkpoints.
-    std::vector<Row> impulse_of_node;
-
   private:
     /// Whether an impulse is below the bound of friction.
     bool adheres(const Row impulse, const double normal_impulse, const Row normal) const;
@@ -118,6 +115,8 @@ namespace tread
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Row>          &x);
+    /// Room for what each step finds, by the pairs and involved nodes of now.
+    void make_room();
 
     MPI_Comm                           comm;
     ContactParameters                  parameters;
@@ -125,14 +124,16 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
-    ContactProblem                         problem;
-    std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
-    std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-    std::vector<Row>                       position, velocity, velocity_before; ///< by compact number
-    std::vector<Row>                       nodal_impulse;             ///< of the last step, by compact number
-    std::vector<Row>                       impulse, previous_impulse; ///< by constraint
-    std::vector<double>                    gap_rate;
-    std::vector<double>                    slid;        ///< since the last refresh, m
+    std::vector<Row>                          impulse_of_node; ///< by surface node: the warm start
+    ContactProblem                            problem;
+    std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
+    std::vector<std::vector<unsigned int>>    involved_of_rank; ///< compact numbers
+    std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
+    std::vector<Row>                          position, velocity, velocity_before; ///< by compact number
+    std::vector<Row>                          nodal_impulse; ///< of the last step, by compact number
+    std::vector<Row>                          impulse, previous_impulse; ///< by constraint
+    std::vector<double>                       gap_rate;
+    std::vector<double>                       slid;     ///< since the last refresh, m
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
@@ -143,6 +144,8 @@ namespace tread
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
     std::uint64_t             unconverged_steps = 0;
+
+    friend class Checkpoint;
   };
 } // namespace tread
 

@@ -12,8 +12,8 @@ namespace tread
   /// The contact faces of all bodies, the same on every rank and numbered by position, so that
   /// what is computed from them does not depend on how the cells are distributed.
   ///
-  /// Faces with a hanging node are left out: they rim the fine zone, and contact that reaches
-  /// them is an error of the scene.
+  /// Cells may change their size along the path. Faces with a node that hangs on an edge along it are left
+  /// out: they rim the fine zone, and contact that reaches them is an error of the scene.
   class ContactSurfaces
   {
   public:
@@ -34,8 +34,16 @@ namespace tread
 
     explicit ContactSurfaces(const Mesh &mesh);
 
-    std::vector<Node> nodes;
-    std::vector<Face> faces;
+    /// Lies in the middle of its parents, two of a larger face, and follows them.
+    struct HangingNode
+    {
+      unsigned int                node;
+      std::array<unsigned int, 2> parents;
+    };
+
+    std::vector<Node>        nodes;
+    std::vector<Face>        faces;
+    std::vector<HangingNode> hanging_nodes;
 
     /// Copy the rows of the surface nodes from their owners to every rank. Collective.
     /// @param field nodal field of this rank; @param rows one a surface node.

@@ -97,8 +97,7 @@ namespace tread
     void write_strip(const std::vector<StripColumn> &columns) const;
 
     /// Begin history.csv, and cells.csv if there are cells, anew, or (when resuming) go on after the last row
-    /// not later than time. @param supports whose forces the rows have, by number. @throws std::runtime_error
-    /// if what is there has other columns. Collective.
+    /// not later than time. @param supports whose forces the rows have, by number.
     void open_histories(const bool              resume,
                         const double            time,
                         const std::vector<int> &supports,
@@ -115,8 +114,8 @@ namespace tread
     void write_surface(const std::vector<PatchNode> &elements, const double element_size);
 
   private:
-    /// On rank 0: one of the tables that grow row by row. @returns false if its columns are others.
-    bool open_table(std::ofstream     &table,
+    /// On rank 0: one of the tables that grow row by row.
+    void open_table(std::ofstream     &table,
                     const std::string &name,
                     const std::string &header,
                     const bool         resume,
