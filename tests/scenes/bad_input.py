@@ -106,7 +106,7 @@ PAIRS = [
     (["Defect/Shape=profile", "Defect/Profile file=nothing.txt"], ["Defect/Profile file", "nothing.txt", "cannot be read"]),
     (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "on the rail from -120 to 60 mm"]),
     (["Rail/Shape=block", "Rail/Inclination=1:40"], ["Rail/Inclination", "full section"]),
-    (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Mesh/Fine half width (mm)=9"],
+    (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Mesh/Fine half width (mm)=6"],
      ["Mesh/Fine half width (mm)", "must hold the patch from y = -", "at least"]),
     (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Wheel/Lateral position (mm)=2"], ["leaves", "Wheel/Lateral position (mm)"]),
     (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
