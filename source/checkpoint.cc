@@ -66,7 +66,7 @@ namespace tread
              {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
               sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
               sizeof(Passage), sizeof(ContactProblem::Constraint), sizeof(ContactProblem::Entry),
-              sizeof(RankWork)})
+              sizeof(RankWork), sizeof(StoredPeak)})
           text += "." + std::to_string(n);
         return text;
       }
@@ -104,12 +104,12 @@ namespace tread
 
   std::string Checkpoint::fingerprint(const Simulation &simulation)
   {
-    // All parameters but those of the output, of which only the columns of the history must stay.
+    // All parameters but those of the output, of which only the columns of tables that grow must stay.
     std::ostringstream text;
     simulation.scene.print(text, false);
     const std::string all = text.str();
     return all.substr(0, all.find("subsection Output")) + "set Supports = " + simulation.scene.recorded +
-           "\n";
+           "\nset Cells = " + simulation.scene.cells + "\n";
   }
 
 
@@ -273,6 +273,11 @@ namespace tread
       cells.append(reinterpret_cast<const char *>(&cell), sizeof cell);
     cells                   = folder.gather(cells);
     const std::string parts = folder.gather(own_part(d));
+    std::string       peaks;
+    if (simulation.strip)
+      for (const StoredPeak &peak : simulation.strip->stored())
+        peaks.append(reinterpret_cast<const char *>(&peak), sizeof peak);
+    peaks = folder.gather(peaks);
 
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -284,7 +289,7 @@ namespace tread
             std::string                     text = fingerprint(simulation);
             archive << text;
             state(archive, simulation);
-            archive << nodes << cells << parts;
+            archive << nodes << cells << parts << peaks;
           }
           const Header       header(content.str());
           std::ostringstream file;
@@ -356,8 +361,8 @@ namespace tread
     d.set_inertia(); // first, as it looks for the pairs in contact, which are read
     state(archive, simulation);
     simulation.contact.make_room();
-    std::string nodes, cells, parts;
-    archive >> nodes >> cells >> parts;
+    std::string nodes, cells, parts, peaks;
+    archive >> nodes >> cells >> parts >> peaks;
     restore_parts(d, parts);
 
     std::map<std::array<long long, 4>, StoredNode> by_key;
@@ -383,6 +388,11 @@ namespace tread
     missing                     = plastic.restore(histories, d.history) != plastic.n_cells() || missing;
     if (dealii::Utilities::MPI::logical_or(missing, comm))
       throw SceneError("--resume: '" + path + "' belongs to another mesh");
+    std::vector<StoredPeak> stored_peaks(peaks.size() / sizeof(StoredPeak));
+    if (!stored_peaks.empty())
+      std::memcpy(stored_peaks.data(), peaks.data(), stored_peaks.size() * sizeof(StoredPeak));
+    if (simulation.strip)
+      simulation.strip->restore(stored_peaks);
     d.set_damped_positions();
   }
 } // namespace tread

@@ -127,7 +127,7 @@ namespace tread
                         "less. A patch length is enough.",
                         Double(tiny));
       prm.add_parameter("Plastic half width (mm)", material.plastic_half_width_mm,
-                        "Cells yield from the middle to here, at both sides.", Double(tiny));
+                        "Cells yield from the middle of the path to here, at both sides.", Double(tiny));
       prm.add_parameter(
         "Plastic zones", material.plastic_zones,
         "Parts with another yield stress, such as a weld or a hardened layer: begin and end along the path "
@@ -225,7 +225,7 @@ namespace tread
       "pressure's error shrinks like its square.",
       Double(0.02, 20.));
     prm.add_parameter("Fine half width (mm)", fine_half_width_mm,
-                      "Finest cells reach from the rail's middle to here; contact must stay inside.",
+                      "Finest cells reach from the middle of the patch to here; contact must stay inside.",
                       Double(0.1, 500.));
     prm.add_parameter("Fine layers", fine_layers,
                       "Layers of finest cells under the surface; even numbers fit the octree.",
@@ -369,6 +369,17 @@ namespace tread
       "beside the path of the wheel.",
       dealii::Patterns::List(Integer(-1000, 1000), 0, 1000));
     prm.add_parameter(
+      "Cells", cells,
+      "Cells of the rail whose von Mises stress and equivalent plastic strain cells.csv has, a row for each "
+      "of history.csv: x,y,depth in mm of a point in each, depth below the running surface, separated by "
+      "semicolons, as in -20,0,1.5; -20,0,4. Empty: none.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Strip half width (mm)", strip_half_width_mm,
+      "strip.csv lists the largest von Mises stress that the rail's cells up to here at both sides of the "
+      "first contact have seen along the path, looked at in each History interval. 0: no table.",
+      Double(0.));
+    prm.add_parameter(
       "Surface interval (mm)", surface_mm,
       "Rolled distance between pictures of the contact surface; 0: the solution instant only.", Double(0.));
     prm.add_parameter("Volume interval (mm)", volume_mm,
@@ -429,6 +440,7 @@ namespace tread
     require(drive != "torque" || hold_mm < rolled_mm,
             "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " + number(rolled_mm));
 
+    check_surfaces();
     const ElasticMaterial wheel = wheel_material.si(), rail = rail_material.si();
     const auto            pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
                                                     {rail.young_modulus, rail.poisson_ratio});
@@ -438,10 +450,12 @@ namespace tread
     require(finest_mm <= 0.45 * std::min(a_mm, b_mm),
             "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
               number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.45 * std::min(a_mm, b_mm)));
-    require(fine_half_width_mm >= 1.1 * b_mm + finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              " must hold the patch of semi-axis " + number(b_mm) + " mm; at least " +
-              number(1.1 * b_mm + finest_mm));
+    const double patch_half_width_mm =
+      1e3 * std::max(patch_extent().end - path_y(), path_y() - patch_extent().begin);
+    require(fine_half_width_mm >= 1.1 * patch_half_width_mm + finest_mm,
+            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) + " must hold the patch from y = " +
+              number(1e3 * patch_extent().begin) + " to " + number(1e3 * patch_extent().end) +
+              " mm; at least " + number(1.1 * patch_half_width_mm + finest_mm));
     require(rail_margin_mm >= 3. * a_mm, "'Rail/Margin (mm)' " + number(rail_margin_mm) +
                                            " lets the wheel leave the rail; at least three semi-axes, " +
                                            number(3. * a_mm));
@@ -480,10 +494,10 @@ namespace tread
                                         " must be at least 'Mesh/Finest cell (mm)' " + number(finest_mm));
     const double rail_half_width_mm =
       rail_shape == "block" ? 0.5 * block_width_mm : 1e3 * rail_profile().shoulder_length();
-    const double beside_mm = 1e3 * std::abs(first_contact().y);
+    const double beside_mm = 1e3 * std::abs(path_y());
     require(beside_mm + fine_half_width_mm <= rail_half_width_mm - finest_mm,
             "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              (beside_mm > 0. ? " about y = " + number(1e3 * first_contact().y) + " mm" : "") +
+              (beside_mm > 0. ? " about y = " + number(1e3 * path_y()) + " mm" : "") +
               " must be below the half width of the rail; at most " +
               number(rail_half_width_mm - finest_mm - beside_mm));
     const double wheel_half_width_mm = 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm);
@@ -501,14 +515,12 @@ namespace tread
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' fully-integrated");
-    check_surfaces();
     check_plasticity("Wheel", wheel_material,
                      wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm,
-                     0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm), -sector_margin_mm,
-                     rolled_mm + sector_margin_mm);
+                     wheel_half_width_mm - beside_mm, -sector_margin_mm, rolled_mm + sector_margin_mm);
     check_plasticity("Rail", rail_material,
                      rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-                     rail_half_width_mm, 1e3 * rail_begin(), 1e3 * rail_end());
+                     rail_half_width_mm - beside_mm, 1e3 * rail_begin(), 1e3 * rail_end());
   }
 
 

@@ -30,7 +30,7 @@ namespace tread
     on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
     on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
     on_rail.cells_per_level  = scene.cells_per_level;
-    on_rail.y_middle         = scene.first_contact().y;
+    on_rail.y_middle         = scene.path_y();
     if (scene.fine_from_mm < scene.fine_to_mm && scene.path_cell_mm > scene.finest_mm)
       {
         on_rail.cubes_begin  = 1e-3 * (scene.defect_position_mm + scene.fine_from_mm);
@@ -174,14 +174,15 @@ namespace tread
         // point in the reference position.
         const auto add = [&](const double begin, const double end, const double depth, const double yield_MPa,
                              const double tangent_GPa) {
-          zones.push_back(
-            {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa),
-             [=, &scene](const dealii::Point<3> &p) {
-               const double dx = p[0] - scene.path_begin(), dz = p[2] - scene.axle_height();
-               const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
-               const double below = wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
-               return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
-             }});
+          zones.push_back({wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa),
+                           [=, &scene](const dealii::Point<3> &p) {
+                             const double dx = p[0] - scene.path_begin(), dz = p[2] - scene.axle_height();
+                             const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
+                             const double below =
+                               wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
+                             return along >= begin && along <= end && below <= depth &&
+                                    std::abs(p[1] - scene.path_y()) <= half_width;
+                           }});
         };
         const double depth = 1e-3 * material.plastic_depth_mm;
         const double begin = (wheel ? 0. : scene.path_begin()) - patch - depth,
@@ -193,6 +194,20 @@ namespace tread
               zone.tangent_modulus_GPa);
       }
     return zones;
+  }
+
+
+  StripExtent strip_extent(const Scene &scene)
+  {
+    const double patch = hertz(scene, scene.static_load()).semi_axis_x;
+    return {scene.path_begin() - patch,
+            scene.path_end() + patch,
+            scene.first_contact().y,
+            1e-3 * scene.strip_half_width_mm,
+            patch,
+            [&scene](const dealii::Point<3> &p) {
+              return scene.depth_in_rail(p);
+            }};
   }
 
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/wheel_tread.h>
+#include <tread/mesh/rail_body.h>
+#include <tread/reference/half_space.h>
+#include <tread/reference/hertz.h>
 #include <tread/scene.h>
 
 #include <deal.II/base/utilities.h>
@@ -179,6 +182,95 @@ namespace tread
       };
     made->contact = tread::first_contact(surfaces, made->path_begin);
     shapes        = made;
+    made->patch   = patch_under_load();
+  }
+
+
+  Scene::PatchExtent Scene::patch_under_load() const
+  {
+    const double y = first_contact().y, load = static_load();
+    if (load <= 0.)
+      return {y, y};
+    const ElasticMaterial         wheel = wheel_material.si(), rail = rail_material.si();
+    const reference::ElasticPair  pair   = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
+                                                              {rail.young_modulus, rail.poisson_ratio});
+    const double                  radius = rolling_radius();
+    const reference::HertzEllipse hertz =
+      reference::hertz_ellipse(0.5 / radius, 0.5 / lateral_radius(), pair.hertz_modulus(), load);
+
+    // As far to each side as the running surfaces are known, if the ellipse is not small.
+    const double       half_width = surfaces().half_width;
+    const double       most       = 4. * std::max(hertz.semi_axis_x, hertz.semi_axis_y);
+    const unsigned int n_x        = 12;
+    reference::Grid    grid;
+    grid.dx                   = 1.5 * hertz.semi_axis_x / n_x;
+    grid.dy                   = 0.1 * std::min(hertz.semi_axis_y, half_width);
+    const unsigned int n_low  = std::min(most, half_width + y) / grid.dy,
+                       n_high = std::min(most, half_width - y) / grid.dy;
+    grid.n_x                  = 2 * n_x + 1;
+    grid.n_y                  = n_low + n_high + 1;
+    grid.x_first              = -grid.dx * n_x;
+    grid.y_first              = -grid.dy * n_low;
+    reference::NormalProblem problem;
+    problem.force     = load;
+    problem.tolerance = 1e-4;
+    for (unsigned int j = 0; j < grid.n_y; ++j)
+      for (unsigned int i = 0; i < grid.n_x; ++i)
+        {
+          problem.gap.push_back(0.5 * grid.x(i) * grid.x(i) / radius + surfaces().gap(y + grid.y(j)) -
+                                surfaces().gap(y));
+          problem.initial_pressure.push_back(hertz.pressure(grid.x(i), grid.y(j)));
+          if (!std::isfinite(problem.gap.back()))
+            return {y, y}; // check() says what is wrong with the shape
+        }
+    const reference::FourierGrid    fourier(grid);
+    const reference::NormalSolution solution =
+      reference::solve_normal(fourier, reference::NormalOperator(fourier, pair), problem);
+    PatchExtent patch{y, y};
+    for (const unsigned int e : solution.contact)
+      {
+        patch.begin = std::min(patch.begin, y + grid.y(e / grid.n_x));
+        patch.end   = std::max(patch.end, y + grid.y(e / grid.n_x));
+      }
+    return patch;
+  }
+
+
+  double Scene::path_y() const
+  {
+    const double cell = 1e-3 * finest_mm, y = first_contact().y;
+    return y + cell * std::trunc((0.5 * (patch_extent().begin + patch_extent().end) - y) / cell);
+  }
+
+
+  double Scene::depth_in_rail(const dealii::Point<3> &p) const
+  {
+    const auto &height = surfaces().defect;
+    return surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
+  }
+
+
+  std::vector<dealii::Point<3>> Scene::recorded_cells() const
+  {
+    std::vector<dealii::Point<3>> points;
+    for (const std::string &text : dealii::Utilities::split_string_list(cells, ';'))
+      {
+        std::vector<double> values;
+        try
+          {
+            values = dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(text));
+          }
+        catch (const dealii::ExceptionBase &)
+          {
+            values.clear();
+          }
+        require(values.size() == 3 && values[2] > 0.,
+                "'Output/Cells' cannot be '" + text +
+                  "'; allowed: x,y,depth in mm, depth above 0, entries separated by semicolons");
+        const dealii::Point<3> at_top(1e-3 * values[0], 1e-3 * values[1], 0.);
+        points.emplace_back(at_top[0], at_top[1], depth_in_rail(at_top) - 1e-3 * values[2]);
+      }
+    return points;
   }
 
 
@@ -270,6 +362,17 @@ namespace tread
       "wheel and rail touch at y = " + number(1e3 * first_contact().y) +
         " mm, beside the running surface: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
         "'Rail/Inclination'");
+    if (rail_shape != "block")
+      {
+        const double reach_mm = 1e3 * rail_profile().head_point(RailHead().contact_half_width)[0];
+        require(1e3 * std::max(-patch_extent().begin, patch_extent().end) + finest_mm <= reach_mm,
+                "the patch under the static load, from y = " + number(1e3 * patch_extent().begin) + " to " +
+                  number(1e3 * patch_extent().end) +
+                  " mm, leaves what of the rail is meshed for contact, up to " + number(reach_mm) +
+                  " mm from the middle: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
+                  "'Rail/Inclination'");
+      }
+    recorded_cells();
     require(fine_from_mm <= fine_to_mm, "'Mesh/Fine from (mm)' must be below 'Mesh/Fine to (mm)'");
     require(fine_from_mm == fine_to_mm || (defect_position_mm + fine_from_mm < 1e3 * rail_end() &&
                                            defect_position_mm + fine_to_mm > 1e3 * rail_begin()),

@@ -74,6 +74,18 @@ namespace tread
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     dynamics.attach_hub(hub, wheel_body, omega);
     dynamics.attach_contact(contact);
+
+    if (scene.strip_half_width_mm > 0.)
+      strip = std::make_unique<StressStrip>(mesh, rail_body, strip_extent(scene));
+    if (const auto points = scene.recorded_cells(); !points.empty())
+      try
+        {
+          probes = std::make_unique<CellProbes>(mesh, rail_body, points);
+        }
+      catch (const std::out_of_range &number)
+        {
+          throw SceneError("'Output/Cells': entry " + std::string(number.what()) + " lies outside the rail");
+        }
   }
 
 
@@ -181,15 +193,22 @@ namespace tread
       target_creepage = std::stod(scene.creepage);
 
     const double began    = progress.seconds();
+    unsigned int unloaded = 0; // measurements in a row
     relaxation_iterations = dynamics.relax(
       scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
         if (interrupted())
           throw Interruption();
+        unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
+        if (unloaded > 100)
+          throw std::runtime_error(
+            "the wheel finds no rail under it at the start: it sinks past what is meshed "
+            "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
         if (progress.due())
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
     relaxation_seconds = progress.seconds() - began;
-    free_creepage      = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
+    check_rim();
+    free_creepage = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
@@ -243,9 +262,10 @@ namespace tread
     std::vector<SupportRecord> records;
     for (const int number : scene.recorded_supports())
       {
-        const unsigned int s = number - scene.first_support();
-        records.push_back({supports->force(s, Supports::pad), supports->force(s, Supports::ballast),
-                           supports->largest_pad_pressure(s), supports->rail_displacement(s),
+        const unsigned int s                  = number - scene.first_support();
+        const auto [least_pressure, pressure] = supports->pad_pressures(s);
+        records.push_back({supports->force(s, Supports::pad), supports->force(s, Supports::ballast), pressure,
+                           least_pressure, supports->rail_displacement(s),
                            supports->probe_displacement(records.size())});
       }
     return records;
@@ -264,6 +284,10 @@ namespace tread
     row.axle_box_acceleration =
       (hub.motion.velocity_z - interval_start_speed) / (dynamics.time - interval_start_time);
     row.supports = support_records();
+    if (probes)
+      row.cells = probes->record(dynamics);
+    if (strip)
+      strip->sample(dynamics, position());
     folder.append(row);
     interval_start_time  = dynamics.time;
     interval_start_speed = hub.motion.velocity_z;
@@ -396,7 +420,8 @@ namespace tread
         folder.remove_results();
       }
     // Times are written with twelve digits.
-    folder.open_history(resume, dynamics.time + 0.5 * dynamics.time_step, scene.recorded_supports());
+    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, scene.recorded_supports(),
+                          probes ? probes->centres().size() : 0);
     checked_position = position();
 
     std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
@@ -408,7 +433,7 @@ namespace tread
     // mpirun gives its ranks a second to end after Ctrl-C.
     constexpr unsigned int steps_between_checks = 100, steps_between_signals = 10;
     std::uint64_t next_check = dynamics.n_steps + steps_between_checks, next_signal = dynamics.n_steps;
-    bool          stopped = false;
+    End           end = End::complete;
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
@@ -416,6 +441,11 @@ namespace tread
         add_to_interval();
         if (!dynamics.synchronised())
           continue;
+        if (contact.contact_at_rim())
+          {
+            end = End::left_surface;
+            break;
+          }
 
         if (!solution_taken && position() >= scene.path_end())
           take_solution(folder);
@@ -453,7 +483,7 @@ namespace tread
             next_signal = dynamics.n_steps + steps_between_signals;
             if (interrupted())
               {
-                stopped = true;
+                end = End::interrupted;
                 break;
               }
           }
@@ -461,10 +491,6 @@ namespace tread
           {
             next_check = dynamics.n_steps + steps_between_checks;
             dynamics.check_stability();
-            if (contact.touches_rim())
-              throw std::runtime_error(
-                format("contact leaves the fine mesh at x = %.2f mm: raise 'Mesh/Fine half width (mm)'",
-                       1e3 * position()));
             const double now       = progress.seconds();
             const bool   write_now = dealii::Utilities::MPI::max(
                 scene.checkpoint_minutes > 0. && now - last_written > 60. * scene.checkpoint_minutes ? 1 : 0,
@@ -489,7 +515,7 @@ namespace tread
       }
     wall_seconds = seconds_before + progress.seconds();
     std::exception_ptr no_checkpoint;
-    if (stopped)
+    if (end == End::interrupted)
       try
         {
           checkpoint.write(*this);
@@ -502,41 +528,56 @@ namespace tread
       {
         if (interval_steps > 0)
           end_interval(folder);
-        if (scene.passages > 1)
+        if (scene.passages > 1 && end == End::complete)
           end_passage(folder);
       }
-    finish(folder, !stopped);
+    finish(folder, end);
+    check_rim();
     if (no_checkpoint)
       std::rethrow_exception(no_checkpoint);
-    return !stopped;
+    return end == End::complete;
   }
 
 
-  void Simulation::finish(RunFolder &folder, const bool completed)
+  void Simulation::check_rim() const
+  {
+    if (const auto place = contact.contact_at_rim())
+      throw std::runtime_error(format(
+        "contact leaves what is meshed for it at x = %.2f mm, y = %.2f mm: raise 'Mesh/Fine half width "
+        "(mm)' or change 'Wheel/Lateral position (mm)'",
+        1e3 * (*place)[0], 1e3 * (*place)[1]));
+  }
+
+
+  void Simulation::finish(RunFolder &folder, const End end)
   {
     using dealii::Utilities::MPI::max;
-    const EnergyLedger  energy   = dynamics.ledger();
-    const bool          averaged = average.n_steps() > 0;
-    const PatchMeasures instant  = measure(
-       solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
-    const PatchMeasures mean   = averaged ? average.measures() : instant;
-    const Row           force  = last_steps > 0 ? (1. / last_steps) * last_force_sum
-                                                : (1. / dynamics.time_step) * contact.total_impulse();
-    const double        normal = force[2];
+    const bool          completed = end == End::complete;
+    const EnergyLedger  energy    = dynamics.ledger();
+    const bool          averaged  = average.n_steps() > 0;
+    const PatchMeasures instant   = measure(
+        solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    const PatchMeasures mean     = averaged ? average.measures() : instant;
+    const Row           force    = last_steps > 0 ? (1. / last_steps) * last_force_sum
+                                                  : (1. / dynamics.time_step) * contact.total_impulse();
+    const double        normal   = force[2]; // 0 while the wheel is in the air
+    const double        ripple   = last_steps > 0 && normal > 0.
+                                     ? std::max(last_force_high - normal, normal - last_force_low) / normal
+                                     : 0.;
+    const double        traction = normal > 0. ? force[0] / normal : 0.;
     const double        creepage =
       hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
 
     Summary             summary;
     const ContactAnswer answer{force, creepage, mean};
     summarise(summary, scene, "explicit finite elements", answer, completed);
-    summary.set("normal_force_ripple_share",
-                last_steps > 0 ? std::max(last_force_high - normal, normal - last_force_low) / normal : 0.);
+    summary.set("normal_force_ripple_share", ripple);
     summary.set("free_rolling_creepage", free_creepage);
 
     // Kalker's answer for the forces that act; where all slips, at the creepage.
     std::string            note;
     std::vector<PatchNode> reference_patch;
-    if (completed)
+    if (completed && normal > 0.)
       try
         {
           const bool             all_slips = std::abs(force[0]) >= 0.999 * scene.friction * normal;
@@ -572,9 +613,9 @@ namespace tread
     summary.set("density_scale", scene.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
     summary.set("passages", scene.passages);
-    const double rolled = position() - scene.path_begin();
-    const double patch_lengths =
-      (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * hertz(scene, normal).semi_axis_x);
+    const double rolled        = position() - scene.path_begin();
+    const double patch_lengths = (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) /
+                                 (2. * hertz(scene, normal > 0. ? normal : scene.static_load()).semi_axis_x);
     const bool long_enough = patch_lengths >= 3.;
     summary.set("rolled_m", rolled);
     summary.set("rolled_patch_lengths", patch_lengths);
@@ -592,6 +633,31 @@ namespace tread
     summary.set("cells_and_nodes_bytes", memory_of_cells_and_nodes());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
+    if (strip)
+      {
+        const std::vector<StripColumn> columns = strip->columns(dynamics);
+        const auto                     most =
+          std::max_element(columns.begin(), columns.end(), [](const StripColumn &a, const StripColumn &b) {
+            return a.largest.stress < b.largest.stress;
+          });
+        if (most != columns.end())
+          for (const auto &[name, value] : std::vector<std::pair<const char *, double>>{
+                 {"strip_max_von_mises_Pa", most->largest.stress},
+                 {"strip_max_von_mises_x_m", most->x},
+                 {"strip_max_von_mises_y_m", most->y},
+                 {"strip_max_von_mises_depth_m", most->depth},
+                 {"strip_max_von_mises_time_s", most->largest.time}})
+            summary.set(name, value);
+        folder.write_strip(columns);
+      }
+    for (std::size_t i = 0; probes && i < probes->centres().size(); ++i)
+      {
+        const dealii::Point<3> &centre = probes->centres()[i];
+        const std::string       name   = "cell_" + std::to_string(i + 1);
+        summary.set(name + "_x_m", centre[0]);
+        summary.set(name + "_y_m", centre[1]);
+        summary.set(name + "_depth_m", scene.depth_in_rail(centre));
+      }
     folder.write("summary.json", summary.text());
     if (averaged)
       folder.write_patch("patch_averaged.csv", average.nodes());
@@ -603,20 +669,21 @@ namespace tread
         std::printf(
           "\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the "
           "work\n\n%s\n%s%s",
-          1e-3 * normal,
-          last_steps > 0 ? 100. * std::max(last_force_high - normal, normal - last_force_low) / normal : 0.,
-          force[0] / normal, energy.residual_share(), summary.table().c_str(), note.c_str(),
-          note.empty() ? "" : "\n");
+          1e-3 * normal, 100. * ripple, traction, energy.residual_share(), summary.table().c_str(),
+          note.c_str(), note.empty() ? "" : "\n");
         if (completed && !long_enough)
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes three or more\n",
                       patch_lengths, torque_released ? "torque acts" : "start");
         std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s%s\n",
-                    completed ? "finished" : "INTERRUPTED: stopped", wall_seconds, folder.path("").c_str(),
+                    completed                 ? "finished"
+                    : end == End::interrupted ? "INTERRUPTED: stopped"
+                                              : "STOPPED",
+                    wall_seconds, folder.path("").c_str(),
                     solution_taken
                       ? (scene.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
                                             : ", patch.csv; for ParaView: surface.pvd")
                       : "",
-                    completed ? "" : "; go on with --resume");
+                    end == End::interrupted ? "; go on with --resume" : "");
       }
   }
 } // namespace tread

@@ -119,9 +119,10 @@ namespace tread
     unsigned int start_iterations = 20000;
     // Output
     std::string output = "results";
-    std::string recorded;
-    double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., checkpoint_minutes = 10.;
-    bool   write_volume = true;
+    std::string recorded, cells;
+    double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., strip_half_width_mm = 3.,
+           checkpoint_minutes = 10.;
+    bool write_volume         = true;
 
     /// Read a parameter file (none: all defaults), then "Section/Name=value" settings in their order, and
     /// check that they make sense together. @throws SceneError
@@ -169,6 +170,8 @@ namespace tread
     double solid_sleeper_height() const;
     /// Numbers of the supports in history.csv: those asked for, or those beside the path of the wheel.
     std::vector<int> recorded_supports() const;
+    /// Places in the rail in the reference position, m, whose cells cells.csv has. @throws SceneError
+    std::vector<dealii::Point<3>> recorded_cells() const;
 
     /// x of the wheel at the start and at the solution instant, m.
     double path_begin() const
@@ -212,6 +215,20 @@ namespace tread
     {
       return shapes->contact;
     }
+    /// Lateral extent of the patch under the static load on the smooth rail (m), by half-space theory with
+    /// the true gap: a worn profile or S1002 may be touched far to one side of the first contact.
+    struct PatchExtent
+    {
+      double begin, end;
+    };
+    const PatchExtent &patch_extent() const
+    {
+      return shapes->patch;
+    }
+    /// Middle of the finely meshed path: first contact, moved in whole cells towards the patch's middle, m.
+    double path_y() const;
+    /// Below the running surface, of a point in the reference position, m.
+    double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
     double axle_height() const
     {
@@ -231,6 +248,7 @@ namespace tread
       std::function<double(double, double)> rail_height;
       std::shared_ptr<const Defect>         defect;
       FirstContact                          contact;
+      PatchExtent                           patch;
     };
 
     void parse(const std::string &file);
@@ -245,6 +263,7 @@ namespace tread
     /// @throws SceneError
     void                          make_shapes();
     std::shared_ptr<const Defect> make_defect() const;
+    PatchExtent                   patch_under_load() const;
     void                          check_surfaces() const;
     /// @param thickness_mm and the rest: how far the mesh of the body reaches from its surface, its middle
     /// and along the path. @throws SceneError

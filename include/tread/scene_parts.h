@@ -2,6 +2,7 @@
 #ifndef tread_scene_parts_h
 #define tread_scene_parts_h
 
+#include <tread/analysis/rail_stress.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/body.h>
@@ -24,9 +25,11 @@ namespace tread
   SolidParameters              solid_parameters(const Scene &scene);
   /// Cells under the contact path that may yield, on both bodies.
   std::vector<PlasticZone> plastic_zones(const Scene &scene);
-  WheelHubParameters       hub_parameters(const Scene &scene);
-  DynamicsParameters       dynamics_parameters(const Scene &scene);
-  ContactParameters        contact_parameters(const Scene &scene);
+  /// Cells of the rail whose largest stress is kept, down to where shear stress has passed its largest value.
+  StripExtent        strip_extent(const Scene &scene);
+  WheelHubParameters hub_parameters(const Scene &scene);
+  DynamicsParameters dynamics_parameters(const Scene &scene);
+  ContactParameters  contact_parameters(const Scene &scene);
   /// x half a spacing ahead of a support; where the rail ends before it, its end.
   double mid_span_beside(const Scene &scene, const int number);
 } // namespace tread

@@ -3,6 +3,7 @@
 #define tread_simulation_h
 
 #include <tread/analysis/contact_patch.h>
+#include <tread/analysis/rail_stress.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/mesh.h>
@@ -43,9 +44,18 @@ namespace tread
     void                       take_solution(RunFolder &folder);
     void                       end_passage(RunFolder &folder);
     void                       next_wheel(Progress &progress);
-    void                       finish(RunFolder &folder, const bool completed);
-    bool                       interrupted() const;
-    double                     position() const
+    /// How a run ends.
+    enum class End
+    {
+      complete,
+      interrupted, ///< by a signal
+      left_surface ///< contact was about to leave what is meshed for it
+    };
+    void finish(RunFolder &folder, const End end);
+    /// @throws std::runtime_error if contact is about to leave what is meshed for it.
+    void   check_rim() const;
+    bool   interrupted() const;
+    double position() const
     {
       return hub.motion.x;
     }
@@ -57,15 +67,17 @@ namespace tread
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 
-    const Scene              &scene;
-    MPI_Comm                  comm;
-    reference::RollingResult  predicted; ///< half-space answer before the run
-    Mesh                      mesh;
-    Solid                     solid;
-    WheelHub                  hub;
-    ExplicitDynamics          dynamics;
-    Contact                   contact;
-    std::unique_ptr<Supports> supports; ///< none: the rail's bottom is held
+    const Scene                 &scene;
+    MPI_Comm                     comm;
+    reference::RollingResult     predicted; ///< half-space answer before the run
+    Mesh                         mesh;
+    Solid                        solid;
+    WheelHub                     hub;
+    ExplicitDynamics             dynamics;
+    Contact                      contact;
+    std::unique_ptr<Supports>    supports; ///< none: the rail's bottom is held
+    std::unique_ptr<StressStrip> strip;    ///< none: no table
+    std::unique_ptr<CellProbes>  probes;   ///< none: no table
 
     double target_creepage = 0., free_creepage = 0., end_position;
     bool   torque_released = false, solution_taken = false;

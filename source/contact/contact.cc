@@ -445,11 +445,11 @@ namespace tread
   }
 
 
-  bool Contact::touches_rim() const
+  std::optional<Row> Contact::contact_at_rim() const
   {
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      if (surfaces.nodes[problem.constraints[j].slave].at_rim && norm(impulse[j]) > 0.)
-        return true;
-    return false;
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      if (surfaces.nodes[involved[i]].at_rim && norm(nodal_impulse[i]) > 0.)
+        return position[i];
+    return {};
   }
 } // namespace tread

@@ -120,6 +120,20 @@ namespace tread
     replicate(reference.data(), rows);
     for (unsigned int i = 0; i < n; ++i)
       nodes[i].reference = rows[i];
+
+    // Beyond an edge along the path that only one face has, nothing can be touched.
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> n_faces;
+    for (const Face &face : faces)
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
+          const Row          edge = nodes[b].reference - nodes[a].reference;
+          if (4. * edge[1] * edge[1] <= dot(edge, edge))
+            ++n_faces[std::minmax(a, b)];
+        }
+    for (const auto &[ends, count] : n_faces)
+      if (count == 1)
+        nodes[ends.first].at_rim = nodes[ends.second].at_rim = true;
   }
 
 

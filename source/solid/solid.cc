@@ -350,10 +350,16 @@ namespace tread
   }
 
 
-  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row *x, const PlasticHistory &history) const
+  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row               *x,
+                                                          const PlasticHistory    &history,
+                                                          const std::vector<char> &wanted) const
   {
     std::vector<std::array<double, 6>> stress(n_cells);
     for_batches([&](const Range &range, const auto &batch, const auto &cells) {
+      if (!wanted.empty() && std::none_of(cells.begin(), cells.end(), [&](const unsigned int c) {
+            return c != invalid_cell && wanted[c];
+          }))
+        return;
       Lanes F[3][3], E[6], S[6], P[3][3];
       if constexpr (std::is_same_v<std::decay_t<decltype(batch)>, BatchOfPoints>)
         {
@@ -394,7 +400,7 @@ namespace tread
               }
           }
     });
-    plastic_cells.cauchy_stress(x, history, stress);
+    plastic_cells.cauchy_stress(x, history, stress, wanted);
     return stress;
   }
 

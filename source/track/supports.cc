@@ -368,14 +368,20 @@ namespace tread
   }
 
 
-  double Supports::largest_pad_pressure(const unsigned int support) const
+  std::pair<double, double> Supports::pad_pressures(const unsigned int support) const
   {
-    double largest = 0.;
+    std::pair<double, double> pressures(std::numeric_limits<double>::max(),
+                                        std::numeric_limits<double>::lowest());
+    const double              points_per_area =
+      parameters.points_along * parameters.points_across / (parameters.pad_length * parameters.pad_width);
     for (unsigned int i = 0; i < springs.size(); ++i)
       if (springs[i].support == support && springs[i].layer == pad)
-        largest = std::max(largest, -spring_force[i]);
-    return largest * parameters.points_along * parameters.points_across /
-           (parameters.pad_length * parameters.pad_width);
+        {
+          const double pressure = -spring_force[i] * points_per_area;
+          pressures.first       = std::min(pressures.first, pressure);
+          pressures.second      = std::max(pressures.second, pressure);
+        }
+    return pressures;
   }
 
 

@@ -53,6 +53,8 @@ SETTINGS = [
     ("Motion/Passages=0", ["Motion/Passages", "allowed"]),
     ("Wheel/Tread profile=S1003", ["Wheel/Tread profile", "S1003", "cannot be read", "S1002"]),
     ("Wheel/Lateral position (mm)=99", ["Wheel/Lateral position (mm)", "allowed"]),
+    ("Output/Cells=-20,0", ["Output/Cells", "x,y,depth"]),
+    ("Output/Cells=-20,0,0", ["Output/Cells", "depth above 0"]),
     ("Rail/Inclination=1:30", ["Rail/Inclination", "1:40", "1:20"]),
     ("Rail/Measured head=nothing.prr", ["Rail/Measured head", "nothing.prr", "cannot be read"]),
     ("Rail/Length (mm)=100", ["Rail/Begin (mm)", "Length (mm)", "must hold the path", "from -120 to 60 mm"]),
@@ -104,6 +106,9 @@ PAIRS = [
     (["Defect/Shape=profile", "Defect/Profile file=nothing.txt"], ["Defect/Profile file", "nothing.txt", "cannot be read"]),
     (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "on the rail from -120 to 60 mm"]),
     (["Rail/Shape=block", "Rail/Inclination=1:40"], ["Rail/Inclination", "full section"]),
+    (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Mesh/Fine half width (mm)=6"],
+     ["Mesh/Fine half width (mm)", "must hold the patch from y = -", "at least"]),
+    (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Wheel/Lateral position (mm)=2"], ["leaves", "Wheel/Lateral position (mm)"]),
     (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
     (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
     (["Scene/Density scale=100", "Wheel/Young's modulus (GPa)=70"], ["Scene/Density scale", "inertia error"]),
@@ -149,6 +154,8 @@ with tempfile.TemporaryDirectory() as folder:
         must_fail(" and ".join(settings), base + [a for s in settings for a in ("-s", s)], words)
     must_fail("on 3 ranks", base + ["-s", "Motion/Drive=rocket"], ["Motion/Drive"], ranks=3)
     coarse = ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Mesh/Fine half width (mm)=9"]
+    must_fail("a cell beyond the end of the rail, on 3 ranks", base + coarse + ["-s", "Output/Cells=-20,0,1; 900,0,1"],
+              ["Output/Cells", "entry 2", "outside the rail"], ranks=3)
     must_fail("on 3 ranks, when the mesh is known", base + coarse + ["-s", "Wheel/Mass (kg)=1"], ["Wheel/Mass (kg)"], ranks=3)
 
     # Files with measured profiles.

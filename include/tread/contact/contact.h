@@ -7,6 +7,7 @@
 #include <tread/contact/mortar.h>
 
 #include <memory>
+#include <optional>
 
 namespace tread
 {
@@ -98,8 +99,9 @@ namespace tread
       return unconverged_steps;
     }
 
-    /// Whether contact has reached the rim of the finely meshed surface.
-    bool touches_rim() const;
+    /// Where a node at the rim of the surface of either body was loaded in the last step (m): beyond it
+    /// contact would be missed.
+    std::optional<Row> contact_at_rim() const;
 
     const ContactSurfaces surfaces;
 

@@ -20,7 +20,7 @@ namespace tread
     struct Node
     {
       unsigned int body;
-      bool         at_rim;    ///< belongs to a face that was left out
+      bool         at_rim;    ///< at the lateral border of the faces, or of a face that was left out
       int          owner;     ///< rank
       int          local;     ///< node number on this rank, -1 if it has no copy
       Row          reference; ///< position, m

@@ -100,8 +100,11 @@ namespace tread
       return strain_energy(x, virgin_history);
     }
 
-    /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x.
-    std::vector<std::array<double, 6>> cauchy_stress(const Row *x, const PlasticHistory &history) const;
+    /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x. @param wanted
+    /// by cell: where none of a batch is, stress is left 0; empty: all.
+    std::vector<std::array<double, 6>> cauchy_stress(const Row               *x,
+                                                     const PlasticHistory    &history,
+                                                     const std::vector<char> &wanted = {}) const;
     std::vector<std::array<double, 6>> cauchy_stress(const Row *x) const
     {
       return cauchy_stress(x, virgin_history);
