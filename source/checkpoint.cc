@@ -393,6 +393,6 @@ namespace tread
       std::memcpy(stored_peaks.data(), peaks.data(), stored_peaks.size() * sizeof(StoredPeak));
     if (simulation.strip)
       simulation.strip->restore(stored_peaks);
-    d.set_damped_positions();
+    d.prepare_step();
   }
 } // namespace tread

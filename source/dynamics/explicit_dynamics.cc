@@ -415,6 +415,51 @@ namespace tread
   }
 
 
+  inline Row ExplicitDynamics::body_load(const unsigned int i, const double factor, BodyLoads &sums) const
+  {
+    if (inertia[i] == 0.)
+      return Row{};
+    const double here  = factor * inertia[i];
+    const double owned = mesh.shared_nodes.is_owned(i) ? here : 0.;
+    Row          acceleration{};
+    if (on_wheel[i])
+      {
+        const Row arm    = x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.};
+        const Row inward = -compensation() * Row{1., 0., 1., 0.} * arm;
+        acceleration += inward;
+        sums.compensation += owned * inward;
+      }
+    if (parameters.mass_damping > 0.)
+      {
+        // Against what moves on top of the rigid motion. The hub takes the reaction.
+        const Row relative = on_wheel[i] ? v[i] - hub->velocity_at(x[i]) : v[i];
+        const Row drag     = parameters.mass_damping * relative;
+        const Row reaction = owned * drag;
+        acceleration -= drag;
+        sums.drag_power += dot(reaction, relative);
+        if (on_wheel[i])
+          {
+            const Row arm = x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.};
+            sums.drag += reaction;
+            sums.drag_moment += arm[2] * reaction[0] - arm[0] * reaction[2];
+          }
+      }
+    return here * acceleration;
+  }
+
+
+  void ExplicitDynamics::keep_loads_of_shared()
+  {
+    if (has_body_loads())
+      for (LoadOfShared &shared : loads_of_shared)
+        if (shared.level == 0)
+          {
+            shared.load        = force[shared.node];
+            force[shared.node] = Row{};
+          }
+  }
+
+
   void ExplicitDynamics::set_inertia()
   {
     slow_shares_known = false;
@@ -429,14 +474,12 @@ namespace tread
             inertia[i] = 1. / inverse_mass[i];
             weight[i]  = -std::ldexp(parameters.gravity * true_mass[i], level_of_node[i]);
           }
-        force[i] = Row{0., 0., weight[i], 0.};
       }
-    weight_of_shared.clear();
+    loads_of_shared.clear();
     for (const unsigned int i : mesh.shared_nodes.nodes())
       {
-        weight_of_shared.push_back({i, level_of_node[i], weight[i]});
-        weight[i]   = 0.;
-        force[i][2] = 0.;
+        loads_of_shared.push_back({i, level_of_node[i], weight[i], Row{}});
+        weight[i] = 0.;
       }
     if (contact)
       {
@@ -444,16 +487,25 @@ namespace tread
         contact->refresh(x.data(), v.data(), time_step);
       }
     hold_guided_nodes(v);
-    set_damped_positions();
+    prepare_step();
   }
 
 
-  void ExplicitDynamics::set_damped_positions()
+  void ExplicitDynamics::prepare_step()
   {
     const double beta = parameters.damping_steps * time_step;
     for (unsigned int i = 0; i < x.size(); ++i)
-      x_damped[i] = x[i] + beta * v[i];
+      {
+        x_damped[i] = x[i] + beta * v[i];
+        force[i]    = Row{0., 0., weight[i], 0.};
+      }
     mesh.distribute_hanging_nodes(x_damped.data());
+    next_loads = BodyLoads();
+    for (const Run &run : nodes_of_level[0])
+      if (has_body_loads(run))
+        for (unsigned int i = run.begin; i < run.end; ++i)
+          force[i] += body_load(i, 1., next_loads);
+    keep_loads_of_shared();
   }
 
 
@@ -569,86 +621,47 @@ namespace tread
     if (n_steps >= last_damping_step + steps_between_damping_samples && synchronised())
       sample_damping();
     const unsigned int due = level_due();
-    // Calls action(node, time step of its level over the smallest) for all nodes that move in this step, or
-    // those of the wheel.
-    const auto for_nodes_due = [&](const bool all, const auto &action) {
-      for (unsigned int level = 0; level <= due; ++level)
-        {
-          const double factor = std::ldexp(1., level);
-          for (const Run &run : nodes_of_level[level])
-            if (all || run.on_wheel)
-              for (unsigned int i = run.begin; i < run.end; ++i)
-                action(i, factor);
-        }
-    };
     add_forces_due(due);
     if (supports)
       supports->add_forces(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
     // Not before: the sums of nodes that are not due must stay zero.
-    for (const WeightOfShared &w : weight_of_shared)
-      if (w.level <= due)
-        force[w.node][2] += w.force;
+    for (const LoadOfShared &shared : loads_of_shared)
+      if (shared.level <= due)
+        {
+          force[shared.node] += shared.load;
+          force[shared.node][2] += shared.weight;
+        }
     times.communication += watch.lap();
 
-    // What acts on the nodes from outside. The compensation of the centrifugal force of scaled density is an
-    // acceleration: of the share of inertia that is not there.
-    const double compensation =
-      (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
-    const Row  axle    = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
-    const Row  keep_xz = {1., 0., 1., 0.};
-    Row        compensation_sum{}, damping_sum{};
-    double     damping_moment = 0., damping_power = 0.;
-    const bool loaded = !external_force.empty();
-    const bool damped = parameters.mass_damping > 0.;
+    // What acts on the nodes from outside.
+    BodyLoads  body_loads = next_loads;
+    const bool loaded     = !external_force.empty();
     if (loaded)
-      for_nodes_due(
-        true, [&](const unsigned int i, const double factor) { force[i] += factor * external_force[i]; });
-    if (compensation != 0. || damped)
-      for_nodes_due(damped, [&](const unsigned int i, const double factor) {
-        if (inertia[i] > 0.)
-          {
-            const double here  = factor * inertia[i];
-            const double owned = mesh.shared_nodes.is_owned(i) ? here : 0.;
-            Row          acceleration{};
-            if (on_wheel[i] && compensation > 0.)
-              {
-                const Row inward = -compensation * keep_xz * (x[i] - axle);
-                acceleration += inward;
-                compensation_sum += owned * inward;
-              }
-            if (damped)
-              {
-                // Against what moves on top of the rigid motion. The hub takes the reaction.
-                const Row relative = on_wheel[i] ? v[i] - hub->velocity_at(x[i]) : v[i];
-                const Row drag     = parameters.mass_damping * relative;
-                const Row reaction = owned * drag;
-                acceleration -= drag;
-                damping_power += dot(reaction, relative);
-                if (on_wheel[i])
-                  {
-                    const Row arm = x[i] - axle;
-                    damping_sum += reaction;
-                    damping_moment += arm[2] * reaction[0] - arm[0] * reaction[2];
-                  }
-              }
-            force[i] += here * acceleration;
-          }
-      });
-    totals.damping += time_step * damping_power;
+      for (unsigned int level = 0; level <= due; ++level)
+        for (const Run &run : nodes_of_level[level])
+          for (unsigned int i = run.begin; i < run.end; ++i)
+            force[i] += std::ldexp(1., level) * external_force[i];
+    if (has_body_loads())
+      for (unsigned int level = 1; level <= due; ++level)
+        for (const Run &run : nodes_of_level[level])
+          if (has_body_loads(run))
+            for (unsigned int i = run.begin; i < run.end; ++i)
+              force[i] += body_load(i, std::ldexp(1., level), body_loads);
+    totals.damping += time_step * body_loads.drag_power;
     hold_guided_nodes(force);
 
     if (hub)
       {
         add_hub_sums(rank_sums);
         for (unsigned int d = 0; d < 3; ++d)
-          rank_sums[d] += damping_sum[d];
-        rank_sums[3] += damping_moment;
+          rank_sums[d] += body_loads.drag[d];
+        rank_sums[3] += body_loads.drag_moment;
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's motion is summed here.
-        const double work = time_step * (compensation_sum[0] * hub->motion.velocity_x +
-                                         compensation_sum[2] * hub->motion.velocity_z);
+        const double work = time_step * (body_loads.compensation[0] * hub->motion.velocity_x +
+                                         body_loads.compensation[2] * hub->motion.velocity_z);
         totals.external_work += work;
         totals.gross_work += std::abs(work);
       }
@@ -682,22 +695,35 @@ namespace tread
 
     const double beta = parameters.damping_steps * time_step;
     double       work = 0., gross = 0.;
-    for_nodes_due(true, [&](const unsigned int i, const double factor) {
-      const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
-      if (loaded)
-        {
-          const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
-          if (mesh.shared_nodes.is_owned(i))
-            {
-              work += w;
-              gross += std::abs(w);
-            }
-        }
-      v[i] = velocity;
-      x[i] += factor * time_step * velocity;
-      x_damped[i] = x[i] + beta * velocity;
-      force[i]    = Row{0., 0., weight[i], 0.};
-    });
+    next_loads = BodyLoads();
+    for (unsigned int level = 0; level <= due; ++level)
+      {
+        const double factor = std::ldexp(1., level);
+        for (const Run &run : nodes_of_level[level])
+          {
+            const bool has_loads = level == 0 && has_body_loads(run);
+            for (unsigned int i = run.begin; i < run.end; ++i)
+              {
+                const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
+                if (loaded)
+                  {
+                    const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
+                    if (mesh.shared_nodes.is_owned(i))
+                      {
+                        work += w;
+                        gross += std::abs(w);
+                      }
+                  }
+                v[i] = velocity;
+                x[i] += factor * time_step * velocity;
+                x_damped[i] = x[i] + beta * velocity;
+                force[i]    = Row{0., 0., weight[i], 0.};
+                if (has_loads)
+                  force[i] += body_load(i, 1., next_loads);
+              }
+          }
+      }
+    keep_loads_of_shared();
     totals.external_work += work;
     totals.gross_work += gross;
     if (hub)

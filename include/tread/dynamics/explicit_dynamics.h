@@ -180,7 +180,7 @@ namespace tread
   private:
     /// Time step, inverse masses and all that follows from positions and velocities.
     void                set_inertia();
-    void                set_damped_positions();
+    void                prepare_step();              ///< what step() leaves behind for the next one
     std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
     double              highest_frequency(const unsigned int first_level) const;
     void                set_node_levels();
@@ -217,12 +217,6 @@ namespace tread
       std::vector<Mesh::HangingNode> placed; ///< needed at this level, and at no lower one
     };
 
-    struct WeightOfShared
-    {
-      unsigned int node, level;
-      double       force; ///< N, times 2^level
-    };
-
     /// Nodes [begin, end) of one level, all on the wheel or none.
     struct Run
     {
@@ -230,6 +224,45 @@ namespace tread
       bool         on_wheel;
     };
     using Runs = std::vector<Run>;
+
+    /// What forces on a node that has copies elsewhere do not begin with, but get after their sum.
+    struct LoadOfShared
+    {
+      unsigned int node, level;
+      double       weight; ///< N, times 2^level
+      Row          load;   ///< N, of level 0
+    };
+
+    /// Sums over this rank's own nodes of what slows them and compensates the centrifugal force of density
+    /// that is not there.
+    struct BodyLoads
+    {
+      Row    compensation{}, drag{}; ///< N
+      double drag_moment = 0.;       ///< about the axle, N m
+      double drag_power  = 0.;       ///< W
+    };
+
+    /// The load on a node now, N, times factor, added to the sums.
+    Row body_load(const unsigned int i, const double factor, BodyLoads &sums) const;
+
+    bool has_body_loads() const
+    {
+      return compensation() != 0. || parameters.mass_damping > 0.;
+    }
+    bool has_body_loads(const Run &run) const
+    {
+      return parameters.mass_damping > 0. || (run.on_wheel && compensation() != 0.);
+    }
+
+    /// Centripetal acceleration per radius that density which is only scaled needs, 1/s^2.
+    double compensation() const
+    {
+      return (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
+    }
+
+    /// Level 0 begins its next step with weight and loads; take them from shared nodes.
+    void keep_loads_of_shared();
+
 
     DynamicsParameters                  parameters;
     std::vector<Runs>                   nodes_of_level;
@@ -240,9 +273,10 @@ namespace tread
     bool                                slow_shares_known = false;
     NodalField                          force, x_damped;
     std::vector<double> true_mass, inverse_mass, inertia; ///< by node; inertia: scaled, 0 where prescribed
-    std::vector<WeightOfShared> weight_of_shared;
-    std::vector<double>         weight; ///< N, times 2^level: what forces begin with; 0 where shared
-    std::vector<char>           fixed, carried, on_wheel;
+    std::vector<LoadOfShared> loads_of_shared;
+    BodyLoads                 next_loads; ///< of level 0 in its next step
+    std::vector<double>       weight;     ///< N, times 2^level: what forces begin with; 0 where shared
+    std::vector<char>         fixed, carried, on_wheel;
     std::vector<std::pair<unsigned int, unsigned int>> guided; ///< node, direction
     std::vector<unsigned int>                          hub_nodes;
     std::vector<Row>                                   hub_reference; ///< relative to the axle
