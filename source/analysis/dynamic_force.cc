@@ -14,7 +14,7 @@ namespace tread
     template <typename... T>
     std::string format(const char *pattern, const T... values)
     {
-      char text[256];
+      char text[1024]; // with two paths
       std::snprintf(text, sizeof text, pattern, values...);
       return text;
     }

@@ -181,6 +181,9 @@ with tempfile.TemporaryDirectory() as folder:
         drive = run(program, "smooth-rolling.prm", path("drive"), base, 2)
         check.relative("driving: traction coefficient", drive["traction_coefficient"], 0.3, 0.02)
         check.below("driving: energy residual, share of the work", drive["energy_residual_share"], 1e-3)
+        # Normal forces of pairs that slid apart by up to 2 % of a face, on surfaces that turn by speed/2R, against friction.
+        check.below("driving: other work of the contact, share of the frictional work",
+                    drive["contact_loss_J"] / drive["frictional_work_J"], 2e-3)
         brake = run(program, "smooth-rolling.prm", path("brake"), base + ["Motion/Traction coefficient=-0.3"], 2)
         # Wheel and rail are not the same body, hence not exactly the opposite.
         check.relative("braking: traction coefficient", brake["traction_coefficient"], -0.3, 0.02)
