@@ -97,8 +97,12 @@ class Study:
             raise DataError(f"{path}: 'Combination' cannot be '{entries['Combination']}'; allowed: product, zip")
         combined = itertools.product(*lists) if entries["Combination"] == "product" else zip(*lists)
         self.members = [dict(zip(self.vary, values)) for values in combined]
-        if len({folder_name(member) for member in self.members}) < len(self.members):
-            raise DataError(f"{path}: two runs have the same values")
+        seen = {}
+        for member in self.members:
+            for same in (folder_name(member), tuple(map(number_or_text, member.values()))):
+                other = seen.setdefault(same, member)
+                if other is not member:
+                    raise DataError(f"{path}: two runs have the same values: {folder_name(other)} and {folder_name(member)}")
 
     @staticmethod
     def read(path):
@@ -138,6 +142,14 @@ class Study:
         if not re.fullmatch(r"[1-9]\d*", entries[name]):
             raise DataError(f"{path}: '{name}' cannot be '{entries[name]}'; allowed: 1, 2, ...")
         return int(entries[name])
+
+
+def number_or_text(value):
+    """1 and 1.0 are the same."""
+    try:
+        return float(value)
+    except ValueError:
+        return value
 
 
 def folder_name(values):
@@ -321,7 +333,9 @@ def main():
 
     members, twins = [], {}
     for values in study.members:
-        left = {name: value for name, value in values.items() if name not in study.without_defect}
+        no_defect = study.without_defect.get("Defect/Shape") == "none"
+        left = {name: value for name, value in values.items()
+                if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
         name = "smooth-twin" + ("_" + folder_name(left) if left else "")
         if study.without_defect and name not in twins:
             twins[name] = Run(study, root, name, {**study.settings, **left, **study.without_defect}, arguments)

@@ -9,6 +9,7 @@
 #include <boost/crc.hpp>
 #include <boost/serialization/binary_object.hpp>
 #include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <cstring>
 #include <fstream>
@@ -25,6 +26,12 @@ namespace tread
     {
       std::array<long long, 4> key;
       double                   x[3], v[3];
+    };
+
+    /// Work that a rank has summed for its own cells and nodes, J, and power, W.
+    struct RankWork
+    {
+      double damping = 0., external_work = 0., gross_work = 0., plastic = 0., last_damping_power = 0.;
     };
 
     template <typename Archive, typename T>
@@ -54,10 +61,12 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-4";
-        for (const std::size_t n : {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy),
-                                    sizeof(StepTimes), sizeof(WheelHub), sizeof(PatchNode),
-                                    sizeof(PatchMeasures), sizeof(CellHistory), sizeof(Passage)})
+        std::string text = "tread-checkpoint-5";
+        for (const std::size_t n :
+             {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
+              sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
+              sizeof(Passage), sizeof(ContactProblem::Constraint), sizeof(ContactProblem::Entry),
+              sizeof(RankWork), sizeof(StoredPeak)})
           text += "." + std::to_string(n);
         return text;
       }
@@ -95,11 +104,12 @@ namespace tread
 
   std::string Checkpoint::fingerprint(const Simulation &simulation)
   {
-    // All parameters but those of the output.
+    // All parameters but those of the output, of which only the columns of tables that grow must stay.
     std::ostringstream text;
     simulation.scene.print(text, false);
     const std::string all = text.str();
-    return all.substr(0, all.find("subsection Output"));
+    return all.substr(0, all.find("subsection Output")) + "set Supports = " + simulation.scene.recorded +
+           "\nset Cells = " + simulation.scene.cells + "\n";
   }
 
 
@@ -131,16 +141,28 @@ namespace tread
     bytes(archive, d.times);
     bytes(archive, s.wall_seconds);
     bytes(archive, s.hub); // plain numbers only
-    byte_vector(archive, s.contact.impulse_of_node);
+    Contact &c = s.contact;
+    byte_vector(archive, c.impulse_of_node);
+    byte_vector(archive, c.problem.constraints);
+    byte_vector(archive, c.problem.entries);
+    byte_vector(archive, c.involved);
+    byte_vector(archive, c.position);
+    byte_vector(archive, c.impulse);
+    byte_vector(archive, c.previous_impulse);
+    byte_vector(archive, c.slid);
+    archive &c.corners_around;
+    bytes(archive, c.steps_since_normals);
+    bytes(archive, c.time_since_refresh);
+    bytes(archive, c.time_to_refresh);
+    bytes(archive, c.travelled);
+    bytes(archive, c.allowed_travel);
+    bytes(archive, c.unconverged_steps);
     bytes(archive, s.target_creepage);
     bytes(archive, s.free_creepage);
     bytes(archive, s.torque_released);
     bytes(archive, s.solution_taken);
     bytes(archive, s.interval_force);
     bytes(archive, s.interval_steps);
-    bytes(archive, s.next_history);
-    bytes(archive, s.next_surface);
-    bytes(archive, s.next_volume);
     byte_vector(archive, s.solution_patch);
     byte_vector(archive, s.passages);
     bytes(archive, s.last_force_sum);
@@ -166,21 +188,72 @@ namespace tread
   }
 
 
+  std::string Checkpoint::own_part(const ExplicitDynamics &d)
+  {
+    const RankWork work{d.totals.damping, d.totals.external_work, d.totals.gross_work, d.totals.plastic,
+                        d.last_damping_power};
+    std::string    part(reinterpret_cast<const char *>(&work), sizeof work);
+    for (const auto &shares : d.slow_shares)
+      for (const ExplicitDynamics::SlowShare &share : shares)
+        part.append(reinterpret_cast<const char *>(&share.steady), sizeof share.steady);
+    const std::size_t size = part.size();
+    return std::string(reinterpret_cast<const char *>(&size), sizeof size) + part;
+  }
+
+
+  void Checkpoint::restore_parts(ExplicitDynamics &d, const std::string &parts) const
+  {
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    RankWork           sum, own;
+    const char        *own_steady = nullptr;
+    std::size_t        n_parts = 0, own_size = 0;
+    for (std::size_t i = 0, size = 0; i < parts.size(); i += size, ++n_parts)
+      {
+        std::memcpy(&size, &parts[i], sizeof size);
+        i += sizeof size;
+        RankWork work;
+        std::memcpy(&work, &parts[i], sizeof work);
+        for (double RankWork::*value : {&RankWork::damping, &RankWork::external_work, &RankWork::gross_work,
+                                        &RankWork::plastic, &RankWork::last_damping_power})
+          sum.*value += work.*value;
+        if (n_parts == rank)
+          {
+            own        = work;
+            own_steady = &parts[i] + sizeof work;
+            own_size   = size - sizeof work;
+          }
+      }
+    std::size_t n_shares = 0;
+    for (const auto &shares : d.slow_shares)
+      n_shares += shares.size();
+    const bool same_ranks = !dealii::Utilities::MPI::logical_or(
+      n_parts != dealii::Utilities::MPI::n_mpi_processes(comm) || own_size != n_shares * sizeof(Row), comm);
+    // On other ranks the steady shares of slow cells' forces begin anew, and the first has all work.
+    const RankWork work     = same_ranks ? own : rank == 0 ? sum : RankWork();
+    d.totals.damping        = work.damping;
+    d.totals.external_work  = work.external_work;
+    d.totals.gross_work     = work.gross_work;
+    d.totals.plastic        = work.plastic;
+    d.last_damping_power    = work.last_damping_power;
+    d.slow_shares_known     = same_ranks;
+    const char *next_steady = own_steady;
+    if (same_ranks)
+      for (auto &shares : d.slow_shares)
+        for (ExplicitDynamics::SlowShare &share : shares)
+          {
+            std::memcpy(&share.steady, next_steady, sizeof share.steady);
+            next_steady += sizeof share.steady;
+          }
+  }
+
+
   void Checkpoint::write(Simulation &simulation)
   {
     ExplicitDynamics &d    = simulation.dynamics;
     const Mesh       &mesh = simulation.mesh;
-    simulation.contact.refresh(d.x.data(), d.v.data(), d.time_step);
 
-    // What ranks keep apart is stored as one: sums of work, the slowest rank's times.
-    const EnergyLedger kept       = d.totals;
-    const double       kept_power = d.last_damping_power;
-    const StepTimes    kept_times = d.times;
-    d.totals.damping              = dealii::Utilities::MPI::sum(kept.damping, comm);
-    d.totals.external_work        = dealii::Utilities::MPI::sum(kept.external_work, comm);
-    d.totals.gross_work           = dealii::Utilities::MPI::sum(kept.gross_work, comm);
-    d.totals.plastic              = dealii::Utilities::MPI::sum(kept.plastic, comm);
-    d.last_damping_power          = dealii::Utilities::MPI::sum(kept_power, comm);
+    // Times are the slowest rank's.
+    const StepTimes kept_times = d.times;
     for (double StepTimes::*time : {&StepTimes::internal_forces, &StepTimes::contact, &StepTimes::search,
                                     &StepTimes::communication, &StepTimes::nodes})
       d.times.*time = dealii::Utilities::MPI::max(kept_times.*time, comm);
@@ -198,7 +271,13 @@ namespace tread
     std::string cells;
     for (const CellHistory &cell : simulation.solid.plastic().stored(d.history))
       cells.append(reinterpret_cast<const char *>(&cell), sizeof cell);
-    cells = folder.gather(cells);
+    cells                   = folder.gather(cells);
+    const std::string parts = folder.gather(own_part(d));
+    std::string       peaks;
+    if (simulation.strip)
+      for (const StoredPeak &peak : simulation.strip->stored())
+        peaks.append(reinterpret_cast<const char *>(&peak), sizeof peak);
+    peaks = folder.gather(peaks);
 
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -210,7 +289,7 @@ namespace tread
             std::string                     text = fingerprint(simulation);
             archive << text;
             state(archive, simulation);
-            archive << nodes << cells;
+            archive << nodes << cells << parts << peaks;
           }
           const Header       header(content.str());
           std::ostringstream file;
@@ -224,10 +303,8 @@ namespace tread
         {
           problem = error.what();
         }
-    d.totals             = kept;
-    d.last_damping_power = kept_power;
-    d.times              = kept_times;
-    problem              = dealii::Utilities::MPI::broadcast(comm, problem, 0);
+    d.times = kept_times;
+    problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
     if (!problem.empty())
       throw std::runtime_error(problem);
   }
@@ -281,13 +358,12 @@ namespace tread
                          "', now '" +
                          new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
       }
+    d.set_inertia(); // first, as it looks for the pairs in contact, which are read
     state(archive, simulation);
-    std::string nodes, cells;
-    archive >> nodes >> cells;
-
-    if (!reads)
-      d.totals.damping = d.totals.external_work = d.totals.gross_work = d.totals.plastic =
-        d.last_damping_power                                          = 0.;
+    simulation.contact.make_room();
+    std::string nodes, cells, parts, peaks;
+    archive >> nodes >> cells >> parts >> peaks;
+    restore_parts(d, parts);
 
     std::map<std::array<long long, 4>, StoredNode> by_key;
     for (std::size_t i = 0; i < nodes.size(); i += sizeof(StoredNode))
@@ -312,6 +388,11 @@ namespace tread
     missing                     = plastic.restore(histories, d.history) != plastic.n_cells() || missing;
     if (dealii::Utilities::MPI::logical_or(missing, comm))
       throw SceneError("--resume: '" + path + "' belongs to another mesh");
-    d.set_inertia();
+    std::vector<StoredPeak> stored_peaks(peaks.size() / sizeof(StoredPeak));
+    if (!stored_peaks.empty())
+      std::memcpy(stored_peaks.data(), peaks.data(), stored_peaks.size() * sizeof(StoredPeak));
+    if (simulation.strip)
+      simulation.strip->restore(stored_peaks);
+    d.set_damped_positions();
   }
 } // namespace tread

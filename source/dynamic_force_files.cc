@@ -80,18 +80,49 @@ namespace tread
       return history;
     }
 
+    bool same(const std::string &a, const std::string &b)
+    {
+      try
+        {
+          return a == b || dealii::Utilities::string_to_double(a) == dealii::Utilities::string_to_double(b);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          return false;
+        }
+    }
+
+    /// A twin differs from its run by the defect alone.
+    void compare_parameters(const std::string &run, const std::string &twin)
+    {
+      const std::vector<Scene::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
+                                          of_twin = Scene::parameters_in(twin + "/parameters.prm");
+      for (std::size_t i = 0; i < of_run.size(); ++i)
+        {
+          const std::string &path = of_run[i].path;
+          const bool         may_be_unlike =
+            path.compare(0, 7, "Defect/") == 0 || path.compare(0, 7, "Output/") == 0 || path == "Scene/Title";
+          if (!may_be_unlike && !same(of_run[i].value, of_twin[i].value))
+            throw SceneError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
+                             " and '" + of_twin[i].value + "' in " + twin);
+        }
+    }
+
     double millimetres(const std::string &text, const std::string &option, const double otherwise)
     {
       if (text.empty())
         return otherwise;
+      double value = std::numeric_limits<double>::quiet_NaN();
       try
         {
-          return 1e-3 * dealii::Utilities::string_to_double(text);
+          value = 1e-3 * dealii::Utilities::string_to_double(text);
         }
       catch (const dealii::ExceptionBase &)
         {
-          throw SceneError(option + " cannot be '" + text + "'; allowed: a position of the wheel in mm");
         }
+      if (!std::isfinite(value))
+        throw SceneError(option + " cannot be '" + text + "'; allowed: a position of the wheel in mm");
+      return value;
     }
 
     std::string forces_text(const DynamicForces &dynamic)
@@ -137,6 +168,7 @@ namespace tread
       json["speed_m_per_s"]         = dynamic.speed;
       json["from_m"]                = dynamic.position.front();
       json["to_m"]                  = dynamic.position.back();
+      json["interpolation"]         = "linear in time";
       json["window"]                = request.window;
       json["record_s"]              = first.record;
       json["resolution_Hz"]         = first.resolution;
@@ -168,12 +200,14 @@ namespace tread
     {
       const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
       std::printf("dynamic force of %s over %s, wheel from %.2f to %.2f mm at %.4g km/h\n"
+                  "rows interpolated linearly in time, one every %.4g us\n"
                   "spectrum: %s window, record of %.4g ms, resolution %.3g Hz, a value every %.3g Hz\n\n"
                   "%-24s %10s %10s %10s %10s   %s\n",
                   request.run.c_str(), request.smooth_twin.c_str(), 1e3 * dynamic.position.front(),
-                  1e3 * dynamic.position.back(), 3.6 * dynamic.speed, request.window.c_str(),
-                  1e3 * first.record, first.resolution, first.interval, "", "peak, kN", "at x, mm",
-                  "at t, ms", "run, kN", "vibrations: Hz (wavelength mm, logarithmic decrement)");
+                  1e3 * dynamic.position.back(), 3.6 * dynamic.speed, 1e6 * dynamic.interval,
+                  request.window.c_str(), 1e3 * first.record, first.resolution, first.interval, "",
+                  "peak, kN", "at x, mm", "at t, ms", "run, kN",
+                  "vibrations: Hz (wavelength mm, logarithmic decrement)");
       for (const DynamicForce &force : dynamic.forces)
         {
           std::printf("%-24s %10.4g %10.2f %10.4f %10.4g  ", force.column.c_str(), 1e-3 * force.peak,
@@ -194,11 +228,15 @@ namespace tread
   {
     DynamicForces dynamic;
     const double  infinity = std::numeric_limits<double>::infinity();
+    const double  from     = millimetres(request.from_mm, "--from", -infinity),
+                 to        = millimetres(request.to_mm, "--to", infinity);
+    if (from > to)
+      throw SceneError("--from " + request.from_mm + " must not be above --to " + request.to_mm);
+    const ForceHistory run = read_forces(request.run), smooth_twin = read_forces(request.smooth_twin);
+    compare_parameters(request.run, request.smooth_twin);
     try
       {
-        dynamic = dynamic_forces(read_forces(request.run), read_forces(request.smooth_twin),
-                                 window_of(request.window), millimetres(request.from_mm, "--from", -infinity),
-                                 millimetres(request.to_mm, "--to", infinity));
+        dynamic = dynamic_forces(run, smooth_twin, window_of(request.window), from, to);
       }
     catch (const std::invalid_argument &error)
       {

@@ -108,10 +108,11 @@ namespace tread
     summary.set("normal_force_N", normal);
     summary.set("longitudinal_force_N", answer.force[0]);
     summary.set("lateral_force_N", answer.force[1]);
-    summary.set("traction_coefficient", answer.force[0] / normal);
+    summary.set("traction_coefficient", normal > 0. ? answer.force[0] / normal : 0.);
     summary.set("friction_coefficient", scene.friction);
 
-    const reference::HertzEllipse ellipse = hertz(scene, normal);
+    // Beside a wheel in the air stands the patch of the static load.
+    const reference::HertzEllipse ellipse = hertz(scene, normal > 0. ? normal : scene.static_load());
     const auto with_hertz = [&](const char *name, const char *label, const double scale, const double value,
                                 const double reference) {
       summary.compare(name, label, scale, value, "Hertz", reference);

@@ -3,124 +3,26 @@
 #include <tread/reference/rolling_case.h>
 #include <tread/scene.h>
 
-#include <boost/property_tree/json_parser.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <numeric>
 #include <sstream>
 
 namespace tread
 {
   namespace
   {
-    using dealii::Patterns::Bool;
+    using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
 
     constexpr double tiny = 1e-12; // for "above 0"
 
-    /// What a deal.II exception says, on one line.
-    std::string one_line(const dealii::ExceptionBase &error)
-    {
-      std::ostringstream text;
-      error.print_info(text);
-      std::istringstream words(text.str());
-      std::string        word, line;
-      while (words >> word)
-        line += (line.empty() ? "" : " ") + word;
-      return line;
-    }
-
     std::string number(const double value)
     {
       std::ostringstream text;
       text << value;
       return text.str();
-    }
-
-    std::size_t edit_distance(const std::string &a, const std::string &b)
-    {
-      std::vector<std::size_t> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 1; i <= a.size(); ++i)
-        {
-          std::size_t diagonal = row[0]++;
-          for (std::size_t j = 1; j <= b.size(); ++j)
-            {
-              const std::size_t above = row[j];
-              row[j]                  = std::min(
-                                 {row[j - 1] + 1, above + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))});
-              diagonal = above;
-            }
-        }
-      return row.back();
-    }
-
-    struct Entry
-    {
-      std::string path, section, name, pattern;
-    };
-
-    /// All declared entries, by walking the handler's own description.
-    void list_entries(const boost::property_tree::ptree &tree,
-                      const std::string                 &section,
-                      std::vector<Entry>                &entries)
-    {
-      for (const auto &[mangled, child] : tree)
-        {
-          std::string name;
-          for (std::size_t i = 0; i < mangled.size(); ++i) // deal.II writes special characters as _hex
-            if (mangled[i] == '_' && i + 2 < mangled.size())
-              {
-                name += static_cast<char>(std::stoi(mangled.substr(i + 1, 2), nullptr, 16));
-                i += 2;
-              }
-            else
-              name += mangled[i];
-          if (child.get_optional<std::string>("value"))
-            entries.push_back({section.empty() ? name : section + "/" + name, section, name,
-                               child.get<std::string>("pattern_description", "")});
-          else if (!child.empty())
-            list_entries(child, section.empty() ? name : section + "/" + name, entries);
-        }
-    }
-
-    std::vector<Entry> all_entries(const dealii::ParameterHandler &handler)
-    {
-      std::ostringstream json;
-      handler.print_parameters(json, dealii::ParameterHandler::JSON);
-      boost::property_tree::ptree tree;
-      std::istringstream          in(json.str());
-      boost::property_tree::read_json(in, tree);
-      std::vector<Entry> entries;
-      list_entries(tree, "", entries);
-      return entries;
-    }
-
-    std::string did_you_mean(const dealii::ParameterHandler &handler, const std::string &path)
-    {
-      const std::vector<Entry> entries = all_entries(handler);
-      const auto               name_of = [](const std::string &p) {
-        return p.substr(p.rfind('/') + 1);
-      };
-      std::string best;
-      std::size_t least = std::numeric_limits<std::size_t>::max();
-      for (const Entry &entry : entries)
-        {
-          // The right name in another section is the likeliest slip.
-          const std::size_t distance =
-            std::min(edit_distance(path, entry.path), edit_distance(name_of(path), entry.name) + 1);
-          if (distance < least)
-            {
-              least = distance;
-              best  = entry.path;
-            }
-        }
-      return "did you mean '" + best + "'? (tread --print-parameters lists all)";
     }
   } // namespace
 
@@ -225,14 +127,14 @@ namespace tread
                         "less. A patch length is enough.",
                         Double(tiny));
       prm.add_parameter("Plastic half width (mm)", material.plastic_half_width_mm,
-                        "Cells yield from the middle to here, at both sides.", Double(tiny));
+                        "Cells yield from the middle of the path to here, at both sides.", Double(tiny));
       prm.add_parameter(
         "Plastic zones", material.plastic_zones,
         "Parts with another yield stress, such as a weld or a hardened layer: begin and end along the path "
         "(mm; of the wheel along the tread, from where it touches at the start), depth (mm), yield stress "
         "(MPa), tangent modulus (GPa), separated by colons, as in -30:-20:8:400:21. Several: separated by "
         "commas; where they overlap the last counts.",
-        dealii::Patterns::Anything());
+        Anything());
     };
 
     prm.enter_subsection("Wheel");
@@ -271,7 +173,7 @@ namespace tread
       "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
       "mm "
       "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
-      dealii::Patterns::Anything());
+      Anything());
     prm.add_parameter("Lateral position (mm)", lateral_position_mm,
                       "y of the running circle over the rail's middle; the flange lies at y < 0.",
                       Double(-30., 30.));
@@ -290,14 +192,18 @@ namespace tread
       "Measured head", measured_head,
       "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
       "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. Empty: a new rail.",
-      dealii::Patterns::Anything());
+      Anything());
     prm.add_parameter(
       "Inclination", rail_inclination,
       "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the same slope "
       "touches it on the middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.",
       Selection("none|1:40|1:20"));
-    prm.add_parameter("Length (mm)", rail_length_mm,
-                      "Of the whole rail, as much before the path as behind it. 0: as Margin says.",
+    prm.add_parameter(
+      "Begin (mm)", rail_begins_at,
+      "x of the rail's first end. automatic: before the path as much as behind it where Length "
+      "is given, else by Margin.",
+      Anything());
+    prm.add_parameter("Length (mm)", rail_length_mm, "Of the whole rail. 0: to Margin behind the path.",
                       Double(0., 1e5));
     prm.add_parameter("Crown radius (mm)", crown_radius_mm, "Of a block. Sets the lateral curvature.",
                       Double(10., 1e6));
@@ -319,7 +225,7 @@ namespace tread
       "pressure's error shrinks like its square.",
       Double(0.02, 20.));
     prm.add_parameter("Fine half width (mm)", fine_half_width_mm,
-                      "Finest cells reach from the rail's middle to here; contact must stay inside.",
+                      "Finest cells reach from the middle of the patch to here; contact must stay inside.",
                       Double(0.1, 500.));
     prm.add_parameter("Fine layers", fine_layers,
                       "Layers of finest cells under the surface; even numbers fit the octree.",
@@ -337,13 +243,13 @@ namespace tread
       "the path are cubes; elsewhere they are as long as 'Path cell' says. Both 0: the whole path.",
       Double(-1e5, 1e5));
     prm.add_parameter("Fine to (mm)", fine_to_mm, "See 'Fine from (mm)'.", Double(-1e5, 1e5));
-    prm.add_parameter("Path cell (mm)", path_cell_mm,
-                      "Largest length along the path of cells outside the fine zone; their cross-section "
-                      "stays as fine. Saves "
-                      "cells where the wheel only has to arrive, but the contact force ripples as it rolls "
-                      "over long cells: at "
-                      "most half a semi-axis. 0: the finest cell.",
-                      Double(0., 100.));
+    prm.add_parameter(
+      "Path cell (mm)", path_cell_mm,
+      "Largest length along the path of cells outside 'Fine from' to 'Fine to'; from twice the "
+      "finest cell on they are as many levels of the octree coarser. Saves cells and time steps "
+      "where the wheel only has to arrive, but the contact force ripples as it rolls over "
+      "large cells: at most half a semi-axis. 0: the finest cell.",
+      Double(0., 100.));
     prm.add_parameter("Longest row (mm)", longest_row_mm,
                       "Full section: largest length of the coarse cells of the rail beside the path.",
                       Double(1., 1000.));
@@ -399,10 +305,16 @@ namespace tread
     prm.add_parameter("Speed (km per h)", speed_kmh, "Of the wheel's centre, kept along x. At least 0.1.",
                       Double(0., 1000.));
     prm.add_parameter(
-      "Rolled distance (mm)", rolled_mm,
-      "From the start to the solution instant, when the wheel stands over x = 0. The tangential solution "
-      "needs three to four patch lengths to become steady.",
-      Double(tiny, 10000.));
+      "Start (mm)", starts_at,
+      "x of the wheel at the start. automatic: minus the rolled distance, so that the solution instant is at "
+      "x = 0. A number keeps the wheel, the rail with its supports and a defect in their places when the "
+      "rolled "
+      "distance is changed.",
+      Anything());
+    prm.add_parameter("Rolled distance (mm)", rolled_mm,
+                      "From the start to the solution instant. The tangential solution needs three to four "
+                      "patch lengths to become steady.",
+                      Double(tiny, 10000.));
     prm.add_parameter(
       "Drive", drive,
       "creepage: the angular velocity is kept. torque: a torque of traction coefficient x load x radius acts "
@@ -416,7 +328,7 @@ namespace tread
       "Creepage", creepage,
       "(angular velocity x radius - speed) / speed, counted from free rolling, positive when driving; "
       "or 'predicted': what half-space theory gives for the traction coefficient.",
-      dealii::Patterns::Anything());
+      Anything());
     prm.add_parameter(
       "Hold distance (mm)", hold_mm,
       "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",
@@ -457,6 +369,17 @@ namespace tread
       "beside the path of the wheel.",
       dealii::Patterns::List(Integer(-1000, 1000), 0, 1000));
     prm.add_parameter(
+      "Cells", cells,
+      "Cells of the rail whose von Mises stress and equivalent plastic strain cells.csv has, a row for each "
+      "of history.csv: x,y,depth in mm of a point in each, depth below the running surface, separated by "
+      "semicolons, as in -20,0,1.5; -20,0,4. Empty: none.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Strip half width (mm)", strip_half_width_mm,
+      "strip.csv lists the largest von Mises stress that the rail's cells up to here at both sides of the "
+      "first contact have seen along the path, looked at in each History interval. 0: no table.",
+      Double(0.));
+    prm.add_parameter(
       "Surface interval (mm)", surface_mm,
       "Rolled distance between pictures of the contact surface; 0: the solution instant only.", Double(0.));
     prm.add_parameter("Volume interval (mm)", volume_mm,
@@ -472,63 +395,6 @@ namespace tread
                       "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.",
                       Double(0.));
     prm.leave_subsection();
-  }
-
-
-  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
-  {
-    if (!file.empty() && !std::ifstream(file))
-      throw SceneError("cannot read parameter file '" + file + "'");
-    try
-      {
-        if (!file.empty())
-          handler.parse_input(file, "", false, true);
-      }
-    catch (const dealii::ParameterHandler::ExcEntryUndeclared &error)
-      {
-        throw SceneError(file + ": " + one_line(error));
-      }
-    catch (const dealii::ExceptionBase &error)
-      {
-        std::string text = one_line(error);
-        throw SceneError(text.find(file) == std::string::npos ? file + ": " + text : text);
-      }
-    for (const std::string &setting : settings)
-      set(setting);
-    folder = std::filesystem::path(file).parent_path();
-    make_shapes();
-    check();
-  }
-
-
-  void Scene::set(const std::string &setting)
-  {
-    const auto strip = [](std::string text) {
-      text.erase(0, text.find_first_not_of(" \t"));
-      text.erase(text.find_last_not_of(" \t") + 1);
-      return text;
-    };
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos)
-      throw SceneError("-s \"" + setting + "\": expected Section/Name=value");
-    const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
-    for (const Entry &entry : all_entries(handler))
-      if (entry.path == path)
-        {
-          handler.enter_subsection(entry.section);
-          try
-            {
-              handler.set(entry.name, value);
-            }
-          catch (const dealii::ExceptionBase &)
-            {
-              handler.leave_subsection();
-              throw SceneError("'" + path + "' cannot be '" + value + "'; allowed: " + entry.pattern);
-            }
-          handler.leave_subsection();
-          return;
-        }
-    throw SceneError("no parameter '" + path + "'; " + did_you_mean(handler, path));
   }
 
 
@@ -574,6 +440,7 @@ namespace tread
     require(drive != "torque" || hold_mm < rolled_mm,
             "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " + number(rolled_mm));
 
+    check_surfaces();
     const ElasticMaterial wheel = wheel_material.si(), rail = rail_material.si();
     const auto            pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
                                                     {rail.young_modulus, rail.poisson_ratio});
@@ -583,10 +450,12 @@ namespace tread
     require(finest_mm <= 0.45 * std::min(a_mm, b_mm),
             "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
               number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.45 * std::min(a_mm, b_mm)));
-    require(fine_half_width_mm >= 1.1 * b_mm + finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              " must hold the patch of semi-axis " + number(b_mm) + " mm; at least " +
-              number(1.1 * b_mm + finest_mm));
+    const double patch_half_width_mm =
+      1e3 * std::max(patch_extent().end - path_y(), path_y() - patch_extent().begin);
+    require(fine_half_width_mm >= 1.1 * patch_half_width_mm + finest_mm,
+            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) + " must hold the patch from y = " +
+              number(1e3 * patch_extent().begin) + " to " + number(1e3 * patch_extent().end) +
+              " mm; at least " + number(1.1 * patch_half_width_mm + finest_mm));
     require(rail_margin_mm >= 3. * a_mm, "'Rail/Margin (mm)' " + number(rail_margin_mm) +
                                            " lets the wheel leave the rail; at least three semi-axes, " +
                                            number(3. * a_mm));
@@ -625,10 +494,10 @@ namespace tread
                                         " must be at least 'Mesh/Finest cell (mm)' " + number(finest_mm));
     const double rail_half_width_mm =
       rail_shape == "block" ? 0.5 * block_width_mm : 1e3 * rail_profile().shoulder_length();
-    const double beside_mm = 1e3 * std::abs(first_contact().y);
+    const double beside_mm = 1e3 * std::abs(path_y());
     require(beside_mm + fine_half_width_mm <= rail_half_width_mm - finest_mm,
             "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              (beside_mm > 0. ? " about y = " + number(1e3 * first_contact().y) + " mm" : "") +
+              (beside_mm > 0. ? " about y = " + number(1e3 * path_y()) + " mm" : "") +
               " must be below the half width of the rail; at most " +
               number(rail_half_width_mm - finest_mm - beside_mm));
     const double wheel_half_width_mm = 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm);
@@ -646,14 +515,12 @@ namespace tread
     require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' fully-integrated");
-    check_surfaces();
     check_plasticity("Wheel", wheel_material,
                      wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm,
-                     0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm), -sector_margin_mm,
-                     rolled_mm + sector_margin_mm);
+                     wheel_half_width_mm - beside_mm, -sector_margin_mm, rolled_mm + sector_margin_mm);
     check_plasticity("Rail", rail_material,
                      rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-                     rail_half_width_mm, 1e3 * rail_begin(), 1e3 * rail_end());
+                     rail_half_width_mm - beside_mm, 1e3 * rail_begin(), 1e3 * rail_end());
   }
 
 
@@ -713,13 +580,5 @@ namespace tread
     };
     const double slower = std::min(rayleigh(rail_material.si()), rayleigh(wheel_material.si()));
     return density_scale * speed() * speed() / (slower * slower);
-  }
-
-
-  void Scene::print(std::ostream &out, const bool with_documentation) const
-  {
-    handler.print_parameters(
-      out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
-             dealii::ParameterHandler::KeepDeclarationOrder);
   }
 } // namespace tread

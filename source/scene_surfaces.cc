@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/wheel_tread.h>
+#include <tread/mesh/rail_body.h>
+#include <tread/reference/half_space.h>
+#include <tread/reference/hertz.h>
 #include <tread/scene.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +29,24 @@ namespace tread
         throw SceneError(line);
     }
 
+    /// A number of mm, or what takes the place of "automatic".
+    double place(const std::string &text, const double automatic, const std::string &name)
+    {
+      if (text == "automatic")
+        return automatic;
+      try
+        {
+          const double value = dealii::Utilities::string_to_double(text);
+          if (std::abs(value) <= 1e5)
+            return value;
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+        }
+      throw SceneError("'" + name + "' cannot be '" + text +
+                       "'; allowed: 'automatic' or a number from -1e5 to 1e5");
+    }
+
     /// A measured running surface is needed, and contact is looked for, up to here on each side (m).
     constexpr double running_half_width = 25e-3;
   } // namespace
@@ -40,9 +63,10 @@ namespace tread
       "none: smooth. dip: of Length, Width and Depth, a sphere's cap where length and width are equal. "
       "profile: along the path as in Profile file, across as Lateral law says.",
       Selection("none|dip|profile"));
-    prm.add_parameter("Position (mm)", defect_position_mm,
-                      "x of the leading edge; the wheel starts at minus the rolled distance and stops at 0.",
-                      Double(-1e5, 1e5));
+    prm.add_parameter(
+      "Position (mm)", defect_position_mm,
+      "x of the leading edge. Where the wheel starts and ends: 'Motion/Start' and 'Rolled distance'.",
+      Double(-1e5, 1e5));
     prm.add_parameter("Length (mm)", defect_length_mm,
                       "Along the rail. A profile is stretched to it; 0: as in the file.", Double(0., 1e4));
     prm.add_parameter("Width (mm)", defect_width_mm, "Lateral. 0: as long as it is wide, for a dip.",
@@ -80,8 +104,13 @@ namespace tread
 
   void Scene::make_shapes()
   {
-    auto made    = std::make_shared<Shapes>();
-    made->defect = make_defect();
+    auto         made      = std::make_shared<Shapes>();
+    const double start_mm  = place(starts_at, -rolled_mm, "Motion/Start (mm)");
+    const double margin_mm = rail_length_mm > 0. ? 0.5 * (rail_length_mm - rolled_mm) : rail_margin_mm;
+    made->path_begin       = 1e-3 * start_mm;
+    made->path_end         = 1e-3 * (start_mm + rolled_mm);
+    made->rail_begin       = 1e-3 * place(rail_begins_at, start_mm - margin_mm, "Rail/Begin (mm)");
+    made->defect           = make_defect();
 
     RunningSurfaces &surfaces = made->surfaces;
     surfaces.radius           = 1e-3 * radius_mm;
@@ -151,8 +180,97 @@ namespace tread
       made->rail_height = [height, defect = surfaces.defect](const double x, const double y) {
         return (height ? height(y) : 0.) + (defect ? defect(x, y) : 0.);
       };
-    made->contact = tread::first_contact(surfaces, -1e-3 * rolled_mm);
+    made->contact = tread::first_contact(surfaces, made->path_begin);
     shapes        = made;
+    made->patch   = patch_under_load();
+  }
+
+
+  Scene::PatchExtent Scene::patch_under_load() const
+  {
+    const double y = first_contact().y, load = static_load();
+    if (load <= 0.)
+      return {y, y};
+    const ElasticMaterial         wheel = wheel_material.si(), rail = rail_material.si();
+    const reference::ElasticPair  pair   = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
+                                                              {rail.young_modulus, rail.poisson_ratio});
+    const double                  radius = rolling_radius();
+    const reference::HertzEllipse hertz =
+      reference::hertz_ellipse(0.5 / radius, 0.5 / lateral_radius(), pair.hertz_modulus(), load);
+
+    // As far to each side as the running surfaces are known, if the ellipse is not small.
+    const double       half_width = surfaces().half_width;
+    const double       most       = 4. * std::max(hertz.semi_axis_x, hertz.semi_axis_y);
+    const unsigned int n_x        = 12;
+    reference::Grid    grid;
+    grid.dx                   = 1.5 * hertz.semi_axis_x / n_x;
+    grid.dy                   = 0.1 * std::min(hertz.semi_axis_y, half_width);
+    const unsigned int n_low  = std::min(most, half_width + y) / grid.dy,
+                       n_high = std::min(most, half_width - y) / grid.dy;
+    grid.n_x                  = 2 * n_x + 1;
+    grid.n_y                  = n_low + n_high + 1;
+    grid.x_first              = -grid.dx * n_x;
+    grid.y_first              = -grid.dy * n_low;
+    reference::NormalProblem problem;
+    problem.force     = load;
+    problem.tolerance = 1e-4;
+    for (unsigned int j = 0; j < grid.n_y; ++j)
+      for (unsigned int i = 0; i < grid.n_x; ++i)
+        {
+          problem.gap.push_back(0.5 * grid.x(i) * grid.x(i) / radius + surfaces().gap(y + grid.y(j)) -
+                                surfaces().gap(y));
+          problem.initial_pressure.push_back(hertz.pressure(grid.x(i), grid.y(j)));
+          if (!std::isfinite(problem.gap.back()))
+            return {y, y}; // check() says what is wrong with the shape
+        }
+    const reference::FourierGrid    fourier(grid);
+    const reference::NormalSolution solution =
+      reference::solve_normal(fourier, reference::NormalOperator(fourier, pair), problem);
+    PatchExtent patch{y, y};
+    for (const unsigned int e : solution.contact)
+      {
+        patch.begin = std::min(patch.begin, y + grid.y(e / grid.n_x));
+        patch.end   = std::max(patch.end, y + grid.y(e / grid.n_x));
+      }
+    return patch;
+  }
+
+
+  double Scene::path_y() const
+  {
+    const double cell = 1e-3 * finest_mm, y = first_contact().y;
+    return y + cell * std::trunc((0.5 * (patch_extent().begin + patch_extent().end) - y) / cell);
+  }
+
+
+  double Scene::depth_in_rail(const dealii::Point<3> &p) const
+  {
+    const auto &height = surfaces().defect;
+    return surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
+  }
+
+
+  std::vector<dealii::Point<3>> Scene::recorded_cells() const
+  {
+    std::vector<dealii::Point<3>> points;
+    for (const std::string &text : dealii::Utilities::split_string_list(cells, ';'))
+      {
+        std::vector<double> values;
+        try
+          {
+            values = dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(text));
+          }
+        catch (const dealii::ExceptionBase &)
+          {
+            values.clear();
+          }
+        require(values.size() == 3 && values[2] > 0.,
+                "'Output/Cells' cannot be '" + text +
+                  "'; allowed: x,y,depth in mm, depth above 0, entries separated by semicolons");
+        const dealii::Point<3> at_top(1e-3 * values[0], 1e-3 * values[1], 0.);
+        points.emplace_back(at_top[0], at_top[1], depth_in_rail(at_top) - 1e-3 * values[2]);
+      }
+    return points;
   }
 
 
@@ -165,6 +283,9 @@ namespace tread
       {
         require(defect_length_mm > 0. && defect_depth_mm > 0.,
                 "a dip needs 'Defect/Length (mm)' and 'Defect/Depth (mm)' above 0");
+        require(!defect_reversed,
+                "'Defect/Reversed' is for 'Defect/Shape' profile; a dip is rolled over from its other "
+                "end with its rounded edges exchanged");
         defect->width             = 1e-3 * (defect_width_mm > 0. ? defect_width_mm : defect_length_mm);
         defect->leading_rounding  = 1e-3 * leading_rounding_mm;
         defect->trailing_rounding = 1e-3 * trailing_rounding_mm;
@@ -203,10 +324,13 @@ namespace tread
   {
     require(rail_shape != "block" || (rail_inclination == "none" && measured_head.empty()),
             "'Rail/Inclination' and 'Rail/Measured head' are for 'Rail/Shape' head or full section");
-    require(rail_length_mm == 0. || rail_length_mm >= rolled_mm + 2. * rail_margin_mm,
-            "'Rail/Length (mm)' " + number(rail_length_mm) +
-              " must hold 'Motion/Rolled distance (mm)' and 'Rail/Margin (mm)' at both ends, " +
-              number(rolled_mm + 2. * rail_margin_mm));
+    const double from_mm = 1e3 * path_begin() - rail_margin_mm, to_mm = 1e3 * path_end() + rail_margin_mm,
+                 round_off_mm = 1e-6;
+    require(1e3 * rail_begin() <= from_mm + round_off_mm && 1e3 * rail_end() >= to_mm - round_off_mm,
+            "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + number(1e3 * rail_begin()) + " to " +
+              number(1e3 * rail_end()) +
+              " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " + number(from_mm) +
+              " to " + number(to_mm) + " mm");
 
     if (defect())
       {
@@ -215,6 +339,13 @@ namespace tread
                 "the defect, from 'Defect/Position (mm)' " + number(defect_position_mm) + " to " +
                   number(end_mm) + " mm, lies outside the rail, which is from " + number(1e3 * rail_begin()) +
                   " to " + number(1e3 * rail_end()) + " mm");
+        const std::string of_width = defect_width_mm > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
+        for (const auto &[name, size] :
+             std::vector<std::pair<std::string, double>>{{"'Defect/Length (mm)'", defect()->length},
+                                                         {of_width, defect()->width}})
+          require(1e3 * size >= finest_mm,
+                  name + " " + number(1e3 * size) +
+                    " is lost between the nodes; at least 'Mesh/Finest cell (mm)', " + number(finest_mm));
         const double head_mm = rail_shape == "block"
                                  ? 0.5 * block_width_mm
                                  : 1e3 * rail_profile().head_point(rail_profile().shoulder_length())[0];
@@ -231,12 +362,26 @@ namespace tread
       "wheel and rail touch at y = " + number(1e3 * first_contact().y) +
         " mm, beside the running surface: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
         "'Rail/Inclination'");
+    if (rail_shape != "block")
+      {
+        const double reach_mm = 1e3 * rail_profile().head_point(RailHead().contact_half_width)[0];
+        require(1e3 * std::max(-patch_extent().begin, patch_extent().end) + finest_mm <= reach_mm,
+                "the patch under the static load, from y = " + number(1e3 * patch_extent().begin) + " to " +
+                  number(1e3 * patch_extent().end) +
+                  " mm, leaves what of the rail is meshed for contact, up to " + number(reach_mm) +
+                  " mm from the middle: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
+                  "'Rail/Inclination'");
+      }
+    recorded_cells();
     require(fine_from_mm <= fine_to_mm, "'Mesh/Fine from (mm)' must be below 'Mesh/Fine to (mm)'");
-    require(fine_from_mm == fine_to_mm ||
-              (defect_position_mm + fine_from_mm < 0. && defect_position_mm + fine_to_mm > -rolled_mm),
+    require(fine_from_mm == fine_to_mm || (defect_position_mm + fine_from_mm < 1e3 * rail_end() &&
+                                           defect_position_mm + fine_to_mm > 1e3 * rail_begin()),
             "'Mesh/Fine from (mm)' to 'Fine to (mm)', from the defect's leading edge at " +
-              number(defect_position_mm) + " mm, must lie on the path from " + number(-rolled_mm) +
-              " to 0 mm at least in part");
+              number(defect_position_mm) + " mm, must lie on the rail from " + number(1e3 * rail_begin()) +
+              " to " + number(1e3 * rail_end()) + " mm at least in part");
+    require(path_cell_mm == 0. || path_cell_mm >= finest_mm, "'Mesh/Path cell (mm)' " + number(path_cell_mm) +
+                                                               " must be at least 'Mesh/Finest cell (mm)' " +
+                                                               number(finest_mm) + ", or 0 for the same");
     require(path_cell_mm <= finest_mm || fine_from_mm < fine_to_mm,
             "'Mesh/Path cell (mm)' needs 'Mesh/Fine from (mm)' and 'Fine to (mm)'");
   }
@@ -248,16 +393,9 @@ namespace tread
   }
 
 
-  double Scene::rail_begin() const
-  {
-    const double margin_mm = rail_length_mm > 0. ? 0.5 * (rail_length_mm - rolled_mm) : rail_margin_mm;
-    return -1e-3 * (rolled_mm + margin_mm);
-  }
-
-
   double Scene::rail_end() const
   {
-    return -rail_begin() - 1e-3 * rolled_mm;
+    return rail_length_mm > 0. ? rail_begin() + 1e-3 * rail_length_mm : path_end() + 1e-3 * rail_margin_mm;
   }
 
 

@@ -46,8 +46,7 @@ namespace tread
                       "spacing beyond its last supports.",
                       Double(0.05, 10.));
     prm.add_parameter("Support 0 (mm)", support_0_mm,
-                      "x of the support with number 0; the wheel stands over x = 0 at the solution instant. "
-                      "Numbers grow in rolling direction.",
+                      "x of the support with number 0. Numbers grow in rolling direction.",
                       Double(-20000., 20000.));
     prm.add_parameter("Pad stiffness (MN per m)", pad_stiffness_MN_m, "Of a whole support, vertical.",
                       Double(tiny));
@@ -63,8 +62,8 @@ namespace tread
                       "sleeper). 1: the slope of the rail is free.",
                       Integer(1, 50));
     prm.add_parameter("Points across", points_across,
-                      "The same across the rail. 1: nothing keeps the rail from rolling over, so only for "
-                      "scenes symmetric to y = 0.",
+                      "The same across the rail. 1: nothing keeps the rail from tipping over, so only for "
+                      "upright rails that are loaded on y = 0 and whose crown radius exceeds their height.",
                       Integer(1, 50));
     prm.add_parameter("Sleeper mass (kg)", sleeper_mass,
                       "What one rail's support carries: half a sleeper. Sets the height of a solid one.",
@@ -109,17 +108,34 @@ namespace tread
                              : 2e3 * rail_profile().outline_point(rail_profile().corners().foot_edge)[0];
     require(pad_width_mm <= base_mm, "'Track/Pad width (mm)' " + text_of(pad_width_mm) +
                                        " exceeds the flat width of the rail's base, " + text_of(base_mm));
+    // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
+    // its foot.
+    const double height_mm = rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().height();
+    require(points_across > 1 ||
+              (inclination() == 0. && measured_head.empty() && std::abs(first_contact().y) < 1e-6 &&
+               (!defect() || defect_lateral_mm == 0.) && 1e3 * lateral_radius() > height_mm),
+            "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
+            "('Rail/Inclination' none), wheel and defect meet it on y = 0, and its crown radius exceeds its "
+            "height, " +
+              text_of(height_mm) + " mm");
     const std::vector<double> positions = support_positions();
     const double              begin_mm = 1e3 * rail_begin(), end_mm = 1e3 * rail_end();
     require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " leaves " +
                                      std::to_string(positions.size()) + " supports on the rail of " +
                                      text_of(end_mm - begin_mm) + " mm; at least 2 are needed");
-    for (const double overhang : {1e3 * positions.front() - begin_mm, end_mm - 1e3 * positions.back()})
-      require(overhang >= 0.5 * pad_length_mm - 1e-6 && overhang <= 500. * sleeper_spacing_m + 1e-6,
-              "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " does not fit the rail from " +
-                text_of(begin_mm) + " to " + text_of(end_mm) + " mm: it ends " + text_of(overhang) +
-                " mm beyond a support; from half a pad, " + text_of(0.5 * pad_length_mm) +
-                ", to half a spacing, " + text_of(500. * sleeper_spacing_m) + ", is allowed");
+    constexpr double round_off_mm   = 1e-6;
+    const auto       check_overhang = [&](const double overhang_mm, const std::string &begins,
+                                    const std::string &support) {
+      require(overhang_mm >= 0.5 * pad_length_mm - round_off_mm &&
+                      overhang_mm <= 500. * sleeper_spacing_m + round_off_mm,
+                    "'Track/Sleeper spacing (m)' " + text_of(sleeper_spacing_m) + " does not fit the rail from " +
+                      text_of(begin_mm) + " to " + text_of(end_mm) + " mm: it " + begins + " " +
+                      text_of(overhang_mm < round_off_mm ? 0. : overhang_mm) + " mm " + support +
+                      "; from half a pad, " + text_of(0.5 * pad_length_mm) + ", to half a spacing, " +
+                      text_of(500. * sleeper_spacing_m) + ", is allowed");
+    };
+    check_overhang(1e3 * positions.front() - begin_mm, "begins", "before its first support");
+    check_overhang(end_mm - 1e3 * positions.back(), "ends", "behind its last support");
     if (has_solid_sleepers())
       {
         require(pad_length_mm <= sleeper_width_mm && sleeper_width_mm < 1e3 * sleeper_spacing_m,
@@ -167,9 +183,10 @@ namespace tread
       {
         const double spacing_mm = 1e3 * sleeper_spacing_m;
         const int    size       = support_positions().size();
-        const int    first =
-                    std::max<int>(first_support(), std::floor((-rolled_mm - support_0_mm) / spacing_mm)),
-                  last = std::min<int>(first_support() + size - 1, std::ceil(-support_0_mm / spacing_mm));
+        const int    first      = std::max<int>(first_support(),
+                                        std::floor((1e3 * path_begin() - support_0_mm) / spacing_mm)),
+                  last          = std::min<int>(first_support() + size - 1,
+                                       std::ceil((1e3 * path_end() - support_0_mm) / spacing_mm));
         for (int i = first; i <= last; ++i)
           numbers.push_back(i);
       }

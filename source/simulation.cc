@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
-#include <tread/mesh/rail_body.h>
-#include <tread/mesh/sleeper_body.h>
-#include <tread/mesh/wheel_body.h>
-#include <tread/mesh/whole_rail.h>
 #include <tread/output/checkpoint.h>
 #include <tread/output/summary.h>
 #include <tread/references.h>
+#include <tread/scene_parts.h>
 #include <tread/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -41,220 +40,6 @@ namespace tread
       std::snprintf(text, sizeof text, pattern, values...);
       return text;
     }
-
-    /// Between foot and sleeper in pictures; the pads' springs have no length.
-    constexpr double pad_thickness = 0.01;
-
-    std::vector<Body> make_bodies(const Scene &scene)
-    {
-      const double rolled = 1e-3 * scene.rolled_mm;
-      const double patch  = 1.4 * hertz(scene, scene.static_load()).semi_axis_x + 2e-3 * scene.finest_mm;
-
-      FineZone on_rail;
-      on_rail.finest_cell_size = 1e-3 * scene.finest_mm;
-      on_rail.x_begin          = -rolled - patch;
-      on_rail.x_end            = patch;
-      on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
-      on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
-      on_rail.cells_per_level  = scene.cells_per_level;
-      on_rail.y_middle         = scene.first_contact().y;
-      if (scene.fine_from_mm < scene.fine_to_mm && scene.path_cell_mm > scene.finest_mm)
-        {
-          on_rail.cubes_begin  = 1e-3 * (scene.defect_position_mm + scene.fine_from_mm);
-          on_rail.cubes_end    = 1e-3 * (scene.defect_position_mm + scene.fine_to_mm);
-          on_rail.path_stretch = scene.path_cell_mm / scene.finest_mm;
-        }
-      FineZone on_wheel = on_rail;
-      on_wheel.cubes_begin += rolled;
-      on_wheel.cubes_end += rolled;
-      on_wheel.x_begin = -patch;
-      on_wheel.x_end   = rolled + patch;
-
-      std::vector<Body> bodies;
-      const RailTop     top{scene.rail_height(), scene.inclination()};
-      if (scene.rail_shape == "block")
-        {
-          RailBlock block;
-          block.x_begin            = scene.rail_begin();
-          block.x_end              = scene.rail_end();
-          block.top                = top;
-          block.width              = 1e-3 * scene.block_width_mm;
-          block.height             = 1e-3 * scene.block_height_mm;
-          block.crown_radius       = 1e-3 * scene.crown_radius_mm;
-          block.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
-          bodies.push_back(make_rail_block(block, on_rail));
-        }
-      else if (scene.rail_shape == "full section")
-        {
-          WholeRail rail;
-          rail.x_begin            = scene.rail_begin();
-          rail.x_end              = scene.rail_end();
-          rail.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
-          rail.longest_row        = 1e-3 * scene.longest_row_mm;
-          rail.top                = top;
-          bodies.push_back(make_whole_rail(scene.rail_profile(), rail, on_rail));
-        }
-      else
-        {
-          RailHead head;
-          head.x_begin            = scene.rail_begin();
-          head.x_end              = scene.rail_end();
-          head.top                = top;
-          head.coarsest_cell_size = 1e-3 * std::min(scene.coarsest_mm, 12.5);
-          bodies.push_back(make_rail_head(scene.rail_profile(), head, on_rail));
-        }
-      bodies.back().name = "rail";
-      if (scene.wheel_shape == "sector")
-        {
-          WheelSector sector;
-          sector.center_x           = -rolled;
-          sector.lift               = scene.first_contact().lift;
-          sector.tread_offset       = scene.surfaces().tread_offset;
-          sector.radius             = 1e-3 * scene.radius_mm;
-          sector.thickness          = 1e-3 * scene.sector_thickness_mm;
-          sector.width              = 1e-3 * scene.sector_width_mm;
-          sector.arc_begin          = -1e-3 * scene.sector_margin_mm;
-          sector.arc_end            = rolled + 1e-3 * scene.sector_margin_mm;
-          sector.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
-          bodies.push_back(make_wheel_sector(sector, on_wheel));
-        }
-      else
-        {
-          FullWheel wheel;
-          wheel.center_x           = -rolled;
-          wheel.lift               = scene.first_contact().lift;
-          wheel.tread_offset       = scene.surfaces().tread_offset;
-          wheel.radius             = 1e-3 * scene.radius_mm;
-          wheel.rim_inner_radius   = 1e-3 * scene.rim_inner_radius_mm;
-          wheel.rim_width          = 1e-3 * scene.rim_width_mm;
-          wheel.web_thickness      = 1e-3 * scene.web_thickness_mm;
-          wheel.hub_outer_radius   = 1e-3 * scene.hub_outer_radius_mm;
-          wheel.hub_length         = 1e-3 * scene.hub_length_mm;
-          wheel.bore_radius        = 1e-3 * scene.bore_radius_mm;
-          wheel.coarsest_cell_size = 1e-3 * scene.coarsest_mm;
-          bodies.push_back(make_full_wheel(wheel, on_wheel));
-        }
-      bodies.back().name = "wheel";
-      if (scene.has_solid_sleepers())
-        for (const double x : scene.support_positions())
-          {
-            SleeperBox box;
-            box.x                  = x;
-            box.width              = 1e-3 * scene.sleeper_width_mm;
-            box.y_begin            = -0.5e-3 * scene.rail_distance_mm;
-            box.y_end              = box.y_begin + 0.5 * scene.sleeper_length_m;
-            box.top                = scene.base_middle()[2] - pad_thickness;
-            box.height             = scene.solid_sleeper_height();
-            box.coarsest_cell_size = std::min(box.height / 3., 0.06);
-            bodies.push_back(make_sleeper(box));
-          }
-      return bodies;
-    }
-
-    std::vector<ElasticMaterial> materials(const Scene &scene)
-    {
-      std::vector<ElasticMaterial> list{scene.rail_material.si(), scene.wheel_material.si()};
-      if (scene.has_solid_sleepers())
-        list.insert(
-          list.end(), scene.support_positions().size(),
-          {1e9 * scene.sleeper_young_modulus_GPa, scene.sleeper_poisson_ratio, scene.sleeper_density});
-      return list;
-    }
-
-    std::vector<SolidSleeper> solid_sleepers(const Scene &scene)
-    {
-      std::vector<SolidSleeper> list;
-      const double              middle = -0.5e-3 * scene.rail_distance_mm;
-      if (scene.has_solid_sleepers())
-        for (unsigned int i = 0; i < scene.support_positions().size(); ++i)
-          list.push_back(
-            {2 + i, middle, middle + 0.5 * scene.sleeper_length_m, 1e-3 * scene.sleeper_width_mm});
-      return list;
-    }
-
-    SolidParameters solid_parameters(const Scene &scene)
-    {
-      SolidParameters p;
-      p.element_type = scene.element == "one-point" ? ElementType::one_point : ElementType::fully_integrated;
-      p.hourglass_coefficient    = scene.hourglass_coefficient;
-      p.linear_bulk_viscosity    = scene.linear_bulk_viscosity;
-      p.quadratic_bulk_viscosity = scene.quadratic_bulk_viscosity;
-      p.density_scale            = scene.density_scale;
-      p.max_level                = scene.time_levels - 1;
-      return p;
-    }
-
-    /// Cells under the contact path that may yield, on both bodies.
-    std::vector<PlasticZone> plastic_zones(const Scene &scene)
-    {
-      std::vector<PlasticZone> zones;
-      const double             rolled = 1e-3 * scene.rolled_mm, radius = 1e-3 * scene.radius_mm;
-      const double             patch = 1.4 * hertz(scene, scene.static_load()).semi_axis_x;
-      for (const bool wheel : {false, true})
-        {
-          const Scene::Material &material   = wheel ? scene.wheel_material : scene.rail_material;
-          const double           half_width = 1e-3 * material.plastic_half_width_mm;
-          // Distance along the path and below the surface; of the wheel along its tread, from the lowest
-          // point in the reference position.
-          const auto add = [&](const double begin, const double end, const double depth,
-                               const double yield_MPa, const double tangent_GPa) {
-            zones.push_back(
-              {wheel ? 1u : 0u, material.plastic(yield_MPa, tangent_GPa),
-               [=, &scene](const dealii::Point<3> &p) {
-                 const double dx = p[0] + rolled, dz = p[2] - scene.axle_height();
-                 const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
-                 const double below = wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
-                 return along >= begin && along <= end && below <= depth && std::abs(p[1]) <= half_width;
-               }});
-          };
-          const double depth = 1e-3 * material.plastic_depth_mm;
-          const double begin = -(wheel ? 0. : rolled) - patch - depth,
-                       end   = (wheel ? rolled : 0.) + patch + depth;
-          if (material.yield_stress_MPa > 0.)
-            add(begin, end, depth, material.yield_stress_MPa, material.tangent_modulus_GPa);
-          for (const Scene::Material::Zone &zone : material.zones())
-            add(1e-3 * zone.begin_mm, 1e-3 * zone.end_mm, 1e-3 * zone.depth_mm, zone.yield_stress_MPa,
-                zone.tangent_modulus_GPa);
-        }
-      return zones;
-    }
-
-    WheelHubParameters hub_parameters(const Scene &scene)
-    {
-      WheelHubParameters p;
-      p.mass                 = scene.wheel_mass;
-      p.moment_of_inertia    = scene.wheel_inertia;
-      p.sprung_mass          = scene.sprung_mass;
-      p.suspension_stiffness = 1e3 * scene.suspension_stiffness_kN_m;
-      p.suspension_damping   = scene.suspension_damping;
-      p.gravity              = scene.gravity;
-      return p;
-    }
-
-    DynamicsParameters dynamics_parameters(const Scene &scene)
-    {
-      DynamicsParameters p;
-      p.courant_number = scene.courant_number;
-      p.damping_steps  = scene.damping_steps;
-      p.mass_damping   = scene.mass_damping;
-      p.density_scale  = scene.density_scale;
-      p.gravity        = scene.gravity;
-      return p;
-    }
-
-    /// x half a spacing ahead of a support; where the rail ends before it, its end.
-    double mid_span_beside(const Scene &scene, const int number)
-    {
-      return std::min(1e-3 * scene.support_0_mm + (number + 0.5) * scene.sleeper_spacing_m, scene.rail_end());
-    }
-
-    ContactParameters contact_parameters(const Scene &scene)
-    {
-      ContactParameters p;
-      p.solver.tolerance  = scene.contact_tolerance;
-      p.solver.max_sweeps = scene.max_sweeps;
-      return p;
-    }
   } // namespace
 
 
@@ -266,13 +51,10 @@ namespace tread
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
-    , end_position(0.5e-3 * scene.finest_mm)
-    , next_history(-1e-3 * (scene.rolled_mm - scene.history_mm))
-    , next_surface(scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300)
-    , next_volume(scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300)
+    , end_position(scene.path_end() + 0.5e-3 * scene.finest_mm)
   {
     const double omega = scene.speed() / scene.rolling_radius();
-    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
+    hub.place(scene.path_begin(), scene.axle_height());
     hub.motion.angular_velocity = omega;
     if (scene.has_supports())
       {
@@ -292,6 +74,18 @@ namespace tread
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     dynamics.attach_hub(hub, wheel_body, omega);
     dynamics.attach_contact(contact);
+
+    if (scene.strip_half_width_mm > 0.)
+      strip = std::make_unique<StressStrip>(mesh, rail_body, strip_extent(scene));
+    if (const auto points = scene.recorded_cells(); !points.empty())
+      try
+        {
+          probes = std::make_unique<CellProbes>(mesh, rail_body, points);
+        }
+      catch (const std::out_of_range &number)
+        {
+          throw SceneError("'Output/Cells': entry " + std::string(number.what()) + " lies outside the rail");
+        }
   }
 
 
@@ -302,6 +96,15 @@ namespace tread
     const std::uint64_t together = std::uint64_t(1) << dynamics.max_level();
     return together * static_cast<std::uint64_t>(
                         std::ceil((end_position - position()) / (scene.speed() * step * together)));
+  }
+
+
+  bool Simulation::interval_ended(const double interval_mm) const
+  {
+    const auto number = [&](const double x) {
+      return std::floor((x - scene.path_begin()) / (1e-3 * interval_mm));
+    };
+    return interval_mm > 0. && number(position()) > number(checked_position);
   }
 
 
@@ -329,9 +132,18 @@ namespace tread
     unsigned int n     = 0;
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
       solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data());
-    const double seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
-    const double memory = memory_of_cells_and_nodes(), relaxation_steps = 2000.,
-                 gain = dynamics.ideal_gain_of_levels();
+    const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
+    const double           memory = memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
+    constexpr unsigned int n_choices = 4; // of levels
+    std::array<double, n_choices> gains;
+    for (unsigned int level = 0; level < n_choices; ++level)
+      gains[level] = dynamics.ideal_gain_of_levels(level);
+    // Of the whole run over that of the internal forces, of which the start takes some.
+    constexpr double all_over_forces = 1.7, relaxation_steps = 2000.;
+    const auto       time = [&](const double density_scale, const double gain_of_levels) {
+      return all_over_forces * seconds *
+             (steps * std::sqrt(scene.density_scale / density_scale) / gain_of_levels + relaxation_steps);
+    };
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
@@ -346,8 +158,24 @@ namespace tread
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.density_scale);
         std::printf(
-          "estimated time       %12.0f s on %u rank(s), about 1.7 times that of the internal forces\n",
-          1.7 * seconds * (steps / gain + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
+          "estimated time       %12.0f s on %u rank(s), about %.1f times that of the internal forces\n",
+          time(scene.density_scale, gain), dealii::Utilities::MPI::n_mpi_processes(comm), all_over_forces);
+        std::printf("with 'Levels'        %12s", "");
+        for (unsigned int levels = 1; levels <= n_choices; ++levels)
+          std::printf("%9u", levels);
+        std::printf("   inertia error\n");
+        std::vector<double> scales{scene.density_scale};
+        if (scene.quasi_static)
+          scales.insert(scales.end(), {1., 4., 9., 25.});
+        std::sort(scales.begin(), scales.end());
+        scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
+        for (const double scale : scales)
+          {
+            std::printf("'Density scale' %4g: s            ", scale);
+            for (const double gain_of_levels : gains)
+              std::printf("%9.0f", time(scale, gain_of_levels));
+            std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.density_scale);
+          }
       }
   }
 
@@ -365,15 +193,22 @@ namespace tread
       target_creepage = std::stod(scene.creepage);
 
     const double began    = progress.seconds();
+    unsigned int unloaded = 0; // measurements in a row
     relaxation_iterations = dynamics.relax(
       scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
         if (interrupted())
           throw Interruption();
+        unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
+        if (unloaded > 100)
+          throw std::runtime_error(
+            "the wheel finds no rail under it at the start: it sinks past what is meshed "
+            "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
         if (progress.due())
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
     relaxation_seconds = progress.seconds() - began;
-    free_creepage      = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
+    check_rim();
+    free_creepage = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
@@ -395,7 +230,7 @@ namespace tread
   void Simulation::set_drive()
   {
     if (scene.drive == "torque" && !torque_released &&
-        position() >= -1e-3 * (scene.rolled_mm - scene.hold_mm))
+        position() >= scene.path_begin() + 1e-3 * scene.hold_mm)
       {
         hub.drive        = Drive::torque;
         hub.drive_torque = scene.traction_coefficient * scene.static_load() *
@@ -410,14 +245,14 @@ namespace tread
     const Row force = (1. / dynamics.time_step) * contact.total_impulse();
     interval_force += force;
     ++interval_steps;
-    if (position() <= 0. && position() >= -10e-3)
+    if (position() <= scene.path_end() && position() >= scene.path_end() - 10e-3)
       {
         last_force_sum += force;
         last_force_low  = std::min(last_force_low, force[2]);
         last_force_high = std::max(last_force_high, force[2]);
         ++last_steps;
       }
-    if (std::abs(position()) <= end_position)
+    if (std::abs(position() - scene.path_end()) <= 0.5e-3 * scene.finest_mm)
       average.add(contact.active_nodes(), position(), dynamics.time_step);
   }
 
@@ -427,9 +262,10 @@ namespace tread
     std::vector<SupportRecord> records;
     for (const int number : scene.recorded_supports())
       {
-        const unsigned int s = number - scene.first_support();
-        records.push_back({supports->force(s, Supports::pad), supports->force(s, Supports::ballast),
-                           supports->largest_pad_pressure(s), supports->rail_displacement(s),
+        const unsigned int s                  = number - scene.first_support();
+        const auto [least_pressure, pressure] = supports->pad_pressures(s);
+        records.push_back({supports->force(s, Supports::pad), supports->force(s, Supports::ballast), pressure,
+                           least_pressure, supports->rail_displacement(s),
                            supports->probe_displacement(records.size())});
       }
     return records;
@@ -448,6 +284,10 @@ namespace tread
     row.axle_box_acceleration =
       (hub.motion.velocity_z - interval_start_speed) / (dynamics.time - interval_start_time);
     row.supports = support_records();
+    if (probes)
+      row.cells = probes->record(dynamics);
+    if (strip)
+      strip->sample(dynamics, position());
     folder.append(row);
     interval_start_time  = dynamics.time;
     interval_start_speed = hub.motion.velocity_z;
@@ -473,7 +313,7 @@ namespace tread
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
-    const double middle = -0.5e-3 * scene.rolled_mm, half_length = 5e-3, on_line = 1e-6;
+    const double middle = 0.5 * (scene.path_begin() + scene.path_end()), half_length = 5e-3, on_line = 1e-6;
     double       settled = 0., shifted = 0., n_nodes = 0., strain = 0., residual = 0.;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (const dealii::Point<3> &p = mesh.nodes[i];
@@ -515,18 +355,16 @@ namespace tread
         dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     solid.plastic().forget(wheel_body, dynamics.history);
     hub.motion = WheelHub::Motion();
-    hub.place(-1e-3 * scene.rolled_mm, scene.axle_height());
+    hub.place(scene.path_begin(), scene.axle_height());
     hub.motion.angular_velocity = scene.speed() / scene.rolling_radius();
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
-    next_history                     = -1e-3 * (scene.rolled_mm - scene.history_mm);
-    next_surface    = scene.surface_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.surface_mm) : 1e300;
-    next_volume     = scene.volume_mm > 0. ? -1e-3 * (scene.rolled_mm - scene.volume_mm) : 1e300;
-    average         = PatchAverage();
-    last_force_sum  = Row{};
-    last_force_low  = 1e300;
-    last_force_high = -1e300;
-    last_steps      = 0;
+    checked_position                 = position();
+    average                          = PatchAverage();
+    last_force_sum                   = Row{};
+    last_force_low                   = 1e300;
+    last_force_high                  = -1e300;
+    last_steps                       = 0;
     prepare_start(progress);
   }
 
@@ -560,24 +398,14 @@ namespace tread
     if (scene.density_scale > 1.)
       progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%",
                           scene.density_scale, 100. * scene.inertia_error_estimate()));
-    if (const double gain = dynamics.ideal_gain_of_levels(); gain > 1.)
+    const double gain = dynamics.ideal_gain_of_levels(), updates_of_step = mesh.n_global_cells / gain;
+    if (gain > 1.)
       progress.say(
         format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));
 
     if (resume)
-      {
-        // The intervals may have been changed since.
-        const auto next = [&](const double start, const double interval_mm) {
-          const double interval = 1e-3 * interval_mm;
-          return interval > 0. ? start + interval * (std::floor((position() - start) / interval) + 1.)
-                               : 1e300;
-        };
-        next_history = next(-1e-3 * scene.rolled_mm, scene.history_mm);
-        next_surface = next(-1e-3 * scene.rolled_mm, scene.surface_mm);
-        next_volume  = next(-1e-3 * scene.rolled_mm, scene.volume_mm);
-        progress.say(
-          format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
-      }
+      progress.say(
+        format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
     else
       {
         try
@@ -591,7 +419,10 @@ namespace tread
           }
         folder.remove_results();
       }
-    folder.open_history(resume, dynamics.time, scene.recorded_supports());
+    // Times are written with twelve digits.
+    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, scene.recorded_supports(),
+                          probes ? probes->centres().size() : 0);
+    checked_position = position();
 
     std::uint64_t       n_steps    = dynamics.n_steps + remaining_steps();
     const std::uint64_t first_step = dynamics.n_steps;
@@ -602,7 +433,7 @@ namespace tread
     // mpirun gives its ranks a second to end after Ctrl-C.
     constexpr unsigned int steps_between_checks = 100, steps_between_signals = 10;
     std::uint64_t next_check = dynamics.n_steps + steps_between_checks, next_signal = dynamics.n_steps;
-    bool          stopped = false;
+    End           end = End::complete;
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
@@ -610,24 +441,21 @@ namespace tread
         add_to_interval();
         if (!dynamics.synchronised())
           continue;
+        if (contact.contact_at_rim())
+          {
+            end = End::left_surface;
+            break;
+          }
 
-        if (!solution_taken && position() >= 0.)
+        if (!solution_taken && position() >= scene.path_end())
           take_solution(folder);
-        if (position() >= next_history)
-          {
-            end_interval(folder);
-            next_history += 1e-3 * scene.history_mm;
-          }
-        if (position() >= next_surface)
-          {
-            folder.write_surface(dynamics, contact, rail_body);
-            next_surface += 1e-3 * scene.surface_mm;
-          }
-        if (scene.write_volume && position() >= next_volume)
-          {
-            folder.write_volume(dynamics, hub, wheel_body);
-            next_volume += 1e-3 * scene.volume_mm;
-          }
+        if (interval_ended(scene.history_mm))
+          end_interval(folder);
+        if (interval_ended(scene.surface_mm))
+          folder.write_surface(dynamics, contact, rail_body);
+        if (scene.write_volume && interval_ended(scene.volume_mm))
+          folder.write_volume(dynamics, hub, wheel_body);
+        checked_position = position();
 
         // Before any checkpoint, so that none is made of a wheel at its end.
         if (dynamics.n_steps == n_steps && passages.size() + 1 < scene.passages)
@@ -655,7 +483,7 @@ namespace tread
             next_signal = dynamics.n_steps + steps_between_signals;
             if (interrupted())
               {
-                stopped = true;
+                end = End::interrupted;
                 break;
               }
           }
@@ -663,10 +491,6 @@ namespace tread
           {
             next_check = dynamics.n_steps + steps_between_checks;
             dynamics.check_stability();
-            if (contact.touches_rim())
-              throw std::runtime_error(
-                format("contact leaves the fine mesh at x = %.2f mm: raise 'Mesh/Fine half width (mm)'",
-                       1e3 * position()));
             const double now       = progress.seconds();
             const bool   write_now = dealii::Utilities::MPI::max(
                 scene.checkpoint_minutes > 0. && now - last_written > 60. * scene.checkpoint_minutes ? 1 : 0,
@@ -681,16 +505,17 @@ namespace tread
               {
                 const Row    force = (1. / dynamics.time_step) * contact.total_impulse();
                 const double spent = now - loop_began, done = dynamics.n_steps - first_step;
-                progress.show(format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left",
-                                     1e3 * position(), 1e-3 * force[2], force[0] / force[2],
-                                     1e9 * spent / done / mesh.cells.size(),
-                                     spent / done * (n_steps - dynamics.n_steps)));
+                progress.show(
+                  format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left",
+                         1e3 * position(), 1e-3 * force[2], force[0] / force[2],
+                         1e9 * spent / done / updates_of_step * dealii::Utilities::MPI::n_mpi_processes(comm),
+                         spent / done * (n_steps - dynamics.n_steps)));
               }
           }
       }
     wall_seconds = seconds_before + progress.seconds();
     std::exception_ptr no_checkpoint;
-    if (stopped)
+    if (end == End::interrupted)
       try
         {
           checkpoint.write(*this);
@@ -703,42 +528,56 @@ namespace tread
       {
         if (interval_steps > 0)
           end_interval(folder);
-        if (scene.passages > 1)
+        if (scene.passages > 1 && end == End::complete)
           end_passage(folder);
       }
-    finish(folder, !stopped);
+    finish(folder, end);
+    check_rim();
     if (no_checkpoint)
       std::rethrow_exception(no_checkpoint);
-    return !stopped;
+    return end == End::complete;
   }
 
 
-  void Simulation::finish(RunFolder &folder, const bool completed)
+  void Simulation::check_rim() const
+  {
+    if (const auto place = contact.contact_at_rim())
+      throw std::runtime_error(format(
+        "contact leaves what is meshed for it at x = %.2f mm, y = %.2f mm: raise 'Mesh/Fine half width "
+        "(mm)' or change 'Wheel/Lateral position (mm)'",
+        1e3 * (*place)[0], 1e3 * (*place)[1]));
+  }
+
+
+  void Simulation::finish(RunFolder &folder, const End end)
   {
     using dealii::Utilities::MPI::max;
-    const EnergyLedger  energy   = dynamics.ledger();
-    const bool          averaged = average.n_steps() > 0;
-    const PatchMeasures instant  = measure(
-       solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
-    const PatchMeasures mean   = averaged ? average.measures() : instant;
-    const Row           force  = last_steps > 0 ? (1. / last_steps) * last_force_sum
-                                                : (1. / dynamics.time_step) * contact.total_impulse();
-    const double        normal = force[2];
+    const bool          completed = end == End::complete;
+    const EnergyLedger  energy    = dynamics.ledger();
+    const bool          averaged  = average.n_steps() > 0;
+    const PatchMeasures instant   = measure(
+        solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    const PatchMeasures mean     = averaged ? average.measures() : instant;
+    const Row           force    = last_steps > 0 ? (1. / last_steps) * last_force_sum
+                                                  : (1. / dynamics.time_step) * contact.total_impulse();
+    const double        normal   = force[2]; // 0 while the wheel is in the air
+    const double        ripple   = last_steps > 0 && normal > 0.
+                                     ? std::max(last_force_high - normal, normal - last_force_low) / normal
+                                     : 0.;
+    const double        traction = normal > 0. ? force[0] / normal : 0.;
     const double        creepage =
       hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
-    const double steps = std::max<double>(1., dynamics.n_steps);
 
     Summary             summary;
     const ContactAnswer answer{force, creepage, mean};
     summarise(summary, scene, "explicit finite elements", answer, completed);
-    summary.set("normal_force_ripple_share",
-                last_steps > 0 ? std::max(last_force_high - normal, normal - last_force_low) / normal : 0.);
+    summary.set("normal_force_ripple_share", ripple);
     summary.set("free_rolling_creepage", free_creepage);
 
     // Kalker's answer for the forces that act; where all slips, at the creepage.
     std::string            note;
     std::vector<PatchNode> reference_patch;
-    if (completed)
+    if (completed && normal > 0.)
       try
         {
           const bool             all_slips = std::abs(force[0]) >= 0.999 * scene.friction * normal;
@@ -774,9 +613,9 @@ namespace tread
     summary.set("density_scale", scene.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
     summary.set("passages", scene.passages);
-    const double rolled = position() + 1e-3 * scene.rolled_mm;
-    const double patch_lengths =
-      (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * hertz(scene, normal).semi_axis_x);
+    const double rolled        = position() - scene.path_begin();
+    const double patch_lengths = (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) /
+                                 (2. * hertz(scene, normal > 0. ? normal : scene.static_load()).semi_axis_x);
     const bool long_enough = patch_lengths >= 3.;
     summary.set("rolled_m", rolled);
     summary.set("rolled_patch_lengths", patch_lengths);
@@ -788,11 +627,37 @@ namespace tread
     summary.set("wall_s_contact", max(times.contact + times.search, comm));
     summary.set("wall_s_communication", max(times.communication, comm));
     summary.set("wall_s_nodes", max(times.nodes, comm));
-    summary.set("element_updates_per_s",
-                mesh.n_global_cells * steps / std::max(1e-9, max(times.internal_forces, comm)));
+    const double updates = mesh.n_global_cells / dynamics.ideal_gain_of_levels() * dynamics.n_steps;
+    summary.set("element_updates", updates);
+    summary.set("element_updates_per_s", updates / std::max(1e-9, max(times.internal_forces, comm)));
     summary.set("cells_and_nodes_bytes", memory_of_cells_and_nodes());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
+    if (strip)
+      {
+        const std::vector<StripColumn> columns = strip->columns(dynamics);
+        const auto                     most =
+          std::max_element(columns.begin(), columns.end(), [](const StripColumn &a, const StripColumn &b) {
+            return a.largest.stress < b.largest.stress;
+          });
+        if (most != columns.end())
+          for (const auto &[name, value] : std::vector<std::pair<const char *, double>>{
+                 {"strip_max_von_mises_Pa", most->largest.stress},
+                 {"strip_max_von_mises_x_m", most->x},
+                 {"strip_max_von_mises_y_m", most->y},
+                 {"strip_max_von_mises_depth_m", most->depth},
+                 {"strip_max_von_mises_time_s", most->largest.time}})
+            summary.set(name, value);
+        folder.write_strip(columns);
+      }
+    for (std::size_t i = 0; probes && i < probes->centres().size(); ++i)
+      {
+        const dealii::Point<3> &centre = probes->centres()[i];
+        const std::string       name   = "cell_" + std::to_string(i + 1);
+        summary.set(name + "_x_m", centre[0]);
+        summary.set(name + "_y_m", centre[1]);
+        summary.set(name + "_depth_m", scene.depth_in_rail(centre));
+      }
     folder.write("summary.json", summary.text());
     if (averaged)
       folder.write_patch("patch_averaged.csv", average.nodes());
@@ -804,20 +669,21 @@ namespace tread
         std::printf(
           "\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the "
           "work\n\n%s\n%s%s",
-          1e-3 * normal,
-          last_steps > 0 ? 100. * std::max(last_force_high - normal, normal - last_force_low) / normal : 0.,
-          force[0] / normal, energy.residual_share(), summary.table().c_str(), note.c_str(),
-          note.empty() ? "" : "\n");
+          1e-3 * normal, 100. * ripple, traction, energy.residual_share(), summary.table().c_str(),
+          note.c_str(), note.empty() ? "" : "\n");
         if (completed && !long_enough)
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes three or more\n",
                       patch_lengths, torque_released ? "torque acts" : "start");
         std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s%s\n",
-                    completed ? "finished" : "INTERRUPTED: stopped", wall_seconds, folder.path("").c_str(),
+                    completed                 ? "finished"
+                    : end == End::interrupted ? "INTERRUPTED: stopped"
+                                              : "STOPPED",
+                    wall_seconds, folder.path("").c_str(),
                     solution_taken
                       ? (scene.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
                                             : ", patch.csv; for ParaView: surface.pvd")
                       : "",
-                    completed ? "" : "; go on with --resume");
+                    end == End::interrupted ? "; go on with --resume" : "");
       }
   }
 } // namespace tread

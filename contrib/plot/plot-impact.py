@@ -9,7 +9,9 @@ thesis.
 Written to RUN/pictures (the first run's), each where its data is there:
   contact-force.png   normal force beside the static load and the twin, distances of its peaks; largest pressure, patch area
   patches.png         contact pressure at instants around the largest force (needs 'Output/Surface interval (mm)')
-  strip.png           residual von Mises stress and plastic strain along the rail (needs 'Output/Table depth (mm)')
+  strip.png           largest von Mises stress that the cells under the path have seen, its depth, plastic strain
+  cells.png           von Mises stress and plastic strain of the chosen cells (needs 'Output/Cells')
+  residual.png        residual von Mises stress and plastic strain along the rail (needs 'Output/Table depth (mm)')
   dynamic-force.png   dynamic force of contact and the most loaded support, and their spectra
   supports.png        dynamic forces of pads and ballast at the supports, and their spectra
   distribution.png    forces of all pads and ballast supports at the instants of the largest, run beside twin
@@ -190,6 +192,46 @@ def draw_patches(run):
 
 
 def draw_strip(run):
+    path = os.path.join(run.folder, "strip.csv")
+    if not os.path.exists(path):
+        return None
+    strip = read_table(path, ("x_mm", "von_mises_MPa", "depth_mm", "surface_von_mises_MPa", "equivalent_plastic_strain_percent"))
+    if len(strip["x_mm"]) < 2:
+        return None
+    yields = strip["equivalent_plastic_strain_percent"].max() > 0
+    figure, axes = plt.subplots(2 + yields, 1, figsize=(8, 5.5 + 2 * yields), sharex=True, height_ratios=(2, 1, 1)[:2 + yields])
+    axes[0].plot(strip["x_mm"], strip["von_mises_MPa"], color=RED, label="at any depth")
+    axes[0].plot(strip["x_mm"], strip["surface_von_mises_MPa"], color=BLUE, label="in the cells at the surface")
+    axes[0].set(ylabel="largest von Mises [MPa]", title="largest stress that the cells under the path have seen")
+    axes[0].legend()
+    axes[1].plot(strip["x_mm"], strip["depth_mm"], color=RED)
+    axes[1].invert_yaxis()
+    axes[1].set_ylabel("its depth [mm]")
+    if yields:
+        axes[2].plot(strip["x_mm"], strip["equivalent_plastic_strain_percent"], color=BLUE)
+        axes[2].set_ylabel("plastic strain [%]")
+    axes[-1].set_xlabel("position on the rail [mm]")
+    return figure
+
+
+def draw_cells(run):
+    path = os.path.join(run.folder, "cells.csv")
+    if not os.path.exists(path):
+        return None
+    table = read_table(path, ("time_s", "position_m", "cell_1_von_mises_Pa"))
+    figure, axes = plt.subplots(2, 1, figsize=(8, 5.5), sharex=True)
+    numbers = sorted(int(match[1]) for match in (re.fullmatch(r"cell_(\d+)_von_mises_Pa", name) for name in table) if match)
+    for i, number in enumerate(numbers):
+        for axis, column, factor in ((axes[0], "von_mises_Pa", 1e-6), (axes[1], "equivalent_plastic_strain", 1e2)):
+            axis.plot(1e3 * table["position_m"], factor * table[f"cell_{number}_{column}"], color=COLOURS[i % len(COLOURS)],
+                      label=f"cell {number}")
+    axes[0].set_ylabel("von Mises [MPa]")
+    axes[0].legend()
+    axes[1].set(ylabel="plastic strain [%]", xlabel="position of the wheel [mm]")
+    return figure
+
+
+def draw_residual(run):
     path = os.path.join(run.folder, "rail_cells.csv")
     if not os.path.exists(path):
         return None
@@ -392,8 +434,8 @@ def main():
         return
     folder = arguments.output or os.path.join(runs[0].folder, "pictures")
     os.makedirs(folder, exist_ok=True)
-    pictures = [("contact-force", draw_contact_force), ("patches", draw_patches), ("strip", draw_strip),
-                ("dynamic-force", draw_dynamic_force), ("supports", draw_supports), ("distribution", draw_distribution),
+    pictures = [("contact-force", draw_contact_force), ("patches", draw_patches), ("strip", draw_strip), ("cells", draw_cells),
+                ("residual", draw_residual), ("dynamic-force", draw_dynamic_force), ("supports", draw_supports), ("distribution", draw_distribution),
                 ("zimmermann", draw_zimmermann)]
     drawn = [(name, draw(runs[0])) for name, draw in pictures] + [("speeds", draw_speeds(runs))]
     for name, figure in drawn:

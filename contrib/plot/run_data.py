@@ -5,8 +5,13 @@ import csv
 import gzip
 import json
 import os
+import sys
 
-import numpy as np
+try:
+    import numpy as np
+except ModuleNotFoundError:
+    sys.exit(f"{os.path.basename(sys.argv[0])}: {sys.executable} has no numpy; /usr/bin/python3 has it "
+             "(contrib/install-debian.sh)")
 
 
 class DataError(Exception):

@@ -73,6 +73,7 @@ namespace tread
     Material    wheel_material;
     // Rail
     std::string rail_shape = "head", profile = "54E1", rail_inclination = "none", measured_head;
+    std::string rail_begins_at  = "automatic";
     double      rail_length_mm  = 0.;
     double      crown_radius_mm = 300., block_width_mm = 120., block_height_mm = 60., rail_margin_mm = 60.;
     Material    rail_material;
@@ -106,6 +107,7 @@ namespace tread
            gravity = 9.81;
     // Motion
     double       speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
+    std::string  starts_at = "automatic";
     std::string  drive = "creepage", creepage = "predicted";
     double       traction_coefficient = 0.3;
     unsigned int passages             = 1;
@@ -117,9 +119,10 @@ namespace tread
     unsigned int start_iterations = 20000;
     // Output
     std::string output = "results";
-    std::string recorded;
-    double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., checkpoint_minutes = 10.;
-    bool   write_volume = true;
+    std::string recorded, cells;
+    double history_mm = 0.25, surface_mm = 0., volume_mm = 0., table_depth_mm = 0., strip_half_width_mm = 3.,
+           checkpoint_minutes = 10.;
+    bool write_volume         = true;
 
     /// Read a parameter file (none: all defaults), then "Section/Name=value" settings in their order, and
     /// check that they make sense together. @throws SceneError
@@ -127,6 +130,14 @@ namespace tread
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
+
+    struct Parameter
+    {
+      std::string path, value; ///< Section/Name
+    };
+    /// All that a scene with this parameter file has, in the order of declaration; only names and ranges are
+    /// checked. @throws SceneError
+    static std::vector<Parameter> parameters_in(const std::string &file);
 
     double speed() const
     {
@@ -159,11 +170,25 @@ namespace tread
     double solid_sleeper_height() const;
     /// Numbers of the supports in history.csv: those asked for, or those beside the path of the wheel.
     std::vector<int> recorded_supports() const;
+    /// Places in the rail in the reference position, m, whose cells cells.csv has. @throws SceneError
+    std::vector<dealii::Point<3>> recorded_cells() const;
 
+    /// x of the wheel at the start and at the solution instant, m.
+    double path_begin() const
+    {
+      return shapes->path_begin;
+    }
+    double path_end() const
+    {
+      return shapes->path_end;
+    }
     /// Of a rail head or a full section.
     RailProfile rail_profile() const;
     /// Ends of the rail, m.
-    double rail_begin() const;
+    double rail_begin() const
+    {
+      return shapes->rail_begin;
+    }
     double rail_end() const;
     /// The top leans to the gauge side, y < 0, by this, rad.
     double inclination() const;
@@ -190,6 +215,20 @@ namespace tread
     {
       return shapes->contact;
     }
+    /// Lateral extent of the patch under the static load on the smooth rail (m), by half-space theory with
+    /// the true gap: a worn profile or S1002 may be touched far to one side of the first contact.
+    struct PatchExtent
+    {
+      double begin, end;
+    };
+    const PatchExtent &patch_extent() const
+    {
+      return shapes->patch;
+    }
+    /// Middle of the finely meshed path: first contact, moved in whole cells towards the patch's middle, m.
+    double path_y() const;
+    /// Below the running surface, of a point in the reference position, m.
+    double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
     double axle_height() const
     {
@@ -201,15 +240,18 @@ namespace tread
     double lateral_radius() const;
 
   private:
-    /// What follows from the files and shapes that the parameters name.
+    /// What follows from the places, files and shapes that the parameters name.
     struct Shapes
     {
+      double                                path_begin, path_end, rail_begin; ///< x, m
       RunningSurfaces                       surfaces;
       std::function<double(double, double)> rail_height;
       std::shared_ptr<const Defect>         defect;
       FirstContact                          contact;
+      PatchExtent                           patch;
     };
 
+    void parse(const std::string &file);
     void declare();
     void declare_defect();
     void declare_track();
@@ -221,6 +263,7 @@ namespace tread
     /// @throws SceneError
     void                          make_shapes();
     std::shared_ptr<const Defect> make_defect() const;
+    PatchExtent                   patch_under_load() const;
     void                          check_surfaces() const;
     /// @param thickness_mm and the rest: how far the mesh of the body reaches from its surface, its middle
     /// and along the path. @throws SceneError

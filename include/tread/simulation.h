@@ -3,6 +3,7 @@
 #define tread_simulation_h
 
 #include <tread/analysis/contact_patch.h>
+#include <tread/analysis/rail_stress.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/mesh.h>
@@ -43,26 +44,40 @@ namespace tread
     void                       take_solution(RunFolder &folder);
     void                       end_passage(RunFolder &folder);
     void                       next_wheel(Progress &progress);
-    void                       finish(RunFolder &folder, const bool completed);
-    bool                       interrupted() const;
-    double                     position() const
+    /// How a run ends.
+    enum class End
+    {
+      complete,
+      interrupted, ///< by a signal
+      left_surface ///< contact was about to leave what is meshed for it
+    };
+    void finish(RunFolder &folder, const End end);
+    /// @throws std::runtime_error if contact is about to leave what is meshed for it.
+    void   check_rim() const;
+    bool   interrupted() const;
+    double position() const
     {
       return hub.motion.x;
     }
     std::uint64_t remaining_steps() const;
-    double        memory_of_cells_and_nodes() const; // bytes, of all ranks
+    /// Whether the wheel has passed the end of one of the intervals that the path is divided into since
+    /// checked_position; never for 0. No sums, so that a run that resumes finds the same.
+    bool   interval_ended(const double interval_mm) const;
+    double memory_of_cells_and_nodes() const; // bytes, of all ranks
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 
-    const Scene              &scene;
-    MPI_Comm                  comm;
-    reference::RollingResult  predicted; ///< half-space answer before the run
-    Mesh                      mesh;
-    Solid                     solid;
-    WheelHub                  hub;
-    ExplicitDynamics          dynamics;
-    Contact                   contact;
-    std::unique_ptr<Supports> supports; ///< none: the rail's bottom is held
+    const Scene                 &scene;
+    MPI_Comm                     comm;
+    reference::RollingResult     predicted; ///< half-space answer before the run
+    Mesh                         mesh;
+    Solid                        solid;
+    WheelHub                     hub;
+    ExplicitDynamics             dynamics;
+    Contact                      contact;
+    std::unique_ptr<Supports>    supports; ///< none: the rail's bottom is held
+    std::unique_ptr<StressStrip> strip;    ///< none: no table
+    std::unique_ptr<CellProbes>  probes;   ///< none: no table
 
     double target_creepage = 0., free_creepage = 0., end_position;
     bool   torque_released = false, solution_taken = false;
@@ -71,7 +86,7 @@ namespace tread
     Row          interval_force{};
     unsigned int interval_steps      = 0;
     double       interval_start_time = 0., interval_start_speed = 0.; ///< of the hub, vertical: m/s
-    double       next_history, next_surface, next_volume;
+    double       checked_position = 0.; ///< of the wheel when the ends of intervals were last looked at, m
 
     PatchAverage           average; ///< while rolling one cell about the solution instant
     std::vector<PatchNode> solution_patch;

@@ -19,33 +19,35 @@ namespace tread
       return text;
     }
 
-    /// Where the rows of a history belong: the middle of their intervals.
+    /// When the rows of a history belong: the middle of their intervals.
     struct Intervals
     {
-      double              length, speed; ///< usual length, m; m/s
-      std::vector<double> middle;        ///< m
+      double              length, speed; ///< mean length, s; m/s
+      std::vector<double> middle;        ///< s
 
       Intervals(const ForceHistory &history)
       {
-        const std::vector<double> &x = history.position;
-        if (x.size() < 16)
+        const std::vector<double> &x = history.position, &t = history.time;
+        if (t.size() < 16)
           throw std::invalid_argument(
-            format("%s has %zu rows; a dynamic force needs at least 16", history.name.c_str(), x.size()));
-        for (std::size_t i = 1; i < x.size(); ++i)
-          if (!(x[i] > x[i - 1]) || !(history.time[i] > history.time[i - 1]))
+            format("%s has %zu rows; a dynamic force needs at least 16", history.name.c_str(), t.size()));
+        for (std::size_t i = 1; i < t.size(); ++i)
+          if (!(x[i] > x[i - 1]) || !(t[i] > t[i - 1]))
             throw std::invalid_argument(
               format("%s: time or position goes back in row %zu", history.name.c_str(), i + 1));
-        std::vector<double> lengths(x.size() - 1);
-        for (std::size_t i = 0; i < lengths.size(); ++i)
-          lengths[i] = x[i + 1] - x[i];
-        std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
-        length = lengths[lengths.size() / 2];
-        speed  = (x.back() - x.front()) / (history.time.back() - history.time.front());
-        middle.push_back(x[0] - 0.5 * length);
-        for (std::size_t i = 1; i < x.size(); ++i)
-          middle.push_back(0.5 * (x[i - 1] + x[i]));
-        if (x.back() - x[x.size() - 2] < 0.5 * length)
-          middle.pop_back(); // the last row ends with the run
+        const std::size_t n = t.size() - 2; // the last row ends with the run
+        length              = (t[n] - t[0]) / n;
+        speed               = (x.back() - x.front()) / (t.back() - t.front());
+        middle.push_back(t[0] - 0.5 * length);
+        for (std::size_t i = 1; i < t.size(); ++i)
+          middle.push_back(0.5 * (t[i - 1] + t[i]));
+        if (t.back() - t[n] < 0.5 * length)
+          middle.pop_back();
+      }
+
+      double position(const ForceHistory &history, const double time) const
+      {
+        return history.position.front() + speed * (time - history.time.front());
       }
     };
 
@@ -70,31 +72,44 @@ namespace tread
       throw std::invalid_argument(format("%s rolls at %.4g km/h, its smooth twin %s at %.4g km/h",
                                          run.name.c_str(), 3.6 * of_run.speed, smooth_twin.name.c_str(),
                                          3.6 * of_twin.speed));
-    if (std::abs(of_run.length / of_twin.length - 1.) > 0.02)
-      throw std::invalid_argument(format("%s has a row every %.4g mm, its smooth twin %s every %.4g mm: set "
-                                         "'Output/History interval (mm)' alike",
-                                         run.name.c_str(), 1e3 * of_run.length, smooth_twin.name.c_str(),
-                                         1e3 * of_twin.length));
-    // Equally spaced from a row of the run on.
-    const std::vector<double> &rows = of_run.middle;
-    const auto   first = std::lower_bound(rows.begin(), rows.end(), std::max(from, of_twin.middle.front()));
-    const double begin = first == rows.end() ? rows.back() : *first,
-                 end   = std::min({to, rows.back(), of_twin.middle.back()});
-    const std::size_t n =
-      end < begin ? 0 : static_cast<std::size_t>((end - begin) / of_run.length + 1e-6) + 1;
-    if (n < 16)
+    // The section of the run.
+    const auto at = [&](const double time) {
+      return of_run.position(run, time);
+    };
+    const auto after     = std::partition_point(of_run.middle.begin(), of_run.middle.end(),
+                                                [&](const double time) { return at(time) < from; }),
+               before    = std::partition_point(after, of_run.middle.end(),
+                                                [&](const double time) { return at(time) <= to; });
+    const auto too_short = [&](const std::size_t n) {
+      return std::invalid_argument(format(
+        "%s has %zu intervals in the section; a dynamic force needs at least 16", run.name.c_str(), n));
+    };
+    if (before - after < 16)
+      throw too_short(before - after);
+    double begin = *after, end = *(before - 1);
+    // At both ends an interval may be missing.
+    const double missing = std::max(of_run.length, of_twin.length);
+    if (of_twin.middle.front() > begin + missing || of_twin.middle.back() < end - missing)
       throw std::invalid_argument(
-        format("%s and its smooth twin %s have %zu intervals in common; a dynamic force needs "
-               "at least 16",
-               run.name.c_str(), smooth_twin.name.c_str(), n));
+        format("the smooth twin %s, from %.2f to %.2f mm, does not cover %s from %.2f to %.2f mm",
+               smooth_twin.name.c_str(), 1e3 * of_twin.position(smooth_twin, of_twin.middle.front()),
+               1e3 * of_twin.position(smooth_twin, of_twin.middle.back()), run.name.c_str(), 1e3 * at(begin),
+               1e3 * at(end)));
+    // Equally spaced from a row of the run on.
+    begin               = *std::partition_point(after, before - 1,
+                                                [&](const double time) { return time < of_twin.middle.front(); });
+    end                 = std::min(end, of_twin.middle.back());
+    const std::size_t n = static_cast<std::size_t>(std::max(0., end - begin) / of_run.length + 1e-6) + 1;
+    if (n < 16)
+      throw too_short(n);
 
     DynamicForces result;
     result.speed    = of_run.speed;
-    result.interval = of_run.length / of_run.speed;
+    result.interval = of_run.length;
     for (std::size_t i = 0; i < n; ++i)
       {
-        result.position.push_back(begin + i * of_run.length);
-        result.time.push_back(run.time.front() + (result.position[i] - run.position.front()) / result.speed);
+        result.time.push_back(begin + i * of_run.length);
+        result.position.push_back(at(result.time[i]));
       }
     for (std::size_t column = 0; column < run.columns.size(); ++column)
       {
@@ -103,19 +118,19 @@ namespace tread
         if (twin == smooth_twin.columns.end())
           throw std::invalid_argument(smooth_twin.name + " has no column '" + run.columns[column] +
                                       "', which " + run.name + " has");
-        const auto with_defect = [&](const double x) {
-          return interpolated(of_run.middle, run.force[column], x);
+        const auto with_defect = [&](const double time) {
+          return interpolated(of_run.middle, run.force[column], time);
         };
-        const auto smooth = [&](const double x) {
-          return interpolated(of_twin.middle, smooth_twin.force[twin - smooth_twin.columns.begin()], x);
+        const auto smooth = [&](const double time) {
+          return interpolated(of_twin.middle, smooth_twin.force[twin - smooth_twin.columns.begin()], time);
         };
         DynamicForce force;
         force.column      = run.columns[column];
         force.smooth_mean = 0.;
-        for (const double x : result.position)
+        for (const double time : result.time)
           {
-            force.values.push_back(with_defect(x) - smooth(x));
-            force.smooth_mean += smooth(x) / n;
+            force.values.push_back(with_defect(time) - smooth(time));
+            force.smooth_mean += smooth(time) / n;
           }
         const std::size_t largest =
           std::max_element(force.values.begin(), force.values.end(),
@@ -124,7 +139,7 @@ namespace tread
         force.peak          = force.values[largest];
         force.peak_time     = result.time[largest];
         force.peak_position = result.position[largest];
-        force.force_at_peak = with_defect(force.peak_position);
+        force.force_at_peak = with_defect(force.peak_time);
         force.spectrum      = amplitude_spectrum(force.values, result.interval, window);
         force.oscillations  = dominant_oscillations(force.values, result.interval, force.spectrum, 5);
         result.forces.push_back(force);

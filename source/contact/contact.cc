@@ -30,12 +30,12 @@ namespace tread
                    const ContactParameters           &parameters,
                    std::shared_ptr<const FrictionLaw> friction)
     : surfaces(mesh)
-    , impulse_of_node(surfaces.nodes.size(), Row{})
     , comm(mesh.comm)
     , parameters(parameters)
     , friction(std::move(friction))
     , inverse_mass(surfaces.nodes.size(), 0.)
     , face_size(0.)
+    , impulse_of_node(surfaces.nodes.size(), Row{})
   {
     // The smallest slave face sets the scale of search distances.
     const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
@@ -203,20 +203,38 @@ namespace tread
             corners_around.back().push_back(compact_number(i));
       }
 
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
-    involved_of_rank.assign(n_ranks, {});
+    for (const ContactSurfaces::HangingNode &h : surfaces.hanging_nodes)
+      if (number[h.node] >= 0)
+        for (const unsigned int parent : h.parents)
+          compact_number(parent);
+
     position.resize(involved.size());
-    velocity.assign(involved.size(), Row{});
-    velocity_before.assign(involved.size(), Row{});
     for (unsigned int i = 0; i < involved.size(); ++i)
-      {
-        involved_of_rank[surfaces.nodes[involved[i]].owner].push_back(i);
-        position[i] = x[involved[i]];
-      }
-    gap_rate.resize(problem.constraints.size());
-    nodal_impulse.assign(involved.size(), Row{});
+      position[i] = x[involved[i]];
     previous_impulse = impulse;
     slid.assign(problem.constraints.size(), 0.);
+    make_room();
+  }
+
+
+  void Contact::make_room()
+  {
+    involved_of_rank.assign(dealii::Utilities::MPI::n_mpi_processes(comm), {});
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      involved_of_rank[surfaces.nodes[involved[i]].owner].push_back(i);
+    std::vector<int> number(surfaces.nodes.size(), -1);
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      number[involved[i]] = i;
+    involved_hanging.clear();
+    for (const ContactSurfaces::HangingNode &h : surfaces.hanging_nodes)
+      if (number[h.node] >= 0)
+        involved_hanging.push_back({static_cast<unsigned int>(number[h.node]),
+                                    {{static_cast<unsigned int>(number[h.parents[0]]),
+                                      static_cast<unsigned int>(number[h.parents[1]])}}});
+    velocity.assign(involved.size(), Row{});
+    velocity_before.assign(involved.size(), Row{});
+    nodal_impulse.assign(involved.size(), Row{});
+    gap_rate.resize(problem.constraints.size());
   }
 
 
@@ -341,6 +359,8 @@ namespace tread
       }
     for (unsigned int i = 0; i < involved.size(); ++i)
       position[i] += time_step * velocity[i];
+    for (const ContactSurfaces::HangingNode &h : involved_hanging)
+      position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
     time_since_refresh += time_step;
     return result;
   }
@@ -425,11 +445,11 @@ namespace tread
   }
 
 
-  bool Contact::touches_rim() const
+  std::optional<Row> Contact::contact_at_rim() const
   {
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      if (surfaces.nodes[problem.constraints[j].slave].at_rim && norm(impulse[j]) > 0.)
-        return true;
-    return false;
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      if (surfaces.nodes[involved[i]].at_rim && norm(nodal_impulse[i]) > 0.)
+        return position[i];
+    return {};
   }
 } // namespace tread

@@ -4,7 +4,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 namespace tread
 {
@@ -18,12 +20,13 @@ namespace tread
   ContactSurfaces::ContactSurfaces(const Mesh &mesh)
     : comm(mesh.comm)
   {
-    std::vector<char> hanging(mesh.nodes.size(), false);
+    std::vector<const Mesh::HangingNode *> hangs(mesh.nodes.size(), nullptr);
     for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      hanging[h.node] = true;
+      hangs[h.node] = &h;
 
-    // Flat lists that deal.II can send: body, left out or not, and the four positions in nm.
+    // Flat lists that deal.II can send: body, left out or not, and the four positions in nm; three keys.
     std::vector<std::array<long long, 14>> own_faces;
+    std::vector<std::array<long long, 12>> own_hanging;
     for (const Mesh::Face &face : mesh.faces)
       if (face.boundary == Boundary::contact)
         {
@@ -31,10 +34,24 @@ namespace tread
           entry[0] = face.body;
           for (unsigned int v = 0; v < 4; ++v)
             {
-              const Key key = mesh.node_key(face.nodes[v]);
-              entry[1] |= hanging[face.nodes[v]];
+              const unsigned int node = face.nodes[v];
+              const Key          key  = mesh.node_key(node);
               for (unsigned int d = 0; d < 3; ++d)
                 entry[2 + 3 * v + d] = key[1 + d];
+              if (!hangs[node])
+                continue;
+              const std::set<unsigned int> parents(hangs[node]->parents.begin(), hangs[node]->parents.end());
+              const auto edge = mesh.nodes[*parents.rbegin()] - mesh.nodes[*parents.begin()];
+              if (parents.size() == 2 && std::abs(edge[1]) > 0.5 * edge.norm())
+                {
+                  const Key names[3] = {key, mesh.node_key(*parents.begin()),
+                                        mesh.node_key(*parents.rbegin())};
+                  own_hanging.emplace_back();
+                  for (unsigned int k = 0; k < 12; ++k)
+                    own_hanging.back()[k] = names[k / 4][k % 4];
+                }
+              else
+                entry[1] = 1;
             }
           own_faces.push_back(entry);
         }
@@ -70,6 +87,19 @@ namespace tread
             nodes[i].at_rim = true;
       }
 
+    std::map<unsigned int, std::array<unsigned int, 2>> parents_of;
+    for (const auto &list : dealii::Utilities::MPI::all_gather(comm, own_hanging))
+      for (const auto &names : list)
+        {
+          const auto node = [&](const unsigned int k) {
+            return number.at({{names[4 * k], names[4 * k + 1], names[4 * k + 2], names[4 * k + 3]}});
+          };
+          const unsigned int a = node(1), b = node(2);
+          parents_of[node(0)] = {std::min(a, b), std::max(a, b)};
+        }
+    for (const auto &[node, parents] : parents_of)
+      hanging_nodes.push_back({node, parents});
+
     // Also copies of contact nodes whose faces belong to other ranks.
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (const auto entry = number.find(mesh.node_key(i)); entry != number.end())
@@ -90,6 +120,20 @@ namespace tread
     replicate(reference.data(), rows);
     for (unsigned int i = 0; i < n; ++i)
       nodes[i].reference = rows[i];
+
+    // Beyond an edge along the path that only one face has, nothing can be touched.
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> n_faces;
+    for (const Face &face : faces)
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
+          const Row          edge = nodes[b].reference - nodes[a].reference;
+          if (4. * edge[1] * edge[1] <= dot(edge, edge))
+            ++n_faces[std::minmax(a, b)];
+        }
+    for (const auto &[ends, count] : n_faces)
+      if (count == 1)
+        nodes[ends.first].at_rim = nodes[ends.second].at_rim = true;
   }
 
 

@@ -112,6 +112,28 @@ namespace tread
     std::vector<const Mesh::HangingNode *> hangs(x.size(), nullptr);
     for (const Mesh::HangingNode &h : mesh.hanging_nodes)
       hangs[h.node] = &h;
+    hanging.assign(max_level + 1, {});
+    hanging_at_contact.clear();
+    for (unsigned int body = 0; body < mesh.body_names.size(); ++body)
+      for (const unsigned int i : boundary_nodes(body, Boundary::contact))
+        if (hangs[i])
+          hanging_at_contact.push_back(*hangs[i]);
+    std::vector<char> is_placed(x.size(), false);
+    for (unsigned int level = 0; level <= max_level; ++level)
+      {
+        std::vector<char> is_loaded(x.size(), false);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              if (hangs[i] && !is_loaded[i])
+                {
+                  hanging[level].loaded.push_back(*hangs[i]);
+                  is_loaded[i] = true;
+                  if (!is_placed[i])
+                    hanging[level].placed.push_back(*hangs[i]);
+                  is_placed[i] = true;
+                }
+      }
     slow_shares.assign(max_level + 1, {});
     for (unsigned int level = 1; level <= max_level; ++level)
       {
@@ -137,19 +159,20 @@ namespace tread
     for (unsigned int begin = 0; begin < level_of_node.size();)
       {
         unsigned int end = begin + 1;
-        while (end < level_of_node.size() && level_of_node[end] == level_of_node[begin])
+        while (end < level_of_node.size() && level_of_node[end] == level_of_node[begin] &&
+               on_wheel[end] == on_wheel[begin])
           ++end;
-        nodes_of_level[level_of_node[begin]].emplace_back(begin, end);
+        nodes_of_level[level_of_node[begin]].push_back({begin, end, bool(on_wheel[begin])});
         begin = end;
       }
   }
 
 
-  double ExplicitDynamics::ideal_gain_of_levels() const
+  double ExplicitDynamics::ideal_gain_of_levels(const unsigned int largest) const
   {
     double updates = 0.;
-    for (const unsigned int level : solid.cell_levels())
-      updates += std::ldexp(1., -static_cast<int>(level));
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      updates += std::ldexp(1., -static_cast<int>(solid.level_up_to(largest, c)));
     return mesh.n_global_cells / dealii::Utilities::MPI::sum(updates, mesh.comm);
   }
 
@@ -398,18 +421,39 @@ namespace tread
     time_step         = parameters.courant_number * critical_time_step();
     inverse_mass      = free_inverse_masses();
     inertia.assign(x.size(), 0.);
+    weight.assign(x.size(), 0.);
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (inverse_mass[i] > 0.)
-        inertia[i] = 1. / inverse_mass[i];
+      {
+        if (inverse_mass[i] > 0.)
+          {
+            inertia[i] = 1. / inverse_mass[i];
+            weight[i]  = -std::ldexp(parameters.gravity * true_mass[i], level_of_node[i]);
+          }
+        force[i] = Row{0., 0., weight[i], 0.};
+      }
+    weight_of_shared.clear();
+    for (const unsigned int i : mesh.shared_nodes.nodes())
+      {
+        weight_of_shared.push_back({i, level_of_node[i], weight[i]});
+        weight[i]   = 0.;
+        force[i][2] = 0.;
+      }
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
         contact->refresh(x.data(), v.data(), time_step);
       }
     hold_guided_nodes(v);
+    set_damped_positions();
+  }
+
+
+  void ExplicitDynamics::set_damped_positions()
+  {
     const double beta = parameters.damping_steps * time_step;
     for (unsigned int i = 0; i < x.size(); ++i)
       x_damped[i] = x[i] + beta * v[i];
+    mesh.distribute_hanging_nodes(x_damped.data());
   }
 
 
@@ -461,7 +505,7 @@ namespace tread
   {
     totals.plastic +=
       solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true});
-    mesh.condense_hanging_nodes(force.data());
+    Mesh::condense(hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
         const double factor = std::ldexp(1., level);
@@ -470,7 +514,7 @@ namespace tread
             for (SlowShare &share : slow_shares[level])
               share.before = force[share.node];
             solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
-            mesh.condense_hanging_nodes(force.data());
+            Mesh::condense(hanging[level].loaded, force.data());
             for (SlowShare &share : slow_shares[level])
               {
                 const Row now    = (1. / factor) * (force[share.node] - share.before);
@@ -491,22 +535,50 @@ namespace tread
   }
 
 
+  unsigned int ExplicitDynamics::level_due() const
+  {
+    unsigned int level = max_level();
+    while (n_steps % (std::uint64_t(1) << level) != 0)
+      --level;
+    return level;
+  }
+
+
+  void ExplicitDynamics::place_hanging_nodes()
+  {
+    if (synchronised())
+      {
+        for (Row *field : {v.data(), x.data(), x_damped.data()})
+          mesh.distribute_hanging_nodes(field);
+        return;
+      }
+    for (unsigned int level = 0; level <= level_due(); ++level)
+      {
+        Mesh::distribute(hanging[level].placed, x_damped.data());
+        if (solid.needs_velocity())
+          Mesh::distribute(hanging[level].placed, v.data());
+      }
+    Mesh::distribute(hanging_at_contact, x.data());
+    Mesh::distribute(hanging_at_contact, v.data());
+  }
+
+
   void ExplicitDynamics::step()
   {
     Stopwatch watch;
     if (n_steps >= last_damping_step + steps_between_damping_samples && synchronised())
       sample_damping();
-    unsigned int due = max_level();
-    while (n_steps % (std::uint64_t(1) << due) != 0)
-      --due;
-    // Calls action(node, time step of its level over the smallest) for all nodes that move in this step.
-    const auto for_nodes_due = [&](const auto &action) {
+    const unsigned int due = level_due();
+    // Calls action(node, time step of its level over the smallest) for all nodes that move in this step, or
+    // those of the wheel.
+    const auto for_nodes_due = [&](const bool all, const auto &action) {
       for (unsigned int level = 0; level <= due; ++level)
         {
           const double factor = std::ldexp(1., level);
-          for (const auto &[begin, end] : nodes_of_level[level])
-            for (unsigned int i = begin; i < end; ++i)
-              action(i, factor);
+          for (const Run &run : nodes_of_level[level])
+            if (all || run.on_wheel)
+              for (unsigned int i = run.begin; i < run.end; ++i)
+                action(i, factor);
         }
     };
     add_forces_due(due);
@@ -514,36 +586,39 @@ namespace tread
       supports->add_forces(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
+    // Not before: the sums of nodes that are not due must stay zero.
+    for (const WeightOfShared &w : weight_of_shared)
+      if (w.level <= due)
+        force[w.node][2] += w.force;
     times.communication += watch.lap();
 
-    // What acts on the nodes from outside. Weight and the compensation of the centrifugal force of
-    // scaled density are accelerations: weight / inertia, and the share of inertia that is not there.
-    const double weight_acceleration = -parameters.gravity / parameters.density_scale;
+    // What acts on the nodes from outside. The compensation of the centrifugal force of scaled density is an
+    // acceleration: of the share of inertia that is not there.
     const double compensation =
       (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     const Row  axle    = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
     const Row  keep_xz = {1., 0., 1., 0.};
     Row        compensation_sum{}, damping_sum{};
     double     damping_moment = 0., damping_power = 0.;
-    const bool loaded      = !external_force.empty();
-    const bool accelerated = parameters.gravity != 0. || compensation != 0. || parameters.mass_damping > 0.;
+    const bool loaded = !external_force.empty();
+    const bool damped = parameters.mass_damping > 0.;
     if (loaded)
       for_nodes_due(
-        [&](const unsigned int i, const double factor) { force[i] += factor * external_force[i]; });
-    if (accelerated)
-      for_nodes_due([&](const unsigned int i, const double factor) {
+        true, [&](const unsigned int i, const double factor) { force[i] += factor * external_force[i]; });
+    if (compensation != 0. || damped)
+      for_nodes_due(damped, [&](const unsigned int i, const double factor) {
         if (inertia[i] > 0.)
           {
-            const double here         = factor * inertia[i];
-            const double owned        = mesh.shared_nodes.is_owned(i) ? here : 0.;
-            Row          acceleration = Row{0., 0., weight_acceleration, 0.};
+            const double here  = factor * inertia[i];
+            const double owned = mesh.shared_nodes.is_owned(i) ? here : 0.;
+            Row          acceleration{};
             if (on_wheel[i] && compensation > 0.)
               {
                 const Row inward = -compensation * keep_xz * (x[i] - axle);
                 acceleration += inward;
                 compensation_sum += owned * inward;
               }
-            if (parameters.mass_damping > 0.)
+            if (damped)
               {
                 // Against what moves on top of the rigid motion. The hub takes the reaction.
                 const Row relative = on_wheel[i] ? v[i] - hub->velocity_at(x[i]) : v[i];
@@ -607,7 +682,7 @@ namespace tread
 
     const double beta = parameters.damping_steps * time_step;
     double       work = 0., gross = 0.;
-    for_nodes_due([&](const unsigned int i, const double factor) {
+    for_nodes_due(true, [&](const unsigned int i, const double factor) {
       const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
       if (loaded)
         {
@@ -621,7 +696,7 @@ namespace tread
       v[i] = velocity;
       x[i] += factor * time_step * velocity;
       x_damped[i] = x[i] + beta * velocity;
-      force[i]    = Row{};
+      force[i]    = Row{0., 0., weight[i], 0.};
     });
     totals.external_work += work;
     totals.gross_work += gross;
@@ -631,11 +706,9 @@ namespace tread
         for (const unsigned int i : hub_nodes)
           x_damped[i] = x[i] + beta * v[i];
       }
-    mesh.distribute_hanging_nodes(v.data());
-    mesh.distribute_hanging_nodes(x.data());
-    mesh.distribute_hanging_nodes(x_damped.data());
     time += time_step;
     ++n_steps;
+    place_hanging_nodes();
     times.nodes += watch.lap();
   }
 

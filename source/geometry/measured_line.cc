@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -38,6 +39,12 @@ namespace tread
       std::ostringstream text;
       text << 1e3 * length << " mm";
       return text.str();
+    }
+
+    /// What stands before # or !.
+    std::string without_comment(const std::string &text)
+    {
+      return text.substr(0, text.find_first_of("#!"));
     }
 
     std::string lower(std::string text)
@@ -88,8 +95,8 @@ namespace tread
         {
           if (line == 1 && text.compare(0, 3, "\xef\xbb\xbf") == 0) // byte order mark
             text.erase(0, 3);
-          const std::size_t first = text.find_first_not_of(" \t\r");
-          if (first == std::string::npos || text[first] == '#' || text[first] == '!')
+          text = without_comment(text);
+          if (text.find_first_not_of(" \t\r") == std::string::npos)
             continue;
           const std::vector<double> values = numbers(text);
           if (values.empty() && samples.empty() && !heading)
@@ -109,6 +116,7 @@ namespace tread
       std::string         text;
       for (unsigned int line = 1; std::getline(in, text); ++line)
         {
+          text = without_comment(text);
           if (text.find('=') != std::string::npos || text.find_first_not_of(" \t\r") == std::string::npos)
             continue;
           const std::vector<double> values = numbers(text);
@@ -128,7 +136,7 @@ namespace tread
       std::string         text;
       for (unsigned int line = 1; std::getline(in, text) && !ended; ++line)
         {
-          text = lower(text.substr(0, text.find('!')));
+          text = lower(without_comment(text));
           if (text.find("point.begin") != std::string::npos)
             in_points = true;
           else if (text.find("point.end") != std::string::npos)
@@ -174,12 +182,15 @@ namespace tread
       std::ifstream in(file);
       if (!in)
         fail(file, "cannot be read");
+      if (std::filesystem::is_directory(file))
+        fail(file, "is a folder");
       const std::string   kind    = ending(file);
       std::vector<Sample> samples = kind == "prr" || kind == "prw"   ? read_simpack(file, in)
                                     : kind == "ban" || kind == "whl" ? read_miniprof(file, in)
                                                                      : read_table(file, in);
       if (samples.size() < 4)
-        fail(file, "has " + std::to_string(samples.size()) + " points; at least four are needed");
+        fail(file, "has " + std::to_string(samples.size()) + (samples.size() == 1 ? " point" : " points") +
+                     "; at least four are needed");
       return samples;
     }
 

@@ -35,6 +35,13 @@ namespace tread
     }
   } // namespace
 
+  std::array<double, 2> FineZone::cubes() const
+  {
+    const double from = std::max(x_begin, cubes_begin), to = std::min(x_end, cubes_end);
+    const double middle = 0.5 * (x_begin + x_end);
+    return from < to ? std::array<double, 2>{{from, to}} : std::array<double, 2>{{middle, middle}};
+  }
+
   double FineZone::distance(const double x, const double y, const double depth_of_point) const
   {
     const double margin = 0.01 * finest_cell_size;
@@ -54,7 +61,16 @@ namespace tread
 
   double FineZone::wanted_size(const double x, const double y, const double depth_of_point) const
   {
-    return wanted_size(distance(x, y, depth_of_point));
+    if (path_level == 0)
+      return wanted_size(distance(x, y, depth_of_point));
+    FineZone path         = *this;
+    path.path_level       = 0;
+    path.finest_cell_size = std::ldexp(finest_cell_size, path_level);
+    FineZone cubes        = *this;
+    cubes.path_level      = 0;
+    cubes.x_begin         = std::max(x_begin, cubes_begin);
+    cubes.x_end           = std::min(x_end, cubes_end);
+    return std::min(path.wanted_size(x, y, depth_of_point), cubes.wanted_size(x, y, depth_of_point));
   }
 
   double regular_length(const double length, const double size)
@@ -108,10 +124,9 @@ namespace tread
   {
     if (zone.path_stretch <= 1. && far_stretch <= 1.)
       return {coarse_lines(begin, end, (begin <= 0. && 0. <= end) ? 0. : 0.5 * (begin + end), size), size};
-    const double from = std::max({begin, zone.x_begin, zone.cubes_begin}),
-                 to   = std::min({end, zone.x_end, zone.cubes_end});
-    if (!(from < to))
-      throw std::invalid_argument("path_lines: no cubes between begin and end");
+    const double from = std::max(begin, zone.cubes()[0]), to = std::min(end, zone.cubes()[1]);
+    if (!(from <= to))
+      throw std::invalid_argument("path_lines: the path does not lie between begin and end");
     const double anchor = (from <= 0. && 0. <= to) ? 0. : 0.5 * (from + to);
 
     constexpr double growth = 1.4;

@@ -193,24 +193,27 @@ namespace tread
     for (unsigned int i = 0; i < n_cell_nodes; ++i)
       if (constraints.is_constrained(global_ids[i]))
         {
-          HangingNode h;
-          h.node = i;
+          HangingNode  h{i, {}};
+          unsigned int n_parents = 0;
           for (const auto &[parent, weight] : *constraints.get_constraint_entries(global_ids[i]))
             {
               if (constraints.is_constrained(parent))
                 throw std::runtime_error("mesh: a hanging node hangs on another hanging node");
-              h.parents.push_back(local_number(parent));
-              h.weights.push_back(weight);
+              const unsigned int times = std::lround(weight / HangingNode::weight);
+              for (unsigned int k = 0; k < times && n_parents < h.parents.size(); ++k)
+                h.parents[n_parents++] = local_number(parent);
             }
-          hanging_nodes.push_back(std::move(h));
+          if (n_parents != h.parents.size())
+            throw std::runtime_error("mesh: a hanging node is not in the middle of an edge or a face");
+          hanging_nodes.push_back(h);
         }
     // Parents follow from the constraint itself, so every rank places a hanging node alike:
     // on the chord, where every linear displacement field leaves it.
     for (const HangingNode &h : hanging_nodes)
       {
         dealii::Point<3> x;
-        for (unsigned int i = 0; i < h.parents.size(); ++i)
-          x += h.weights[i] * nodes[h.parents[i]];
+        for (const unsigned int parent : h.parents)
+          x += HangingNode::weight * nodes[parent];
         nodes[h.node] = x;
       }
 

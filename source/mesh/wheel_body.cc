@@ -329,9 +329,7 @@ namespace tread
     PathLines          path{even_lines(0., 2. * pi * wheel.radius, n_around), size};
     if (zone.path_stretch > 1.)
       {
-        const double half = pi * wheel.radius;
-        const double middle =
-          0.5 * (std::max(zone.x_begin, zone.cubes_begin) + std::min(zone.x_end, zone.cubes_end));
+        const double half = pi * wheel.radius, middle = 0.5 * (zone.cubes()[0] + zone.cubes()[1]);
         path = path_lines(middle - half, middle + half, size, zone, 1.);
       }
     std::vector<double> angles  = path.lines;

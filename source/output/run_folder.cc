@@ -34,10 +34,19 @@ namespace tread
       if (!supports.empty())
         header += ",spring_energy_J";
       for (const int number : supports)
-        for (const char *quantity :
-             {"pad_N", "ballast_N", "seat_pressure_Pa", "rail_m", "rail_at_next_mid_span_m"})
+        for (const char *quantity : {"pad_N", "ballast_N", "seat_pressure_Pa", "least_seat_pressure_Pa",
+                                     "rail_m", "rail_at_next_mid_span_m"})
           header += ",support_" + std::to_string(number) + "_" + quantity;
-      return header + "\n";
+      return header;
+    }
+
+    std::string cells_header(const std::size_t n_cells)
+    {
+      std::string header = "time_s,position_m";
+      for (std::size_t i = 1; i <= n_cells; ++i)
+        for (const char *quantity : {"von_mises_Pa", "equivalent_plastic_strain"})
+          header += ",cell_" + std::to_string(i) + "_" + quantity;
+      return header;
     }
   } // namespace
 
@@ -114,8 +123,8 @@ namespace tread
       {
         const std::string       name = entry.path().filename();
         static const std::regex own(
-          "(summary\\.json|history\\.csv|(patch|patch_averaged|reference_patch|subsurface|rail_cells|"
-          "rail_surface|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
+          "(summary\\.json|(history|patch|patch_averaged|reference_patch|subsurface|rail_cells|"
+          "rail_surface|strip|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
@@ -201,7 +210,47 @@ namespace tread
   }
 
 
-  void RunFolder::open_history(const bool resume, const double time, const std::vector<int> &supports)
+  void RunFolder::write_strip(const std::vector<StripColumn> &columns) const
+  {
+    std::ostringstream text;
+    text << "x_mm,von_mises_MPa,y_mm,depth_mm,time_s,wheel_x_mm,surface_von_mises_MPa,surface_y_mm,"
+            "surface_time_s,surface_wheel_x_mm,equivalent_plastic_strain_percent\n"
+         << std::setprecision(9);
+    for (const StripColumn &c : columns)
+      text << 1e3 * c.x << ',' << 1e-6 * c.largest.stress << ',' << 1e3 * c.y << ',' << 1e3 * c.depth << ','
+           << c.largest.time << ',' << 1e3 * c.largest.wheel_x << ',' << 1e-6 * c.at_surface.stress << ','
+           << 1e3 * c.y_at_surface << ',' << c.at_surface.time << ',' << 1e3 * c.at_surface.wheel_x << ','
+           << 100. * c.equivalent_plastic_strain << '\n';
+    write("strip.csv", text.str());
+  }
+
+
+  void RunFolder::open_table(std::ofstream     &table,
+                             const std::string &name,
+                             const std::string &header,
+                             const bool         resume,
+                             const double       time) const
+  {
+    std::string kept = header + "\n";
+    if (resume)
+      {
+        std::ifstream old(path(name));
+        std::string   line;
+        std::getline(old, line);
+        while (std::getline(old, line))
+          if (!line.empty() && std::atof(line.c_str()) <= time)
+            kept += line + '\n';
+      }
+    write(name, kept);
+    table.open(path(name), std::ios::app);
+    table << std::setprecision(12);
+  }
+
+
+  void RunFolder::open_histories(const bool              resume,
+                                 const double            time,
+                                 const std::vector<int> &supports,
+                                 const std::size_t       n_cells)
   {
     if (!writes_tables)
       return;
@@ -213,22 +262,12 @@ namespace tread
                                  std::istreambuf_iterator<char>());
           const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
           for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
-            if (std::stod((*i)[1]) <= time * (1. + 1e-9))
+            if (std::stod((*i)[1]) <= time)
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    std::string kept = history_header(supports);
-    if (resume)
-      {
-        std::ifstream old(path("history.csv"));
-        std::string   line;
-        std::getline(old, line);
-        while (std::getline(old, line))
-          if (!line.empty() && std::atof(line.c_str()) <= time * (1. + 1e-12))
-            kept += line + '\n';
-      }
-    write("history.csv", kept);
-    history.open(path("history.csv"), std::ios::app);
-    history << std::setprecision(12);
+    open_table(history, "history.csv", history_header(supports), resume, time);
+    if (n_cells > 0)
+      open_table(cell_history, "cells.csv", cells_header(n_cells), resume, time);
   }
 
 
@@ -247,9 +286,17 @@ namespace tread
       history << ',' << e.springs;
     for (const SupportRecord &s : row.supports)
       history << ',' << s.pad_force << ',' << s.ballast_force << ',' << s.seat_pressure << ','
-              << s.rail_over_support << ',' << s.rail_at_mid_span;
+              << s.least_seat_pressure << ',' << s.rail_over_support << ',' << s.rail_at_mid_span;
     history << '\n' << std::flush;
     if (!history)
       throw std::runtime_error("cannot write '" + path("history.csv") + "': is the disk full?");
+    if (row.cells.empty())
+      return;
+    cell_history << row.time << ',' << row.position;
+    for (const CellRecord &cell : row.cells)
+      cell_history << ',' << cell.von_mises << ',' << cell.equivalent_plastic_strain;
+    cell_history << '\n' << std::flush;
+    if (!cell_history)
+      throw std::runtime_error("cannot write '" + path("cells.csv") + "': is the disk full?");
   }
 } // namespace tread

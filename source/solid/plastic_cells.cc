@@ -321,12 +321,16 @@ namespace tread
 
   void PlasticCells::cauchy_stress(const Row                          *x,
                                    const PlasticHistory               &history,
-                                   std::vector<std::array<double, 6>> &stress) const
+                                   std::vector<std::array<double, 6>> &stress,
+                                   const std::vector<char>            &wanted) const
   {
     for_ranges([&](const Range &range, const auto n) {
       const YieldConstants<n()> material(range.elastic, range.plastic);
       for (std::size_t b = range.begin; b < range.end; ++b)
         {
+          if (!wanted.empty() && std::none_of(cell_of_lane[b].begin(), cell_of_lane[b].end(),
+                                              [&](const int c) { return c >= 0 && wanted[c]; }))
+            continue;
           State<n()> state;
           state.evaluate(material, batches[b], x,
                          history.values.data() + range.history + (b - range.begin) * range.stride());

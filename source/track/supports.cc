@@ -201,8 +201,8 @@ namespace tread
             if (h == mesh.hanging_nodes.end())
               of_node[node] += shares[k];
             else
-              for (unsigned int i = 0; i < h->parents.size(); ++i)
-                of_node[h->parents[i]] += shares[k] * h->weights[i];
+              for (const unsigned int parent : h->parents)
+                of_node[parent] += shares[k] * Mesh::HangingNode::weight;
           }
         // On an edge two faces hold a point, by the nodes of the edge alone.
         for (const auto &[node, part] : of_node)
@@ -368,14 +368,20 @@ namespace tread
   }
 
 
-  double Supports::largest_pad_pressure(const unsigned int support) const
+  std::pair<double, double> Supports::pad_pressures(const unsigned int support) const
   {
-    double largest = 0.;
+    std::pair<double, double> pressures(std::numeric_limits<double>::max(),
+                                        std::numeric_limits<double>::lowest());
+    const double              points_per_area =
+      parameters.points_along * parameters.points_across / (parameters.pad_length * parameters.pad_width);
     for (unsigned int i = 0; i < springs.size(); ++i)
       if (springs[i].support == support && springs[i].layer == pad)
-        largest = std::max(largest, -spring_force[i]);
-    return largest * parameters.points_along * parameters.points_across /
-           (parameters.pad_length * parameters.pad_width);
+        {
+          const double pressure = -spring_force[i] * points_per_area;
+          pressures.first       = std::min(pressures.first, pressure);
+          pressures.second      = std::max(pressures.second, pressure);
+        }
+    return pressures;
   }
 
 

@@ -53,13 +53,19 @@ SETTINGS = [
     ("Motion/Passages=0", ["Motion/Passages", "allowed"]),
     ("Wheel/Tread profile=S1003", ["Wheel/Tread profile", "S1003", "cannot be read", "S1002"]),
     ("Wheel/Lateral position (mm)=99", ["Wheel/Lateral position (mm)", "allowed"]),
+    ("Output/Cells=-20,0", ["Output/Cells", "x,y,depth"]),
+    ("Output/Cells=-20,0,0", ["Output/Cells", "depth above 0"]),
     ("Rail/Inclination=1:30", ["Rail/Inclination", "1:40", "1:20"]),
     ("Rail/Measured head=nothing.prr", ["Rail/Measured head", "nothing.prr", "cannot be read"]),
-    ("Rail/Length (mm)=100", ["Rail/Length (mm)", "must hold"]),
+    ("Rail/Length (mm)=100", ["Rail/Begin (mm)", "Length (mm)", "must hold the path", "from -120 to 60 mm"]),
+    ("Rail/Begin (mm)=-70", ["Rail/Begin (mm)", "from -70 to 60 mm", "must hold the path"]),
+    ("Rail/Begin (mm)=here", ["Rail/Begin (mm)", "'here'", "automatic"]),
+    ("Motion/Start (mm)=nan", ["Motion/Start (mm)", "'nan'", "automatic"]),
     ("Defect/Shape=crater", ["Defect/Shape", "dip", "profile"]),
     ("Defect/Shape=dip", ["Defect/Length (mm)", "Defect/Depth (mm)"]),
     ("Defect/Shape=profile", ["Defect/Profile file"]),
     ("Mesh/Fine from (mm)=5", ["Mesh/Fine from (mm)", "Mesh/Fine to (mm)"]),
+    ("Mesh/Path cell (mm)=0.5", ["Mesh/Path cell (mm)", "0.5", "at least 'Mesh/Finest cell (mm)' 0.63", "or 0"]),
     ("Mesh/Path cell (mm)=5", ["Mesh/Path cell (mm)", "Mesh/Fine from (mm)"]),
     ("Rail/Profile=50E6", ["Rail/Profile", "54E1", "60E1"]),
     ("Scene/Density scale=0.5", ["Scene/Density scale", "allowed"]),
@@ -74,21 +80,35 @@ DIP = ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"]
 PAIRS = [
     (["Track/Foundation=two-layer"], ["Track/Foundation", "Rail/Shape"]),
     (BAR + ["Track/Sleeper spacing (m)=0.65"], ["Track/Sleeper spacing (m)", "does not fit the rail"]),
-    (BAR + ["Track/Support 0 (mm)=0"], ["Track/Sleeper spacing (m)", "beyond a support", "half a spacing"]),
+    (BAR + ["Track/Support 0 (mm)=-600"], ["Track/Sleeper spacing (m)", "begins 30 mm before its first support", "half a spacing"]),
+    (BAR + ["Track/Support 0 (mm)=-630"], ["begins 0 mm before its first support", "half a pad, 75,"]),
+    (BAR + ["Rail/Begin (mm)=-3630", "Rail/Length (mm)=6950"], ["ends 50 mm behind its last support", "half a pad, 75,"]),
     (BAR + ["Track/Sleeper spacing (m)=9"], ["Track/Sleeper spacing (m)", "at least 2"]),
     (BAR + ["Track/Pad length (mm)=700"], ["Track/Pad length (mm)", "below the sleeper spacing"]),
     (BAR + ["Track/Pad width (mm)=140"], ["Track/Pad width (mm)", "rail's base"]),
     (BAR + ["Scene/Quasi-static=true", "Scene/Density scale=4"], ["Scene/Density scale", "Track/Foundation"]),
     (BAR + ["Output/Supports=0,17"], ["Output/Supports", "17"]),
     (BAR + ["Track/Sleepers=solid", "Track/Sleeper length (m)=1.2"], ["Track/Sleeper length (m)", "Rail distance"]),
+    (BAR + ["Track/Points across=1", "Rail/Crown radius (mm)=100"], ["Track/Points across", "at least 2", "tips over", "150 mm"]),
+    (BAR + ["Track/Points across=1", "Wheel/Tread profile=cone 1:40"], ["Track/Points across", "at least 2", "y = 0"]),
+    (BAR + ["Track/Points across=1", "Rail/Shape=full section", "Rail/Inclination=1:40"],
+     ["Track/Points across", "at least 2", "Rail/Inclination"]),
+    (BAR + DIP + ["Track/Points across=1", "Defect/Position (mm)=-30", "Defect/Lateral position (mm)=5"],
+     ["Track/Points across", "at least 2", "defect"]),
     (DIP + ["Defect/Position (mm)=50"], ["Defect/Position (mm)", "50", "70", "outside the rail"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=0.5"], ["Defect/Width (mm)", "0.5", "Mesh/Finest cell (mm)", "0.63"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Length (mm)=0.4"], ["Defect/Length (mm)", "0.4", "Mesh/Finest cell (mm)"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Reversed=true"], ["Defect/Reversed", "profile", "edges exchanged"]),
     (DIP + ["Defect/Position (mm)=-900"], ["Defect/Position (mm)", "outside the rail"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=80"], ["Defect/Width (mm)", "40 mm", "head"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Lateral position (mm)=30"], ["Lateral position (mm)", "head"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Rounded leading edge (mm)=30"], ["Rounded leading edge (mm)", "at most half"]),
     (["Defect/Shape=profile", "Defect/Profile file=nothing.txt"], ["Defect/Profile file", "nothing.txt", "cannot be read"]),
-    (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "path"]),
+    (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "on the rail from -120 to 60 mm"]),
     (["Rail/Shape=block", "Rail/Inclination=1:40"], ["Rail/Inclination", "full section"]),
+    (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Mesh/Fine half width (mm)=6"],
+     ["Mesh/Fine half width (mm)", "must hold the patch from y = -", "at least"]),
+    (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Wheel/Lateral position (mm)=2"], ["leaves", "Wheel/Lateral position (mm)"]),
     (["Scene/Quasi-static=false", "Scene/Density scale=9"], ["Scene/Density scale", "Quasi-static"]),
     (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
     (["Scene/Density scale=100", "Wheel/Young's modulus (GPa)=70"], ["Scene/Density scale", "inertia error"]),
@@ -134,22 +154,29 @@ with tempfile.TemporaryDirectory() as folder:
         must_fail(" and ".join(settings), base + [a for s in settings for a in ("-s", s)], words)
     must_fail("on 3 ranks", base + ["-s", "Motion/Drive=rocket"], ["Motion/Drive"], ranks=3)
     coarse = ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Mesh/Fine half width (mm)=9"]
+    must_fail("a cell beyond the end of the rail, on 3 ranks", base + coarse + ["-s", "Output/Cells=-20,0,1; 900,0,1"],
+              ["Output/Cells", "entry 2", "outside the rail"], ranks=3)
     must_fail("on 3 ranks, when the mesh is known", base + coarse + ["-s", "Wheel/Mass (kg)=1"], ["Wheel/Mass (kg)"], ranks=3)
 
     # Files with measured profiles.
     for name, text, words in (("gap", "0 0\n1 -.1\n2 -.2\n3 -.2\n30 0\n31 0\n", ["line 5", "gap of 27 mm"]),
                               ("columns", "0 0 1\n1 -.1 1\n2 -.2 1\n3 0 1\n", ["line 1", "two numbers"]),
                               ("backwards", "0 0\n2 -.1\n1 -.2\n3 0\n", ["line 3", "x must increase"]),
+                              ("one point", "x z\n0 0 # begins\n", ["has 1 point;", "at least four"]),
+                              ("comments", "0 0 # begins\n1 -.1 ! falls\n2 .1; # rises\n3 0\n4 0 0\n", ["line 5", "two numbers"]),
                               ("hill", "0 0\n1 .1\n2 .1\n3 0\n", ["below the line between its ends"])):
         with open(os.path.join(folder, name + ".txt"), "w", encoding="utf-8") as stream:
             stream.write(text)
         must_fail(f"profile with {name}", base + ["-s", "Defect/Shape=profile", "-s", "Defect/Profile file=" + stream.name],
                   ["Defect/Profile file", *words])
+    must_fail("a folder as profile", base + ["-s", "Defect/Shape=profile", "-s", "Defect/Profile file=" + folder],
+              ["Defect/Profile file", "is a folder"])
     with open(os.path.join(folder, "narrow.prr"), "w", encoding="utf-8") as stream:
         stream.write("point.begin\n" + "".join(f"{y} {1e-3 * y * y}\n" for y in range(-9, 10)) + "point.end\n")
     must_fail("a measured head that is too narrow", base + ["-s", "Rail/Measured head=" + stream.name],
               ["Rail/Measured head", "-9 mm to 9 mm", "25 mm"])
 
+    must_fail("a folder as scene", [folder, "--output", results], [folder, "is a folder"])
     must_fail("missing file", [os.path.join(folder, "nothing.prm"), "--output", results], ["nothing.prm"])
     must_fail("no scene", ["--output", results], ["no scene"])
     must_fail("unknown option", base + ["--fast"], ["--fast"])

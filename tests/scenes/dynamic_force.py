@@ -40,12 +40,26 @@ def smooth(t):
     return STATIC + 3e3 * math.sin(2 * math.pi * SPEED / 0.6 * t)
 
 
-def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_force_N", "support_1_pad_N")):
-    """history.csv; the last row is a short one, as a run's end gives. `shift`: rows begin later, m."""
+def write_parameters(folder, settings):
+    """parameters.prm, as a run writes it."""
+    arguments = ["--print-parameters"]
+    for setting in settings:
+        arguments += ["-s", setting]
+    printed = subprocess.run(command(program, arguments), env=environment(), check=True, capture_output=True, text=True)
     os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "parameters.prm"), "w", encoding="utf-8") as stream:
+        stream.write(printed.stdout)
+
+
+def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_force_N", "support_1_pad_N"), steps=None, settings=()):
+    """What a run leaves; the last row is a short one, as a run's end gives. `shift`: rows begin later, m. `steps`: rows end with
+    the first group of time steps, of this length (m), behind their place."""
+    write_parameters(folder, settings)
     with open(os.path.join(folder, "history.csv"), "w", encoding="utf-8") as stream:
         stream.write(",".join(("time_s", "position_m") + columns + ("creepage",)) + "\n")
         positions = [-0.3 + shift + ROW * i for i in range(rows)]
+        if steps:
+            positions = [math.ceil((x + 0.3) / steps - 1e-9) * steps - 0.3 for x in positions]
         positions.append(positions[-1] + 0.1 * ROW)
         before = positions[0] - ROW
         for x in positions:
@@ -75,14 +89,16 @@ with tempfile.TemporaryDirectory() as folder:
     if not check.that("a run and its twin: exit code 0", result.returncode == 0):
         print(result.stdout, result.stderr)
         check.exit()
-    check.that("the terminal has window, resolution and a line for each force",
-               all(word in result.stdout for word in ("rectangular window", "resolution", "normal_force_N", "support_1_pad_N")))
+    check.that("the terminal has interpolation, window, resolution and a line for each force",
+               all(word in result.stdout for word in ("interpolated linearly in time", "rectangular window", "resolution",
+                                                      "normal_force_N", "support_1_pad_N")))
 
     with open(path("run/dynamic.json"), encoding="utf-8") as stream:
         figures = json.load(stream)
     with open(path("run/dynamic.csv"), encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     contact, pad = figures["forces"]["normal_force_N"], figures["forces"]["support_1_pad_N"]
+    check.that("dynamic.json says how rows were interpolated", figures["interpolation"] == "linear in time")
     # Means over an interval h differ from the value in its middle by (2 pi f h)^2/24, 1.5e-4 at 1061 Hz; so does what
     # lies between two rows of the twin. The onset is a kink of slope k, of which a mean misses up to k h/8.
     errors = [(abs(float(row["normal_force_N"]) - blow((float(row["position_m"]) - BEGIN) / SPEED)),
@@ -127,8 +143,24 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("a section: ends, mm", 1e3 * section["to_m"], 100, 1e3 * ROW)
     check.relative("a section: Hann's resolution x record", section["resolution_Hz"] * section["record_s"], 2.0, 1e-9)
 
-    write(path("fast-run"), 2000, speed=1.4 * SPEED, defect=True)
-    write(path("fast-twin"), 2000, speed=1.4 * SPEED)
+    # Groups of eight steps of 3.3 and of 3.1 um: rows have nine or ten of the run's, ten or eleven of the twin's. Between rows a
+    # straight line misses up to (2 pi f h)^2/8 of a wave, the mean of a row (2 pi f h)^2/24.
+    write(path("steps-run"), 2000, defect=True, steps=26.4e-6)
+    write(path("steps-twin"), 2000, steps=24.8e-6)
+    result = subprocess.run(command(program, ["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")]),
+                            env=environment(), capture_output=True, text=True)
+    if check.that("a twin with other time steps: exit code 0", result.returncode == 0):
+        with open(path("steps-run/dynamic.csv"), encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        worst = max(abs(float(row["normal_force_N"]) - blow((float(row["position_m"]) - BEGIN) / SPEED)) for row in rows
+                    if abs(float(row["position_m"]) - BEGIN) > 1.2 * ROW)
+        check.below("a twin with other time steps: worst error of a row, kN", worst / 1e3,
+                    sum(a * (2 * math.pi * f * 1.1 * ROW / SPEED) ** 2 / 6 for a, f in zip(AMPLITUDES, FREQUENCIES)) / 1e3)
+    else:
+        print(result.stderr)
+
+    write(path("fast-run"), 2000, speed=1.4 * SPEED, defect=True, settings=["Motion/Speed (km per h)=140"])
+    write(path("fast-twin"), 2000, speed=1.4 * SPEED, settings=["Motion/Speed (km per h)=140.0"])
     drawn = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("run"), path("fast-run"),
                             "--smooth-twin", path("twin"), path("fast-twin"), "--program", program, "--output", path("pictures")],
                            env=environment(), capture_output=True, text=True)
@@ -161,12 +193,14 @@ with tempfile.TemporaryDirectory() as folder:
     fails("too few rows", ["--dynamic-force", path("run"), "--smooth-twin", path("short")], ["11 rows", "at least 16"])
     write(path("fast"), 2000, speed=1.4 * SPEED)
     fails("another speed", ["--dynamic-force", path("run"), "--smooth-twin", path("fast")], ["100 km/h", "140 km/h"])
-    ROW *= 2
-    write(path("coarse"), 1000)
-    ROW /= 2
-    fails("another interval", ["--dynamic-force", path("run"), "--smooth-twin", path("coarse")], ["0.25 mm", "0.5 mm", "History interval"])
     write(path("elsewhere"), 2000, shift=2.0)
-    fails("no common section", ["--dynamic-force", path("run"), "--smooth-twin", path("elsewhere")], ["in common"])
+    fails("a twin elsewhere", ["--dynamic-force", path("run"), "--smooth-twin", path("elsewhere")], ["elsewhere", "does not cover"])
+    write(path("stopped"), 1500)
+    stopped = ["--dynamic-force", path("run"), "--smooth-twin", path("stopped"), "--output", path("stopped-section")]
+    fails("a twin that stopped before the run", stopped, ["stopped", "to 74.", "does not cover", "to 199."])
+    check.that("a section that it covers", subprocess.run(command(program, stopped + ["--to", "70"]), env=environment(),
+                                                          capture_output=True).returncode == 0)
+    fails("a section of a few rows", both + ["--from", "10", "--to", "11"], ["4 intervals", "at least 16"])
     write(path("contact"), 2000, columns=("normal_force_N",))
     fails("a column that the twin has not", ["--dynamic-force", path("run"), "--smooth-twin", path("contact")],
           ["contact/history.csv", "support_1_pad_N"])
@@ -178,5 +212,22 @@ with tempfile.TemporaryDirectory() as folder:
     fails("a row that is cut off", ["--dynamic-force", path("damaged"), "--smooth-twin", path("twin")], ["row 22", "2 entries"])
     fails("an unknown window", both + ["--window", "Hamming"], ["Hamming", "rectangular", "Hann"])
     fails("no position", both + ["--from", "here"], ["--from", "here", "mm"])
+    fails("not a number", both + ["--from", "nan"], ["--from", "nan", "mm"])
+    fails("from behind to", both + ["--from", "100", "--to", "-100"], ["--from 100", "--to -100"])
+
+    # Only the defect, the output and the title may differ.
+    write_parameters(path("run"), ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1", "Defect/Position (mm)=-40",
+                                   "Output/History interval (mm)=0.5", "Scene/Title=a dip", "Motion/Speed (km per h)=140"])
+    write_parameters(path("twin"), ["Motion/Speed (km per h)=140.0"])
+    allowed = subprocess.run(command(program, both), env=environment(), capture_output=True, text=True)
+    if not check.that("defect, output and title differ, and 140 is 140.0", allowed.returncode == 0):
+        print(allowed.stderr)
+    for setting, before in (("Motion/Speed (km per h)=100", "140"), ("Contact/Friction coefficient=0.4", "0.5"),
+                            ("Rail/Hardening=kinematic", "isotropic")):
+        write_parameters(path("twin"), ["Motion/Speed (km per h)=140", "Time stepping/Levels=2", setting])
+        name, _, value = setting.partition("=")
+        fails(f"the twin has another {name}", both, [f"'{name}'", f"'{before}'", f"'{value}'", path("run"), path("twin")])
+    os.remove(path("twin/parameters.prm"))
+    fails("no parameters", both, ["twin/parameters.prm"])
 
 check.exit()

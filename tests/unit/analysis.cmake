@@ -1,2 +1,3 @@
 # What is made of recorded histories.
 tread_add_test(NAME analysis_spectrum SOURCE analysis_spectrum.cc)
+tread_add_test(NAME analysis_rail_stress SOURCE analysis_rail_stress.cc RANKS 1 3)

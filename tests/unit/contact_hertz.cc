@@ -99,7 +99,7 @@ namespace
     result.iterations  = dynamics.relax(2e-5, 20000, nullptr);
     result.approach    = axle[2] - hub.motion.z;
     result.force       = std::abs(contact.total_impulse()[2]);
-    result.touches_rim = contact.touches_rim();
+    result.touches_rim = contact.contact_at_rim().has_value();
     result.n_cells     = mesh.n_global_cells;
     fit(contact.active_nodes(), result);
     return result;

@@ -39,10 +39,13 @@ namespace tread
     std::vector<DynamicForce> forces;
   };
 
-  /// The forces of a run minus those of its smooth twin with the wheel at the same position: what is left of
-  /// the mesh, the sleepers' spacing and the start goes with the twin.
+  /// The forces of a run minus those of its smooth twin at the same time: what is left of the mesh, the
+  /// sleepers' spacing and the start goes with the twin. Rows of the two lie at slightly different times
+  /// where their time steps differ, so the twin is interpolated linearly in time, and so is the run between
+  /// its own rows, which are not quite equally spaced.
   /// @param from, to section of the position, m
-  /// @throws std::invalid_argument with one line, if the two were not recorded alike
+  /// @throws std::invalid_argument with one line, if the twin rolled at another speed or does not cover the
+  /// run
   DynamicForces dynamic_forces(const ForceHistory &run,
                                const ForceHistory &smooth_twin,
                                const Window        window,

@@ -31,6 +31,12 @@ namespace tread
       return owned.empty() || owned[node];
     }
 
+    /// The nodes of this rank that have a copy elsewhere.
+    const std::vector<unsigned int> &nodes() const
+    {
+      return shared;
+    }
+
   private:
     struct Neighbour
     {

@@ -7,6 +7,7 @@
 #include <tread/contact/mortar.h>
 
 #include <memory>
+#include <optional>
 
 namespace tread
 {
@@ -29,8 +30,8 @@ namespace tread
     bool   adhesion;
   };
 
-  /// Work of one step's impulses, J: lost by friction, and by normal impulses (touching down, or
-  /// gained when they act on opening surfaces).
+  /// Work of one step's impulses, J: lost by the sliding of slipping pairs, and otherwise: by touching down, and
+  /// lost or gained as pairs whose coupling is older than their sliding turn with the surfaces.
   struct ContactWork
   {
     double friction = 0., normal = 0.;
@@ -98,13 +99,11 @@ namespace tread
       return unconverged_steps;
     }
 
-    /// Whether contact has reached the rim of the finely meshed surface.
-    bool touches_rim() const;
+    /// Where a node at the rim of the surface of either body was loaded in the last step (m): beyond it
+    /// contact would be missed.
+    std::optional<Row> contact_at_rim() const;
 
     const ContactSurfaces surfaces;
-
-    /// Impulses by surface node (warm start); public for checkpoints.
-    std::vector<Row> impulse_of_node;
 
   private:
     /// Whether an impulse is below the bound of friction.
@@ -116,6 +115,8 @@ namespace tread
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Row>          &x);
+    /// Room for what each step finds, by the pairs and involved nodes of now.
+    void make_room();
 
     MPI_Comm                           comm;
     ContactParameters                  parameters;
@@ -123,14 +124,16 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
-    ContactProblem                         problem;
-    std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
-    std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-    std::vector<Row>                       position, velocity, velocity_before; ///< by compact number
-    std::vector<Row>                       nodal_impulse;             ///< of the last step, by compact number
-    std::vector<Row>                       impulse, previous_impulse; ///< by constraint
-    std::vector<double>                    gap_rate;
-    std::vector<double>                    slid;        ///< since the last refresh, m
+    std::vector<Row>                          impulse_of_node; ///< by surface node: the warm start
+    ContactProblem                            problem;
+    std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
+    std::vector<std::vector<unsigned int>>    involved_of_rank; ///< compact numbers
+    std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
+    std::vector<Row>                          position, velocity, velocity_before; ///< by compact number
+    std::vector<Row>                          nodal_impulse; ///< of the last step, by compact number
+    std::vector<Row>                          impulse, previous_impulse; ///< by constraint
+    std::vector<double>                       gap_rate;
+    std::vector<double>                       slid;     ///< since the last refresh, m
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
@@ -141,6 +144,8 @@ namespace tread
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
     std::uint64_t             unconverged_steps = 0;
+
+    friend class Checkpoint;
   };
 } // namespace tread
 

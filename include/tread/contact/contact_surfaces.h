@@ -12,15 +12,15 @@ namespace tread
   /// The contact faces of all bodies, the same on every rank and numbered by position, so that
   /// what is computed from them does not depend on how the cells are distributed.
   ///
-  /// Faces with a hanging node are left out: they rim the fine zone, and contact that reaches
-  /// them is an error of the scene.
+  /// Cells may change their size along the path. Faces with a node that hangs on an edge along it are left
+  /// out: they rim the fine zone, and contact that reaches them is an error of the scene.
   class ContactSurfaces
   {
   public:
     struct Node
     {
       unsigned int body;
-      bool         at_rim;    ///< belongs to a face that was left out
+      bool         at_rim;    ///< at the lateral border of the faces, or of a face that was left out
       int          owner;     ///< rank
       int          local;     ///< node number on this rank, -1 if it has no copy
       Row          reference; ///< position, m
@@ -34,15 +34,23 @@ namespace tread
 
     explicit ContactSurfaces(const Mesh &mesh);
 
-    std::vector<Node> nodes;
-    std::vector<Face> faces;
+    /// Lies in the middle of its parents, two of a larger face, and follows them.
+    struct HangingNode
+    {
+      unsigned int                node;
+      std::array<unsigned int, 2> parents;
+    };
+
+    MPI_Comm                 comm;
+    std::vector<Node>        nodes;
+    std::vector<Face>        faces;
+    std::vector<HangingNode> hanging_nodes;
 
     /// Copy the rows of the surface nodes from their owners to every rank. Collective.
     /// @param field nodal field of this rank; @param rows one a surface node.
     void replicate(const Row *field, std::vector<Row> &rows) const;
 
   private:
-    MPI_Comm                               comm;
     std::vector<std::vector<unsigned int>> nodes_of_rank;
   };
 } // namespace tread

@@ -122,7 +122,11 @@ namespace tread
     }
 
     /// Cell updates in 2^max_level steps without levels over those with them, of all ranks. Collective.
-    double ideal_gain_of_levels() const;
+    double ideal_gain_of_levels(const unsigned int largest_level) const;
+    double ideal_gain_of_levels() const
+    {
+      return ideal_gain_of_levels(max_level());
+    }
 
     /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
     /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with
@@ -152,9 +156,11 @@ namespace tread
     /// Bytes that the nodes of this rank hold here.
     std::size_t memory_consumption() const
     {
-      std::size_t bytes = x.size() * (4 * sizeof(Row) + 3 * sizeof(double) + 3 + sizeof(level_of_node[0]));
+      std::size_t bytes = x.size() * (4 * sizeof(Row) + 4 * sizeof(double) + 3 + sizeof(level_of_node[0]));
       for (const auto &shares : slow_shares)
         bytes += shares.size() * sizeof(SlowShare);
+      for (const HangingNodesOfLevel &of_level : hanging)
+        bytes += (of_level.loaded.size() + of_level.placed.size()) * sizeof(Mesh::HangingNode);
       return bytes;
     }
 
@@ -174,13 +180,17 @@ namespace tread
   private:
     /// Time step, inverse masses and all that follows from positions and velocities.
     void                set_inertia();
+    void                set_damped_positions();
     std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
     double              highest_frequency(const unsigned int first_level) const;
     void                set_node_levels();
-    mutable double      critical_step = 0.;
-    void                add_hub_sums(std::vector<double> &sums) const;
-    void                hold_guided_nodes(NodalField &field) const;
-    void                move_hub_nodes();
+    unsigned int        level_due() const; ///< the highest level whose cells are evaluated in this step
+    /// As far as the cells that are due now, contact or (when nodes are synchronised) others need them.
+    void           place_hanging_nodes();
+    mutable double critical_step = 0.;
+    void           add_hub_sums(std::vector<double> &sums) const;
+    void           hold_guided_nodes(NodalField &field) const;
+    void           move_hub_nodes();
     /// Of velocities half a step back, and what the cells' forces add to it in half a step.
     double       kinetic_energy() const;
     double       body_potential() const;
@@ -200,17 +210,39 @@ namespace tread
       Row          steady, before; ///< N
     };
 
-    /// Runs [begin, end) of nodes.
-    using Runs = std::vector<std::pair<unsigned int, unsigned int>>;
+    /// Hanging nodes by the levels of cells around them on this rank.
+    struct HangingNodesOfLevel
+    {
+      std::vector<Mesh::HangingNode> loaded; ///< by cells of this level
+      std::vector<Mesh::HangingNode> placed; ///< needed at this level, and at no lower one
+    };
+
+    struct WeightOfShared
+    {
+      unsigned int node, level;
+      double       force; ///< N, times 2^level
+    };
+
+    /// Nodes [begin, end) of one level, all on the wheel or none.
+    struct Run
+    {
+      unsigned int begin, end;
+      bool         on_wheel;
+    };
+    using Runs = std::vector<Run>;
 
     DynamicsParameters                  parameters;
     std::vector<Runs>                   nodes_of_level;
     std::vector<unsigned int>           level_of_node;
+    std::vector<HangingNodesOfLevel>    hanging; ///< by level
+    std::vector<Mesh::HangingNode>      hanging_at_contact;
     std::vector<std::vector<SlowShare>> slow_shares; ///< by level
     bool                                slow_shares_known = false;
     NodalField                          force, x_damped;
     std::vector<double> true_mass, inverse_mass, inertia; ///< by node; inertia: scaled, 0 where prescribed
-    std::vector<char>   fixed, carried, on_wheel;
+    std::vector<WeightOfShared> weight_of_shared;
+    std::vector<double>         weight; ///< N, times 2^level: what forces begin with; 0 where shared
+    std::vector<char>           fixed, carried, on_wheel;
     std::vector<std::pair<unsigned int, unsigned int>> guided; ///< node, direction
     std::vector<unsigned int>                          hub_nodes;
     std::vector<Row>                                   hub_reference; ///< relative to the axle

@@ -2,6 +2,7 @@
 #ifndef tread_mesh_fine_zone_h
 #define tread_mesh_fine_zone_h
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -22,11 +23,15 @@ namespace tread
     double depth            = 1.5e-3; ///< the box is 0 <= depth <= this (m)
     double cells_per_level  = 2; ///< cells of each size 2h, 4h, ... that lie between the box and larger ones
 
-    /// Between these the cells of the box are cubes; elsewhere they are up to path_stretch times as long
-    /// along the path, with the same cross-section, so that no hanging node lies on the path (m).
-    double cubes_begin  = -std::numeric_limits<double>::infinity();
-    double cubes_end    = std::numeric_limits<double>::infinity();
-    double path_stretch = 1.;
+    /// Between these the cells of the box are cubes of the finest size (m). Elsewhere they are coarser by
+    /// path_level levels of the octree, and up to path_stretch times as long along the path as they are wide.
+    double       cubes_begin  = -std::numeric_limits<double>::infinity();
+    double       cubes_end    = std::numeric_limits<double>::infinity();
+    double       path_stretch = 1.;
+    unsigned int path_level   = 0;
+
+    /// The cubes that lie in the box along the path; where none do, its middle twice (m).
+    std::array<double, 2> cubes() const;
 
     /// How far the box reaches from the middle of the body (m).
     double reach() const
@@ -45,7 +50,7 @@ namespace tread
     /// It stays below 2h + r/n: n is the inverse slope of the mesh size.
     double wanted_size(double distance) const;
 
-    /// wanted_size(distance(x, y, depth)).
+    /// wanted_size(distance(x, y, depth)), of the box with and without cubes: the smaller.
     double wanted_size(double x, double y, double depth) const;
   };
 

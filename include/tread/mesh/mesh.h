@@ -36,12 +36,13 @@ namespace tread
       Boundary                    boundary;
     };
 
-    /// A node whose position follows from others: x = sum weight_i x_i.
+    /// A node that lies at the mean of its parents: the four nodes of a larger face around it or the two of a
+    /// larger edge, each of these twice.
     struct HangingNode
     {
-      unsigned int              node;
-      std::vector<unsigned int> parents;
-      std::vector<double>       weights;
+      static constexpr double     weight = 0.25; ///< of each parent
+      unsigned int                node;
+      std::array<unsigned int, 4> parents;
     };
 
     MPI_Comm                      comm;
@@ -71,7 +72,8 @@ namespace tread
     std::size_t memory_consumption() const
     {
       return cells.size() * sizeof(Cell) +
-             nodes.size() * (sizeof(nodes[0]) + sizeof(global_ids[0]) + sizeof(node_bodies[0]) + 1);
+             nodes.size() * (sizeof(nodes[0]) + sizeof(global_ids[0]) + sizeof(node_bodies[0]) + 1) +
+             hanging_nodes.size() * sizeof(HangingNode);
     }
 
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
@@ -82,10 +84,16 @@ namespace tread
     /// Parents receive the forces (or masses) of their hanging nodes.
     void condense_hanging_nodes(Row *field) const
     {
-      for (const HangingNode &h : hanging_nodes)
+      condense(hanging_nodes, field);
+    }
+
+    static void condense(const std::vector<HangingNode> &nodes, Row *field)
+    {
+      for (const HangingNode &h : nodes)
         {
-          for (unsigned int i = 0; i < h.parents.size(); ++i)
-            field[h.parents[i]] += h.weights[i] * field[h.node];
+          const Row share = HangingNode::weight * field[h.node];
+          for (const unsigned int parent : h.parents)
+            field[parent] += share;
           field[h.node] = Row{};
         }
     }
@@ -93,13 +101,14 @@ namespace tread
     /// Hanging nodes follow their parents.
     void distribute_hanging_nodes(Row *field) const
     {
-      for (const HangingNode &h : hanging_nodes)
-        {
-          Row value{};
-          for (unsigned int i = 0; i < h.parents.size(); ++i)
-            value += h.weights[i] * field[h.parents[i]];
-          field[h.node] = value;
-        }
+      distribute(hanging_nodes, field);
+    }
+
+    static void distribute(const std::vector<HangingNode> &nodes, Row *field)
+    {
+      for (const HangingNode &h : nodes)
+        field[h.node] = HangingNode::weight * ((field[h.parents[0]] + field[h.parents[1]]) +
+                                               (field[h.parents[2]] + field[h.parents[3]]));
     }
   };
 } // namespace tread

@@ -8,16 +8,18 @@
 
 namespace tread
 {
+  class ExplicitDynamics;
   class Simulation;
 
   /// The whole state of a run in one of two files, written in turn; checkpoint.last names the one that
-  /// is complete. Nodes are stored by position, so a run may resume on any number of ranks.
+  /// is complete. Nodes are stored by position, so a run may resume on any number of ranks. On as many as
+  /// before it goes on to the last bit as if it had never stopped.
   class Checkpoint
   {
   public:
     Checkpoint(const RunFolder &folder, const MPI_Comm comm);
 
-    /// Collective. The contact's coupling is integrated anew, as it will be when resuming: both go on alike.
+    /// Collective.
     void write(Simulation &simulation);
 
     /// Collective. @throws SceneError if there is none, or if it belongs to other parameters.
@@ -27,6 +29,9 @@ namespace tread
     template <typename Archive>
     static void        state(Archive &archive, Simulation &simulation);
     static std::string fingerprint(const Simulation &simulation);
+    /// What this rank sums or keeps for its own cells alone: a part of the whole, in bytes.
+    static std::string own_part(const ExplicitDynamics &dynamics);
+    void               restore_parts(ExplicitDynamics &dynamics, const std::string &parts) const;
 
     const RunFolder &folder;
     MPI_Comm         comm;

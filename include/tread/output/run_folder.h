@@ -3,6 +3,7 @@
 #define tread_output_run_folder_h
 
 #include <tread/analysis/contact_patch.h>
+#include <tread/analysis/rail_stress.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <mpi.h>
@@ -19,11 +20,12 @@ namespace tread
   {
     double pad_force, ballast_force; ///< compression at the end of the interval
     double seat_pressure;            ///< largest of the pad's points
+    double least_seat_pressure;      ///< smallest of them; negative where the pad pulls
     double rail_over_support;        ///< displacement of the rail's foot, upwards
     double rail_at_mid_span;         ///< the same half a spacing ahead
   };
 
-  /// One row of history.csv, SI units.
+  /// One row of history.csv and of cells.csv, SI units.
   struct HistoryRow
   {
     double                     time, position;
@@ -32,7 +34,8 @@ namespace tread
     PatchMeasures              patch;
     EnergyLedger               energy;
     double                     axle_box_acceleration; ///< vertical, mean over the interval
-    std::vector<SupportRecord> supports;              ///< as many as open_history was told of
+    std::vector<SupportRecord> supports;              ///< as many as open_histories was told of
+    std::vector<CellRecord>    cells;                 ///< likewise
   };
 
   /// What a wheel left behind it on the rail, SI units: means over the nodes in the middle of the rolled
@@ -90,9 +93,15 @@ namespace tread
     /// passages.csv: one row a passage of a wheel so far.
     void write_passages(const std::vector<Passage> &passages) const;
 
-    /// Begin history.csv anew, or (when resuming) go on after the last row not later than time.
-    /// @param supports whose forces the rows have, by number.
-    void open_history(const bool resume, const double time, const std::vector<int> &supports);
+    /// strip.csv: one row a column of cells under the path.
+    void write_strip(const std::vector<StripColumn> &columns) const;
+
+    /// Begin history.csv, and cells.csv if there are cells, anew, or (when resuming) go on after the last row
+    /// not later than time. @param supports whose forces the rows have, by number.
+    void open_histories(const bool              resume,
+                        const double            time,
+                        const std::vector<int> &supports,
+                        const std::size_t       n_cells);
     void append(const HistoryRow &row);
 
     /// Bodies as they are now: displacement without the hub's rigid motion, velocity, stress. Collective.
@@ -105,6 +114,13 @@ namespace tread
     void write_surface(const std::vector<PatchNode> &elements, const double element_size);
 
   private:
+    /// On rank 0: one of the tables that grow row by row.
+    void open_table(std::ofstream     &table,
+                    const std::string &name,
+                    const std::string &header,
+                    const bool         resume,
+                    const double       time) const;
+
     /// On rank 0. @returns what is wrong, in one line; empty if the folder is this run's.
     std::string take_lock();
 
@@ -118,7 +134,7 @@ namespace tread
     MPI_Comm                                    comm;
     bool                                        writes_tables;
     int                                         lock = -1; ///< file descriptor
-    std::ofstream                               history;
+    std::ofstream                               history, cell_history;
     std::vector<std::pair<double, std::string>> volume_files, surface_files;
   };
 } // namespace tread

@@ -75,9 +75,11 @@ namespace tread
     std::array<double, 2> energies(const Row *x, const PlasticHistory &history) const;
 
     /// Write the Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) of the cells at x into a list of all cells.
+    /// @param wanted by cell: batches without any are left out; empty: all.
     void cauchy_stress(const Row                          *x,
                        const PlasticHistory               &history,
-                       std::vector<std::array<double, 6>> &stress) const;
+                       std::vector<std::array<double, 6>> &stress,
+                       const std::vector<char>            &wanted) const;
 
     /// Equivalent plastic strain by cell of the mesh, 0 outside the zones.
     std::vector<double> equivalent_plastic_strain(const PlasticHistory &history) const;

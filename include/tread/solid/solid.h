@@ -100,8 +100,11 @@ namespace tread
       return strain_energy(x, virgin_history);
     }
 
-    /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x.
-    std::vector<std::array<double, 6>> cauchy_stress(const Row *x, const PlasticHistory &history) const;
+    /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x. @param wanted
+    /// by cell: where none of a batch is, stress is left 0; empty: all.
+    std::vector<std::array<double, 6>> cauchy_stress(const Row               *x,
+                                                     const PlasticHistory    &history,
+                                                     const std::vector<char> &wanted = {}) const;
     std::vector<std::array<double, 6>> cauchy_stress(const Row *x) const
     {
       return cauchy_stress(x, virgin_history);
@@ -133,6 +136,9 @@ namespace tread
     {
       return levels_of_cells;
     }
+
+    /// What cell_levels() would say of a cell with another largest level.
+    unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
 
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
     /// Computed anew: nothing of it is kept.
@@ -197,6 +203,7 @@ namespace tread
     std::vector<Range>                             ranges;
     std::vector<double>                            frequencies;
     std::vector<unsigned int>                      levels_of_cells;
+    double                                         highest_cell_frequency = 0.; ///< of all ranks, rad/s
     std::size_t                                    n_cells;
   };
 } // namespace tread

@@ -104,8 +104,8 @@ namespace tread
 
     /// Compression of a layer of a support in the last step, N.
     double force(const unsigned int support, const Layer layer) const;
-    /// Largest pressure that one of the pad's points stands for, Pa.
-    double largest_pad_pressure(const unsigned int support) const;
+    /// Smallest and largest pressure that one of the pad's points stands for, Pa; negative where it pulls.
+    std::pair<double, double> pad_pressures(const unsigned int support) const;
     /// Mean displacement of the rail's foot over a support, upwards, m.
     double rail_displacement(const unsigned int support) const;
     double probe_displacement(const unsigned int probe) const;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_analysis_rail_stress_h
+#define tread_analysis_rail_stress_h
+
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <functional>
+#include <vector>
+
+namespace tread
+{
+  /// Which cells of a body lie under the path of the wheel. Lengths in m.
+  struct StripExtent
+  {
+    double x_begin, x_end, y_middle, half_width, depth;
+    /// Below the surface, of a point in the reference position.
+    std::function<double(const dealii::Point<3> &)> depth_of;
+  };
+
+  /// The largest von Mises stress that a cell has seen, and when: time (s) and x of the wheel (m).
+  struct StressPeak
+  {
+    double stress = 0., time = 0., wheel_x = 0.; // Pa, s, m
+  };
+
+  /// The same of a cell, wherever it is stored: for checkpoints.
+  struct StoredPeak
+  {
+    std::array<long long, 4> key; ///< body and centre in the reference position, nm
+    StressPeak               peak;
+  };
+
+  /// What the cells between two cross-sections of the strip have seen, SI units.
+  struct StripColumn
+  {
+    double     x;                         ///< its middle, in the reference position
+    StressPeak largest, at_surface;       ///< of all its cells, of those at the surface
+    double     y, depth, y_at_surface;    ///< centres of these cells
+    double     equivalent_plastic_strain; ///< largest, now
+  };
+
+  /// The cells of a rail under the path of the wheel: the largest von Mises stress that each has seen at any
+  /// of the instants at which it was sampled.
+  class StressStrip
+  {
+  public:
+    StressStrip(const Mesh &mesh, const unsigned int body, const StripExtent &extent);
+
+    /// Only cells of the strip are evaluated. Nodes must be synchronised.
+    void sample(const ExplicitDynamics &dynamics, const double wheel_x);
+
+    /// One for each cell of the surface along the path, from behind; on rank 0. Collective.
+    std::vector<StripColumn> columns(const ExplicitDynamics &dynamics) const;
+
+    /// Of this rank's cells, and back. Cells that are not in the list keep theirs.
+    std::vector<StoredPeak> stored() const;
+    void                    restore(const std::vector<StoredPeak> &list);
+
+  private:
+    struct Member
+    {
+      unsigned int             cell;
+      std::array<long long, 4> key;
+      double                   x_begin, x_end, y, depth;
+      bool                     at_surface;
+      StressPeak               peak;
+    };
+
+    MPI_Comm            comm;
+    std::vector<Member> members; ///< cells of this rank
+    std::vector<char>   wanted;  ///< by cell of the mesh
+  };
+
+  /// What a cell bears at one instant.
+  struct CellRecord
+  {
+    double von_mises, equivalent_plastic_strain; // Pa, share
+  };
+
+  /// Cells of a body at chosen places, known to all ranks.
+  class CellProbes
+  {
+  public:
+    /// @param points in the reference position, m. @throws std::out_of_range with the number of the first
+    /// that lies outside the body, on all ranks. Collective.
+    CellProbes(const Mesh &mesh, const unsigned int body, const std::vector<dealii::Point<3>> &points);
+
+    /// One a point. Nodes must be synchronised. Collective.
+    std::vector<CellRecord> record(const ExplicitDynamics &dynamics) const;
+
+    const std::vector<dealii::Point<3>> &centres() const
+    {
+      return centres_of_cells;
+    }
+
+  private:
+    static constexpr unsigned int elsewhere = -1;
+
+    MPI_Comm                      comm;
+    std::vector<unsigned int>     cells; ///< by point; elsewhere: on another rank
+    std::vector<dealii::Point<3>> centres_of_cells;
+    std::vector<char>             wanted;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/rail_stress.h>
+#include <tread/solid/hexahedron.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/array.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace tread
+{
+  namespace
+  {
+    dealii::Point<3> centre_of(const std::array<dealii::Point<3>, 8> &corners)
+    {
+      dealii::Point<3> centre;
+      for (const dealii::Point<3> &p : corners)
+        centre += p / 8.;
+      return centre;
+    }
+
+    std::array<long long, 4> key_of(const unsigned int body, const dealii::Point<3> &p)
+    {
+      return {{body, std::llround(1e9 * p[0]), std::llround(1e9 * p[1]), std::llround(1e9 * p[2])}};
+    }
+
+    /// Largest local coordinate of a point in a cell, by the linear part of its map: 1 on its faces.
+    double local_distance(const std::array<dealii::Point<3>, 8> &corners, const dealii::Point<3> &p)
+    {
+      dealii::Tensor<2, 3> jacobian;
+      for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            jacobian[i][j] += corners[a][i] * linear_pattern(j, a) / 8.;
+      const dealii::Tensor<1, 3> local = invert(jacobian) * (p - centre_of(corners));
+      return std::max({std::abs(local[0]), std::abs(local[1]), std::abs(local[2])});
+    }
+  } // namespace
+
+
+  StressStrip::StressStrip(const Mesh &mesh, const unsigned int body, const StripExtent &extent)
+    : comm(mesh.comm)
+    , wanted(mesh.cells.size(), false)
+  {
+    std::vector<char> at_surface(mesh.cells.size(), false);
+    for (const Mesh::Face &face : mesh.faces)
+      if (face.boundary == Boundary::contact)
+        at_surface[face.cell] = true;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.cells[c].body == body)
+        {
+          const auto             corners = mesh.corners(c);
+          const dealii::Point<3> centre  = centre_of(corners);
+          const double           depth   = extent.depth_of(centre);
+          if (centre[0] < extent.x_begin || centre[0] > extent.x_end ||
+              std::abs(centre[1] - extent.y_middle) > extent.half_width || depth > extent.depth)
+            continue;
+          Member member{c,     key_of(body, centre), centre[0],   centre[0], centre[1],
+                        depth, at_surface[c] != 0,   StressPeak()};
+          for (const dealii::Point<3> &p : corners)
+            {
+              member.x_begin = std::min(member.x_begin, p[0]);
+              member.x_end   = std::max(member.x_end, p[0]);
+            }
+          members.push_back(member);
+          wanted[c] = true;
+        }
+  }
+
+
+  void StressStrip::sample(const ExplicitDynamics &dynamics, const double wheel_x)
+  {
+    const auto stress = dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history, wanted);
+    for (Member &member : members)
+      if (const double value = von_mises(stress[member.cell]); value > member.peak.stress)
+        member.peak = {value, dynamics.time, wheel_x};
+  }
+
+
+  std::vector<StripColumn> StressStrip::columns(const ExplicitDynamics &dynamics) const
+  {
+    const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+    std::vector<std::array<double, 9>> own;
+    for (const Member &m : members)
+      own.push_back({{m.x_begin, m.x_end, m.y, m.depth, m.at_surface ? 1. : 0., m.peak.stress, m.peak.time,
+                      m.peak.wheel_x, strain.empty() ? 0. : strain[m.cell]}});
+    std::vector<std::array<double, 9>> all;
+    for (const auto &list : dealii::Utilities::MPI::gather(comm, own, 0))
+      all.insert(all.end(), list.begin(), list.end());
+    std::sort(all.begin(), all.end()); // equal peaks: the same cell on any number of ranks
+
+    std::map<long long, StripColumn> by_place;
+    for (const auto &cell : all)
+      if (cell[4] > 0.)
+        {
+          const double x                    = 0.5 * (cell[0] + cell[1]);
+          by_place[std::llround(1e9 * x)].x = x;
+        }
+    std::vector<StripColumn> columns;
+    for (const auto &[place, column] : by_place)
+      columns.push_back(column);
+    for (const auto &[x_begin, x_end, y, depth, at_surface, stress, time, wheel_x, plastic_strain] : all)
+      {
+        const auto first = std::lower_bound(columns.begin(), columns.end(), x_begin,
+                                            [](const StripColumn &c, const double x) { return c.x < x; });
+        for (auto column = first; column != columns.end() && column->x <= x_end; ++column)
+          {
+            const StressPeak peak{stress, time, wheel_x};
+            if (stress > column->largest.stress)
+              {
+                column->largest = peak;
+                column->y       = y;
+                column->depth   = depth;
+              }
+            if (at_surface > 0. && stress > column->at_surface.stress)
+              {
+                column->at_surface   = peak;
+                column->y_at_surface = y;
+              }
+            column->equivalent_plastic_strain = std::max(column->equivalent_plastic_strain, plastic_strain);
+          }
+      }
+    return columns;
+  }
+
+
+  std::vector<StoredPeak> StressStrip::stored() const
+  {
+    std::vector<StoredPeak> list;
+    for (const Member &member : members)
+      list.push_back({member.key, member.peak});
+    return list;
+  }
+
+
+  void StressStrip::restore(const std::vector<StoredPeak> &list)
+  {
+    std::map<std::array<long long, 4>, StressPeak> by_key;
+    for (const StoredPeak &entry : list)
+      by_key[entry.key] = entry.peak;
+    for (Member &member : members)
+      if (const auto entry = by_key.find(member.key); entry != by_key.end())
+        member.peak = entry->second;
+  }
+
+
+  CellProbes::CellProbes(const Mesh                          &mesh,
+                         const unsigned int                   body,
+                         const std::vector<dealii::Point<3>> &points)
+    : comm(mesh.comm)
+    , wanted(mesh.cells.size(), false)
+  {
+    // Distance in units of 1e-6, then the name of the cell: of two that share a face with a point on it all
+    // ranks take the same.
+    using Candidate                   = std::array<long long, 5>;
+    constexpr double          outside = 1.01;
+    std::vector<Candidate>    own(points.size());
+    std::vector<unsigned int> own_cells(points.size(), elsewhere);
+    for (Candidate &candidate : own)
+      candidate.fill(std::numeric_limits<long long>::max());
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.cells[c].body == body)
+        {
+          const auto             corners = mesh.corners(c);
+          const dealii::Point<3> centre  = centre_of(corners);
+          double                 reach   = 0.;
+          for (const dealii::Point<3> &p : corners)
+            reach = std::max(reach, p.distance(centre));
+          for (unsigned int i = 0; i < points.size(); ++i)
+            if (points[i].distance(centre) < 1.1 * reach)
+              {
+                const auto      key = key_of(body, centre);
+                const Candidate candidate{std::llround(1e6 * local_distance(corners, points[i])), key[0],
+                                          key[1], key[2], key[3]};
+                if (candidate < own[i])
+                  {
+                    own[i]       = candidate;
+                    own_cells[i] = c;
+                  }
+              }
+        }
+    const auto all = dealii::Utilities::MPI::all_gather(comm, own);
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        Candidate best = all[0][i];
+        for (const auto &list : all)
+          best = std::min(best, list[i]);
+        if (best[0] > 1e6 * outside)
+          throw std::out_of_range(std::to_string(i + 1));
+        const bool here = best == own[i];
+        cells.push_back(here ? own_cells[i] : elsewhere);
+        if (here)
+          wanted[own_cells[i]] = true;
+        centres_of_cells.emplace_back(1e-9 * best[2], 1e-9 * best[3], 1e-9 * best[4]);
+      }
+  }
+
+
+  std::vector<CellRecord> CellProbes::record(const ExplicitDynamics &dynamics) const
+  {
+    const auto          stress = dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history, wanted);
+    const auto          strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+    std::vector<double> values(2 * cells.size(), 0.);
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      if (cells[i] != elsewhere)
+        {
+          values[2 * i]     = von_mises(stress[cells[i]]);
+          values[2 * i + 1] = strain.empty() ? 0. : strain[cells[i]];
+        }
+    dealii::Utilities::MPI::sum(values, comm, values);
+    std::vector<CellRecord> records;
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      records.push_back({values[2 * i], values[2 * i + 1]});
+    return records;
+  }
+} // namespace tread

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    /// What a deal.II exception says, on one line.
+    std::string one_line(const dealii::ExceptionBase &error)
+    {
+      std::ostringstream text;
+      error.print_info(text);
+      std::istringstream words(text.str());
+      std::string        word, line;
+      while (words >> word)
+        line += (line.empty() ? "" : " ") + word;
+      return line;
+    }
+
+    std::size_t edit_distance(const std::string &a, const std::string &b)
+    {
+      std::vector<std::size_t> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (std::size_t i = 1; i <= a.size(); ++i)
+        {
+          std::size_t diagonal = row[0]++;
+          for (std::size_t j = 1; j <= b.size(); ++j)
+            {
+              const std::size_t above = row[j];
+              row[j]                  = std::min(
+                                 {row[j - 1] + 1, above + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))});
+              diagonal = above;
+            }
+        }
+      return row.back();
+    }
+
+    struct Entry
+    {
+      std::string path, section, name, value, pattern;
+    };
+
+    /// All declared entries, by walking the handler's own description.
+    void list_entries(const boost::property_tree::ptree &tree,
+                      const std::string                 &section,
+                      std::vector<Entry>                &entries)
+    {
+      for (const auto &[mangled, child] : tree)
+        {
+          std::string name;
+          for (std::size_t i = 0; i < mangled.size(); ++i) // deal.II writes special characters as _hex
+            if (mangled[i] == '_' && i + 2 < mangled.size())
+              {
+                name += static_cast<char>(std::stoi(mangled.substr(i + 1, 2), nullptr, 16));
+                i += 2;
+              }
+            else
+              name += mangled[i];
+          if (child.get_optional<std::string>("value"))
+            entries.push_back({section.empty() ? name : section + "/" + name, section, name,
+                               child.get<std::string>("value"),
+                               child.get<std::string>("pattern_description", "")});
+          else if (!child.empty())
+            list_entries(child, section.empty() ? name : section + "/" + name, entries);
+        }
+    }
+
+    std::vector<Entry> all_entries(const dealii::ParameterHandler &handler)
+    {
+      std::ostringstream json;
+      handler.print_parameters(json, dealii::ParameterHandler::JSON |
+                                       dealii::ParameterHandler::KeepDeclarationOrder);
+      boost::property_tree::ptree tree;
+      std::istringstream          in(json.str());
+      boost::property_tree::read_json(in, tree);
+      std::vector<Entry> entries;
+      list_entries(tree, "", entries);
+      return entries;
+    }
+
+    std::string did_you_mean(const dealii::ParameterHandler &handler, const std::string &path)
+    {
+      const std::vector<Entry> entries = all_entries(handler);
+      const auto               name_of = [](const std::string &p) {
+        return p.substr(p.rfind('/') + 1);
+      };
+      std::string best;
+      std::size_t least = std::numeric_limits<std::size_t>::max();
+      for (const Entry &entry : entries)
+        {
+          // The right name in another section is the likeliest slip.
+          const std::size_t distance =
+            std::min(edit_distance(path, entry.path), edit_distance(name_of(path), entry.name) + 1);
+          if (distance < least)
+            {
+              least = distance;
+              best  = entry.path;
+            }
+        }
+      return "did you mean '" + best + "'? (tread --print-parameters lists all)";
+    }
+  } // namespace
+
+
+  void Scene::parse(const std::string &file)
+  {
+    if (std::filesystem::is_directory(file))
+      throw SceneError("parameter file '" + file + "' is a folder");
+    if (!std::ifstream(file))
+      throw SceneError("cannot read parameter file '" + file + "'");
+    try
+      {
+        handler.parse_input(file, "", false, true);
+      }
+    catch (const dealii::ParameterHandler::ExcEntryUndeclared &error)
+      {
+        throw SceneError(file + ": " + one_line(error));
+      }
+    catch (const dealii::ExceptionBase &error)
+      {
+        std::string text = one_line(error);
+        throw SceneError(text.find(file) == std::string::npos ? file + ": " + text : text);
+      }
+  }
+
+
+  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
+  {
+    if (!file.empty())
+      parse(file);
+    for (const std::string &setting : settings)
+      set(setting);
+    folder = std::filesystem::path(file).parent_path();
+    make_shapes();
+    check();
+  }
+
+
+  void Scene::set(const std::string &setting)
+  {
+    const auto strip = [](std::string text) {
+      text.erase(0, text.find_first_not_of(" \t"));
+      text.erase(text.find_last_not_of(" \t") + 1);
+      return text;
+    };
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos)
+      throw SceneError("-s \"" + setting + "\": expected Section/Name=value");
+    const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
+    for (const Entry &entry : all_entries(handler))
+      if (entry.path == path)
+        {
+          handler.enter_subsection(entry.section);
+          try
+            {
+              handler.set(entry.name, value);
+            }
+          catch (const dealii::ExceptionBase &)
+            {
+              handler.leave_subsection();
+              throw SceneError("'" + path + "' cannot be '" + value + "'; allowed: " + entry.pattern);
+            }
+          handler.leave_subsection();
+          return;
+        }
+    throw SceneError("no parameter '" + path + "'; " + did_you_mean(handler, path));
+  }
+
+
+  std::vector<Scene::Parameter> Scene::parameters_in(const std::string &file)
+  {
+    Scene scene;
+    scene.parse(file);
+    std::vector<Parameter> parameters;
+    for (const Entry &entry : all_entries(scene.handler))
+      parameters.push_back({entry.path, entry.value});
+    return parameters;
+  }
+
+
+  void Scene::print(std::ostream &out, const bool with_documentation) const
+  {
+    handler.print_parameters(
+      out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
+             dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+} // namespace tread

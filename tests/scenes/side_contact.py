@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""S1002 treads on inclined rails: the patch lies to the gauge side and is wide. They roll as others do; recorded tables go on after
+an interruption, on any number of ranks."""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from tread_runner import ROOT, Check, command, environment, run
+
+program = sys.argv[1]
+check = Check()
+SCENE = os.path.join("tutorial", "dip.prm")
+SETTINGS = ["Mesh/Finest cell (mm)=1.8", "Motion/Rolled distance (mm)=16", "Defect/Shape=none", "Mesh/Fine from (mm)=0", "Mesh/Fine to (mm)=0",
+            "Mesh/Path cell (mm)=0", "Output/Write volume=false", "Output/Cells=-8,-12,1; -8,-9,4"]
+S1002 = SETTINGS + ["Wheel/Tread profile=S1002", "Mesh/Fine half width (mm)=12", "Contact/Tolerance=1e-12"]
+LOAD = (900. + 13400.) * 9.81
+
+
+def table(folder, name):
+    with open(os.path.join(folder, name), encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    return {key: [float(row[key]) for row in rows if row[key] not in ("adhesion", "slip")] for key in rows[0]}
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    # A full section rolls over a little under the load beside its web, which shifts the patch; a head on a rigid foundation does not.
+    for profile, shape in (("54E1", "full section"), ("60E1", "full section"), ("54E1", "head")):
+        name = f"S1002 on {profile} 1:40, {shape}: "
+        rail = [f"Rail/Profile={profile}", f"Rail/Shape={shape}"]
+        cone = run(program, SCENE, path("cone"), SETTINGS + rail)
+        folder_of_run = path(profile + shape)
+        summary = run(program, SCENE, folder_of_run, S1002 + rail)
+        check.that(name + "comes to its end", summary["completed"])
+        # Starting from rest, on cells of 1.8 mm.
+        check.relative(name + "normal force over the load", summary["normal_force_N"], LOAD, 0.02)
+        check.below(name + "energy residual, share of the work", summary["energy_residual_share"], 1e-3)
+        check.that(name + "time steps are about those of a cone", summary["time_step_s"] > 0.7 * cone["time_step_s"])
+        patch, half_space = table(folder_of_run, "patch_averaged.csv"), table(folder_of_run, "reference_patch.csv")
+        print(f"patch from {min(patch['y_mm']):.1f} to {max(patch['y_mm']):.1f} mm, half-space about its first contact "
+              f"from {min(half_space['y_mm']):.1f} to {max(half_space['y_mm']):.1f} mm")
+        if shape == "head": # a cell of 1.8 mm at each side
+            check.absolute(name + "patch's width, half-space's, mm", max(patch["y_mm"]) - min(patch["y_mm"]),
+                           max(half_space["y_mm"]) - min(half_space["y_mm"]), 3.6)
+
+    whole = path("54E1full section")
+    settings = S1002 + ["Rail/Profile=54E1"]
+    strip = table(whole, "strip.csv")
+    run(program, SCENE, path("two"), settings, 2)
+    other = table(path("two"), "strip.csv")
+    check.that("2 ranks against 1: strip has the same columns", all(abs(a - b) < 1e-6 for a, b in zip(strip["x_mm"], other["x_mm"])))
+    check.below("2 ranks against 1: largest stresses, share", max(abs(b / a - 1.) for a, b in zip(strip["von_mises_MPa"],
+                                                                                               other["von_mises_MPa"])), 1e-6)
+    cells, others = table(whole, "cells.csv"), table(path("two"), "cells.csv")
+    check.below("2 ranks against 1: stress of a cell, share",
+                max(abs(b / a - 1.) for a, b in zip(cells["cell_2_von_mises_Pa"], others["cell_2_von_mises_Pa"])), 1e-6)
+
+    arguments = [os.path.join(ROOT, "prm", SCENE), "--output", path("parts")]
+    for setting in settings:
+        arguments += ["-s", setting]
+    process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL)
+    deadline = time.time() + 600
+    history = os.path.join(path("parts"), "history.csv")
+    while time.time() < deadline and process.poll() is None:
+        if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 40:
+            break
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=120)
+    check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
+    more = subprocess.run(command(program, arguments + ["--resume", "-s", "Output/Cells=-8,-12,1"]), env=environment(),
+                          capture_output=True, text=True)
+    check.that("resuming with other cells is refused by name", more.returncode == 1 and "set Cells" in more.stderr)
+    run(program, SCENE, path("parts"), settings, 2, more=["--resume"])
+    parts = table(path("parts"), "strip.csv")
+    # The coupling of the contact is integrated anew at a checkpoint.
+    check.below("resumed on 2 ranks: largest stresses, share", max(abs(b / a - 1.) for a, b in zip(strip["von_mises_MPa"],
+                                                                                                  parts["von_mises_MPa"])), 2e-3)
+    after = table(path("parts"), "cells.csv")
+    check.that("resumed: as many rows of the cells", len(after["time_s"]) == len(cells["time_s"]))
+    check.relative("resumed: stress of a cell", max(after["cell_1_von_mises_Pa"]), max(cells["cell_1_von_mises_Pa"]), 2e-3)
+check.exit()
