@@ -67,7 +67,7 @@ def main():
                 axis.loglog(frequency, columns[place, "section", model], label=MODELS[model], **style)
         if (place, "top", "cells") in columns:
             axis.loglog(frequency, columns[place, "top", "cells"], color="#56B4E9", lw=0.8, label="cells, force on the rail top")
-        axis.set(title=PLACES[place], xlabel="frequency [Hz]")
+        axis.set(title=PLACES[place], xlabel="frequency [Hz]", xlim=(100, frequency[-1]))
         axis.legend(loc="lower left")
     axes[0].set_ylabel("receptance [nm/N]")
     figure.savefig(arguments.picture, dpi=110, bbox_inches="tight")
