@@ -10,8 +10,9 @@ namespace tread::reference
   namespace
   {
     using Complex = std::complex<double>;
-    using Pair    = std::array<Complex, 2>;
-    using Block   = std::array<std::array<Complex, 2>, 2>;
+    constexpr Complex imaginary_unit{0., 1.};
+    using Pair  = std::array<Complex, 2>;
+    using Block = std::array<std::array<Complex, 2>, 2>;
 
     Block inverse(const Block &a)
     {
@@ -36,21 +37,22 @@ namespace tread::reference
   } // namespace
 
 
-  Complex SupportLayers::stiffness(const double omega) const
+  Complex SupportLayers::stiffness(const Complex omega) const
   {
-    const Complex pad(pad_stiffness, omega * pad_damping);
+    const Complex pad = pad_stiffness + imaginary_unit * omega * pad_damping;
     if (std::isinf(ballast_stiffness))
       return pad;
-    const Complex below(ballast_stiffness - omega * omega * sleeper_mass, omega * ballast_damping);
+    const Complex below =
+      ballast_stiffness + imaginary_unit * omega * ballast_damping - omega * omega * sleeper_mass;
     return pad * below / (pad + below);
   }
 
 
-  Complex SupportLayers::transmission(const double omega) const
+  Complex SupportLayers::transmission(const Complex omega) const
   {
     if (std::isinf(ballast_stiffness))
       return 1.;
-    const Complex ballast(ballast_stiffness, omega * ballast_damping);
+    const Complex ballast = ballast_stiffness + imaginary_unit * omega * ballast_damping;
     return ballast / (ballast - omega * omega * sleeper_mass);
   }
 
@@ -136,18 +138,18 @@ namespace tread::reference
   }
 
 
-  SupportedBeam::Response SupportedBeam::respond(const std::vector<Load> &loads, const double omega) const
+  SupportedBeam::Response SupportedBeam::respond(const std::vector<Load> &loads, const Complex omega) const
   {
     const unsigned int n = nodes.size();
     std::vector<Block> diagonal(n, Block{}), upper(n, Block{}); // lower is upper transposed
     std::vector<Pair>  load(n, Pair{});
     for (unsigned int e = 0; e + 1 < n; ++e)
       {
-        const double L    = nodes[e + 1] - nodes[e];
-        const double phi  = 12. * section.bending_stiffness / (section.shear_stiffness * L * L);
-        const double k    = section.bending_stiffness / (L * L * L * (1. + phi));
-        const double mass = -omega * omega * 0.5 * L * section.mass,
-                     turn = -omega * omega * 0.5 * L * section.rotary_inertia;
+        const double  L    = nodes[e + 1] - nodes[e];
+        const double  phi  = 12. * section.bending_stiffness / (section.shear_stiffness * L * L);
+        const double  k    = section.bending_stiffness / (L * L * L * (1. + phi));
+        const Complex mass = -omega * omega * 0.5 * L * section.mass,
+                      turn = -omega * omega * 0.5 * L * section.rotary_inertia;
         for (unsigned int side = 0; side < 2; ++side)
           {
             const double sign = side == 0 ? 1. : -1.;
@@ -162,8 +164,8 @@ namespace tread::reference
       {
         diagonal[i][0][0] += layers.stiffness(omega);
         // The sleeper does not turn.
-        diagonal[i][1][1] +=
-          layers.pad_radius * layers.pad_radius * Complex(layers.pad_stiffness, omega * layers.pad_damping);
+        diagonal[i][1][1] += layers.pad_radius * layers.pad_radius *
+                             (layers.pad_stiffness + imaginary_unit * omega * layers.pad_damping);
       }
     for (const Load &l : loads)
       {

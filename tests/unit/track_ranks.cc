@@ -23,14 +23,17 @@ namespace
 
   History run(const MPI_Comm comm, const TrackParameters &track, const bool solid_sleepers)
   {
-    tests::TrackRail rail(comm, 3, track, DynamicsParameters(), 12, {.3}, true, solid_sleepers);
+    tests::RailForTrack bar = tests::bar(3, 12);
+    tests::refine_near(bar.body, dealii::Point<3>(0., 0.02, -bar.height), 0.05, 0.016);
+    tests::TrackRail rail(comm, bar, 3, track, DynamicsParameters(), {.3}, solid_sleepers);
+    const auto       struck = rail.sections(.3);
     rail.dynamics->start();
     History history;
     history.time_step = rail.dynamics->time_step;
     history.n_hanging = rail.mesh->n_global_hanging_nodes;
     for (unsigned int n = 1; n <= 4000; ++n)
       {
-        rail.load(.3, n < 400 ? 5e3 * n : n < 800 ? 5e3 * (800 - n) : 0.);
+        rail.load(struck, n < 400 ? 5e3 * n : n < 800 ? 5e3 * (800 - n) : 0.);
         rail.dynamics->step();
         if (n % 130 == 0)
           {

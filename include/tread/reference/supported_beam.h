@@ -29,9 +29,9 @@ namespace tread::reference
     double ballast_damping   = 0.;                                      ///< N s/m
 
     /// Force on the rail over its deflection, exp(i omega t): pad in series with sleeper and ballast [N/m].
-    std::complex<double> stiffness(double omega) const;
+    std::complex<double> stiffness(std::complex<double> omega) const;
     /// Force in the ballast over that in the pad.
-    std::complex<double> transmission(double omega) const;
+    std::complex<double> transmission(std::complex<double> omega) const;
   };
 
   /// Angular frequency [rad/s] of the free vibration of a Timoshenko beam with the half wave length [m], the
@@ -71,12 +71,12 @@ namespace tread::reference
     private:
       friend class SupportedBeam;
       const SupportedBeam                             *beam;
-      double                                           omega;
+      std::complex<double>                             omega;
       std::vector<std::array<std::complex<double>, 2>> nodes; ///< deflection (m), rotation (rad)
     };
 
-    /// @param omega rad/s; 0: static
-    Response respond(const std::vector<Load> &loads, double omega = 0.) const;
+    /// @param omega rad/s; 0: static; omega - i eta: of forces and displacements times exp(-eta t)
+    Response respond(const std::vector<Load> &loads, std::complex<double> omega = 0.) const;
 
     const SupportLayers       layers;
     const std::vector<double> supports; ///< m

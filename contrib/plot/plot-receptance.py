@@ -1,0 +1,80 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Receptance of a rail on its track, by hammer blows and of the Timoshenko beam: a picture, and peaks and dips as a table.
+
+    build/benchmarks/track_receptance_study 60E1 12.5 40 9 areas 1300 45 20 200 > receptance.csv
+    plot-receptance.py receptance.csv [--picture receptance.png]
+
+Columns of the file: frequency_Hz, then PLACE_FORCE_MODEL_nm_N; the models are cells, beam and beam_and_foot.
+"""
+
+import argparse
+import re
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from run_data import DataError, read_table
+
+PLACES = {"sleeper": "over a sleeper", "mid_span": "at mid-span"}
+FORCES = {"section": "force on a cross-section", "spread": "on 120 mm of the rail", "top": "on the rail top"}
+MODELS = {"cells": "cells", "beam": "Timoshenko beam", "beam_and_foot": "beam, foot in series with the pads"}
+STYLES = {"cells": dict(color="#0072B2"), "beam": dict(color="#D55E00", ls="--"), "beam_and_foot": dict(color="#009E73", ls=":")}
+
+
+def extremes(frequency, amplitude):
+    """[(frequency in Hz, amplitude, is a peak)] by parabolas through three values of the logarithm."""
+    value = np.log(amplitude)
+    found = []
+    for i in range(1, len(value) - 1):
+        left, middle, right = value[i - 1:i + 2]
+        if (middle > left and middle >= right) or (middle < left and middle <= right):
+            shift = 0.5 * (left - right) / (left - 2 * middle + right)
+            found.append((frequency[i] + shift * (frequency[1] - frequency[0]), amplitude[i], middle > left))
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file")
+    parser.add_argument("--picture", help="where to draw; default: none")
+    arguments = parser.parse_args()
+    table = read_table(arguments.file, ("frequency_Hz",))
+    frequency = table["frequency_Hz"]
+    columns = {}
+    for name in table:
+        match = re.fullmatch(rf"({'|'.join(PLACES)})_({'|'.join(FORCES)})_(cells|beam_and_foot|beam)_nm_N", name)
+        if match:
+            columns[match.groups()] = table[name]
+    if not columns:
+        raise DataError(f"{arguments.file}: no columns like sleeper_section_cells_nm_N")
+    print("| place | force | model | peaks and dips, Hz (nm/N) |\n|---|---|---|---|")
+    for (place, force, model), amplitude in columns.items():
+        row = ", ".join(f"{'peak' if peak else 'dip'} {f:.0f} ({a:.2f})" for f, a, peak in extremes(frequency, amplitude))
+        print(f"| {PLACES[place]} | {FORCES[force]} | {MODELS[model]} | {row} |")
+    if not arguments.picture:
+        return
+    plt.rcParams.update({"font.size": 10, "axes.grid": True, "axes.axisbelow": True, "grid.color": "#E3E3E3", "axes.spines.top": False,
+                         "axes.spines.right": False, "legend.frameon": False, "legend.fontsize": 8})
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    for axis, place in zip(axes, PLACES):
+        for model, style in STYLES.items():
+            if (place, "section", model) in columns:
+                axis.loglog(frequency, columns[place, "section", model], label=MODELS[model], **style)
+        if (place, "top", "cells") in columns:
+            axis.loglog(frequency, columns[place, "top", "cells"], color="#56B4E9", lw=0.8, label="cells, force on the rail top")
+        axis.set(title=PLACES[place], xlabel="frequency [Hz]", xlim=(100, frequency[-1]))
+        axis.legend(loc="lower left")
+    axes[0].set_ylabel("receptance [nm/N]")
+    figure.savefig(arguments.picture, dpi=110, bbox_inches="tight")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (DataError, OSError) as error:
+        sys.exit(f"plot-receptance.py: {error}")
