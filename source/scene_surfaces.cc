@@ -341,8 +341,8 @@ namespace tread
                   " to " + number(1e3 * rail_end()) + " mm");
         const std::string of_width = defect_width_mm > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
         for (const auto &[name, size] :
-             {std::make_pair(std::string("'Defect/Length (mm)'"), defect()->length),
-              {of_width, defect()->width}})
+             std::vector<std::pair<std::string, double>>{{"'Defect/Length (mm)'", defect()->length},
+                                                         {of_width, defect()->width}})
           require(1e3 * size >= finest_mm,
                   name + " " + number(1e3 * size) +
                     " is lost between the nodes; at least 'Mesh/Finest cell (mm)', " + number(finest_mm));

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -130,9 +132,18 @@ namespace tread
     unsigned int n     = 0;
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
       solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data());
-    const double seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
-    const double memory = memory_of_cells_and_nodes(), relaxation_steps = 2000.,
-                 gain = dynamics.ideal_gain_of_levels();
+    const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
+    const double           memory = memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
+    constexpr unsigned int n_choices = 4; // of levels
+    std::array<double, n_choices> gains;
+    for (unsigned int level = 0; level < n_choices; ++level)
+      gains[level] = dynamics.ideal_gain_of_levels(level);
+    // Of the whole run over that of the internal forces, of which the start takes some.
+    constexpr double all_over_forces = 1.7, relaxation_steps = 2000.;
+    const auto       time = [&](const double density_scale, const double gain_of_levels) {
+      return all_over_forces * seconds *
+             (steps * std::sqrt(scene.density_scale / density_scale) / gain_of_levels + relaxation_steps);
+    };
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
@@ -147,8 +158,24 @@ namespace tread
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.density_scale);
         std::printf(
-          "estimated time       %12.0f s on %u rank(s), about 1.7 times that of the internal forces\n",
-          1.7 * seconds * (steps / gain + relaxation_steps), dealii::Utilities::MPI::n_mpi_processes(comm));
+          "estimated time       %12.0f s on %u rank(s), about %.1f times that of the internal forces\n",
+          time(scene.density_scale, gain), dealii::Utilities::MPI::n_mpi_processes(comm), all_over_forces);
+        std::printf("with 'Levels'        %12s", "");
+        for (unsigned int levels = 1; levels <= n_choices; ++levels)
+          std::printf("%9u", levels);
+        std::printf("   inertia error\n");
+        std::vector<double> scales{scene.density_scale};
+        if (scene.quasi_static)
+          scales.insert(scales.end(), {1., 4., 9., 25.});
+        std::sort(scales.begin(), scales.end());
+        scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
+        for (const double scale : scales)
+          {
+            std::printf("'Density scale' %4g: s            ", scale);
+            for (const double gain_of_levels : gains)
+              std::printf("%9.0f", time(scale, gain_of_levels));
+            std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.density_scale);
+          }
       }
   }
 

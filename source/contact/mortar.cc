@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/contact/mortar.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
@@ -131,6 +133,19 @@ namespace tread
             A[j][k] = integral[j] * m[j][4 + k];
       }
     };
+
+    /// What all ranks have, in the order of the ranks.
+    std::vector<double> gathered(const std::vector<double> &own, const MPI_Comm comm)
+    {
+      const int        n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm), n_own = own.size();
+      std::vector<int> counts(n_ranks), offsets(n_ranks);
+      MPI_Allgather(&n_own, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+      std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+      std::vector<double> all(offsets.back() + counts.back());
+      MPI_Allgatherv(own.data(), n_own, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE,
+                     comm);
+      return all;
+    }
 
     /// Convex polygon, cut by the inner side of each edge of another (Sutherland & Hodgman 1974).
     std::vector<Plane2> intersection(const Quadrilateral &subject, const Quadrilateral &clip)
@@ -314,6 +329,14 @@ namespace tread
         entries.push_back({node, value});
       }
     };
+    std::vector<const SlaveFace *> to_integrate;
+    for (const SlaveFace &slave : slave_faces)
+      if (const auto &n = slave.face->nodes;
+          std::any_of(n.begin(), n.end(), [&](const unsigned int i) { return integrated[i]; }))
+        to_integrate.push_back(&slave);
+    const std::size_t n_ranks   = dealii::Utilities::MPI::n_mpi_processes(surfaces.comm),
+                      this_rank = dealii::Utilities::MPI::this_mpi_process(surfaces.comm);
+
     /// What one pair of faces shares: the master's corners in the slave's plane, and the common polygon.
     struct Piece
     {
@@ -323,12 +346,12 @@ namespace tread
     };
     std::map<unsigned int, NodeSum> sums;
     std::vector<Piece>              pieces;
-    for (const SlaveFace &slave : slave_faces)
+    for (std::size_t s = this_rank * to_integrate.size() / n_ranks;
+         s < (this_rank + 1) * to_integrate.size() / n_ranks; ++s)
       {
-        const auto &n = slave.face->nodes;
-        if (std::none_of(n.begin(), n.end(), [&](const unsigned int i) { return integrated[i]; }))
-          continue;
-        Quadrilateral corners;
+        const SlaveFace &slave = *to_integrate[s];
+        const auto      &n     = slave.face->nodes;
+        Quadrilateral    corners;
         for (unsigned int k = 0; k < 4; ++k)
           corners.corners[k] = slave.project(x[n[k]]);
         corners.prepare();
@@ -410,6 +433,32 @@ namespace tread
                     sum.add(piece.master->nodes[3 - k], M);
                   }
               }
+          }
+      }
+
+    if (n_ranks > 1)
+      {
+        std::vector<double> own;
+        for (const auto &[node, sum] : sums)
+          {
+            own.insert(own.end(), {double(node), sum.normal[0], sum.normal[1], sum.normal[2], sum.area,
+                                   sum.covered, sum.whole, double(sum.entries.size())});
+            for (const MortarEntry &entry : sum.entries)
+              own.insert(own.end(), {double(entry.node), entry.coefficient});
+          }
+        sums.clear();
+        const std::vector<double> all = gathered(own, surfaces.comm);
+        for (const double *value = all.data(); value < all.data() + all.size();)
+          {
+            NodeSum &sum = sums[static_cast<unsigned int>(value[0])];
+            sum.normal += Row{value[1], value[2], value[3], 0.};
+            sum.area += value[4];
+            sum.covered += value[5];
+            sum.whole += value[6];
+            const unsigned int n_entries = value[7];
+            value += 8;
+            for (unsigned int i = 0; i < n_entries; ++i, value += 2)
+              sum.add(static_cast<unsigned int>(value[0]), value[1]);
           }
       }
 

@@ -168,11 +168,11 @@ namespace tread
   }
 
 
-  double ExplicitDynamics::ideal_gain_of_levels() const
+  double ExplicitDynamics::ideal_gain_of_levels(const unsigned int largest) const
   {
     double updates = 0.;
-    for (const unsigned int level : solid.cell_levels())
-      updates += std::ldexp(1., -static_cast<int>(level));
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      updates += std::ldexp(1., -static_cast<int>(solid.level_up_to(largest, c)));
     return mesh.n_global_cells / dealii::Utilities::MPI::sum(updates, mesh.comm);
   }
 

@@ -80,12 +80,11 @@ namespace tread
     if (!zones.empty() && (full || needs_velocity()))
       throw std::invalid_argument("plastic zones are for one-point cells without bulk viscosity");
     frequencies.resize(n_cells);
-    levels_of_cells.assign(n_cells, 0);
+    levels_of_cells.resize(n_cells);
     std::vector<double> stiffness(n_cells);
     const auto          integrals_of = [&](const unsigned int c) {
       return HexahedronIntegrals(mesh.corners(c));
     };
-    double highest = 0.;
     for (unsigned int c = 0; c < n_cells; ++c)
       {
         const ElasticMaterial    &material  = materials[mesh.cells[c].body];
@@ -93,13 +92,11 @@ namespace tread
         stiffness[c] = hourglass_stiffness(integrals, material, parameters.hourglass_coefficient);
         frequencies[c] =
           highest_frequency_bound(integrals, material, stiffness[c], full, parameters.density_scale);
-        highest = std::max(highest, frequencies[c]);
+        highest_cell_frequency = std::max(highest_cell_frequency, frequencies[c]);
       }
-    highest = dealii::Utilities::MPI::max(highest, mesh.comm);
+    highest_cell_frequency = dealii::Utilities::MPI::max(highest_cell_frequency, mesh.comm);
     for (unsigned int c = 0; c < n_cells; ++c)
-      while (levels_of_cells[c] < parameters.max_level && !plastic_cells.contains(c) &&
-             std::ldexp(frequencies[c], levels_of_cells[c] + 1) <= 1.1 * highest)
-        ++levels_of_cells[c];
+      levels_of_cells[c] = level_up_to(parameters.max_level, c);
 
     std::vector<Kind> kinds(n_cells, Kind::points);
     if (!full)
@@ -167,6 +164,16 @@ namespace tread
                   }
               });
           }
+  }
+
+
+  unsigned int Solid::level_up_to(const unsigned int max_level, const unsigned int cell) const
+  {
+    unsigned int level = 0;
+    while (level < max_level && !plastic_cells.contains(cell) &&
+           std::ldexp(frequencies[cell], level + 1) <= 1.1 * highest_cell_frequency)
+      ++level;
+    return level;
   }
 
 

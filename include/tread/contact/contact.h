@@ -30,8 +30,8 @@ namespace tread
     bool   adhesion;
   };
 
-  /// Work of one step's impulses, J: lost by friction, and by normal impulses (touching down, or
-  /// gained when they act on opening surfaces).
+  /// Work of one step's impulses, J: lost by the sliding of slipping pairs, and otherwise: by touching down, and
+  /// lost or gained as pairs whose coupling is older than their sliding turn with the surfaces.
   struct ContactWork
   {
     double friction = 0., normal = 0.;

@@ -41,6 +41,7 @@ namespace tread
       std::array<unsigned int, 2> parents;
     };
 
+    MPI_Comm                 comm;
     std::vector<Node>        nodes;
     std::vector<Face>        faces;
     std::vector<HangingNode> hanging_nodes;
@@ -50,7 +51,6 @@ namespace tread
     void replicate(const Row *field, std::vector<Row> &rows) const;
 
   private:
-    MPI_Comm                               comm;
     std::vector<std::vector<unsigned int>> nodes_of_rank;
   };
 } // namespace tread

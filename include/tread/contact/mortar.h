@@ -38,7 +38,8 @@ namespace tread
     double time_to_touch; ///< shortest gap over closing speed of faces beyond half the reach, s
   };
 
-  /// Couple slave_body's surface to master_body's.
+  /// Couple slave_body's surface to master_body's. Collective: each rank integrates a share of the faces and
+  /// gets all rows.
   /// @param x, v positions and velocities of all surface nodes.
   /// @param search_reach faces further apart than this (m) are not looked at.
   /// @param reach slave nodes get a row if a face around them is nearer than this (m) to the master surface,

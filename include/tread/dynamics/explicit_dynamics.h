@@ -122,7 +122,11 @@ namespace tread
     }
 
     /// Cell updates in 2^max_level steps without levels over those with them, of all ranks. Collective.
-    double ideal_gain_of_levels() const;
+    double ideal_gain_of_levels(const unsigned int largest_level) const;
+    double ideal_gain_of_levels() const
+    {
+      return ideal_gain_of_levels(max_level());
+    }
 
     /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
     /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with

@@ -137,6 +137,9 @@ namespace tread
       return levels_of_cells;
     }
 
+    /// What cell_levels() would say of a cell with another largest level.
+    unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
+
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
     /// Computed anew: nothing of it is kept.
     std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
@@ -200,6 +203,7 @@ namespace tread
     std::vector<Range>                             ranges;
     std::vector<double>                            frequencies;
     std::vector<unsigned int>                      levels_of_cells;
+    double                                         highest_cell_frequency = 0.; ///< of all ranks, rad/s
     std::size_t                                    n_cells;
   };
 } // namespace tread
