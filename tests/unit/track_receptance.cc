@@ -60,7 +60,7 @@ namespace
                 check.relative(name + ": " + e.what + " (Hz)", cells.extreme(e.from, e.to, e.sign),
                                beam.extreme(e.from, e.to, e.sign), .03);
             if (pad > 1e9)
-              check.below(name + ": deviation below 800 Hz, share", cells.deviation(beam, 30., 800.), .1);
+              check.below(name + ": deviation below 800 Hz, share", cells.deviation(beam, 30., 800.), .05);
           }
       }
   }
