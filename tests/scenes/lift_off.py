@@ -34,10 +34,10 @@ with tempfile.TemporaryDirectory() as folder:
     # In the air the force is none at all, not a small one; the wheel leaves behind the leading edge at -50 mm.
     air = [i for i, f in enumerate(force) if f == 0.]
     print(f"{len(air)} rows of 0 N from {x[air[0]] if air else 0.:.1f} mm, largest {max(force) / static:.2f} of the load")
-    check.that("no force at all in several rows, one after the other", len(air) >= 8 and air[-1] - air[0] == len(air) - 1)
+    check.that("no force at all in eight rows, one after the other, or more", any(force[i:i + 8] == 8 * [0.] for i in air))
     check.that("it leaves behind the dip's leading edge", air and -50. < x[air[0]] < -20.)
     for column in ("longitudinal_force_N", "lateral_force_N", "contact_area_m2", "max_pressure_Pa"):
-        check.absolute(f"in the air: {column}", max(abs(history[column][i]) for i in air[1:]), 0., 0.)
+        check.absolute(f"in the air: {column}", max(abs(history[column][i]) for i in air), 0., 0.)
     check.that("it lands with more than its load", max(force[air[-1]:]) > static)
     check.that("and stays", min(force[-40:]) > 0.)
     check.below("energy residual, share of the gross work", summary["energy_residual_share"], 3e-3)
