@@ -16,9 +16,10 @@ from tread_runner import ROOT, Check, command, environment, run
 program = sys.argv[1]
 check = Check()
 SCENE = os.path.join("tutorial", "dip.prm")
-SETTINGS = ["Mesh/Finest cell (mm)=1.8", "Motion/Rolled distance (mm)=16", "Defect/Shape=none", "Mesh/Fine from (mm)=0", "Mesh/Fine to (mm)=0",
+# Fine cells at the gauge corner, which is smooth and hence flat as a corner of cells, would cut the time step: sizes grow fast.
+SETTINGS = ["Mesh/Finest cell (mm)=1.8", "Mesh/Cells per level=1", "Motion/Rolled distance (mm)=16", "Defect/Shape=none", "Mesh/Fine from (mm)=0", "Mesh/Fine to (mm)=0",
             "Mesh/Path cell (mm)=0", "Output/Write volume=false", "Output/Cells=-8,-12,1; -8,-9,4"]
-S1002 = SETTINGS + ["Wheel/Tread profile=S1002", "Mesh/Fine half width (mm)=12", "Contact/Tolerance=1e-12"]
+S1002 = SETTINGS + ["Wheel/Tread profile=S1002", "Mesh/Fine half width (mm)=11", "Contact/Tolerance=1e-12"]
 LOAD = (900. + 13400.) * 9.81
 
 

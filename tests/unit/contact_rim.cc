@@ -83,7 +83,7 @@ int main(int argc, char **argv)
   check.absolute("nodes at the strip's two borders", n_rim, 2 * 17, 0.);
   check.absolute("others taken for such, or such not found", n_wrong, 0., 0.);
 
-  const Result inside = fall(MPI_COMM_WORLD, 2e-3), at_border = fall(MPI_COMM_WORLD, 8.5e-3),
+  const Result inside = fall(MPI_COMM_WORLD, 2e-3), at_border = fall(MPI_COMM_WORLD, 9.5e-3),
                beside = fall(MPI_COMM_WORLD, 0.03);
   check.that("inside the strip: touches", inside.touched);
   check.that("inside the strip: not at the rim", !inside.at_rim);
