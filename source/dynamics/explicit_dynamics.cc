@@ -417,9 +417,9 @@ namespace tread
 
   inline Row ExplicitDynamics::body_load(const unsigned int i, const double factor, BodyLoads &sums) const
   {
-    if (inertia[i] == 0.)
+    if (inverse_mass[i] == 0.)
       return Row{};
-    const double here  = factor * inertia[i];
+    const double here  = factor * parameters.density_scale * true_mass[i];
     const double owned = mesh.shared_nodes.is_owned(i) ? here : 0.;
     Row          acceleration{};
     if (on_wheel[i])
@@ -448,15 +448,21 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::keep_loads_of_shared()
+  inline Row ExplicitDynamics::first_force(const unsigned int i, const double factor, const bool with_loads)
   {
-    if (has_body_loads())
-      for (LoadOfShared &shared : loads_of_shared)
-        if (shared.level == 0)
-          {
-            shared.load        = force[shared.node];
-            force[shared.node] = Row{};
-          }
+    const Row weight{0., 0., inverse_mass[i] > 0. ? -parameters.gravity * factor * true_mass[i] : 0., 0.};
+    return with_loads ? weight + body_load(i, factor, next_loads) : weight;
+  }
+
+
+  void ExplicitDynamics::keep_loads_of_shared(const unsigned int due)
+  {
+    for (LoadOfShared &shared : loads_of_shared)
+      if (shared.level <= due)
+        {
+          shared.load        = force[shared.node];
+          force[shared.node] = Row{};
+        }
   }
 
 
@@ -465,22 +471,9 @@ namespace tread
     slow_shares_known = false;
     time_step         = parameters.courant_number * critical_time_step();
     inverse_mass      = free_inverse_masses();
-    inertia.assign(x.size(), 0.);
-    weight.assign(x.size(), 0.);
-    for (unsigned int i = 0; i < x.size(); ++i)
-      {
-        if (inverse_mass[i] > 0.)
-          {
-            inertia[i] = 1. / inverse_mass[i];
-            weight[i]  = -std::ldexp(parameters.gravity * true_mass[i], level_of_node[i]);
-          }
-      }
     loads_of_shared.clear();
     for (const unsigned int i : mesh.shared_nodes.nodes())
-      {
-        loads_of_shared.push_back({i, level_of_node[i], weight[i], Row{}});
-        weight[i] = 0.;
-      }
+      loads_of_shared.push_back({i, level_of_node[i], Row{}});
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
@@ -495,17 +488,14 @@ namespace tread
   {
     const double beta = parameters.damping_steps * time_step;
     for (unsigned int i = 0; i < x.size(); ++i)
-      {
-        x_damped[i] = x[i] + beta * v[i];
-        force[i]    = Row{0., 0., weight[i], 0.};
-      }
+      x_damped[i] = x[i] + beta * v[i];
     mesh.distribute_hanging_nodes(x_damped.data());
     next_loads = BodyLoads();
-    for (const Run &run : nodes_of_level[0])
-      if (has_body_loads(run))
+    for (unsigned int level = 0; level <= max_level(); ++level)
+      for (const Run &run : nodes_of_level[level])
         for (unsigned int i = run.begin; i < run.end; ++i)
-          force[i] += body_load(i, 1., next_loads);
-    keep_loads_of_shared();
+          force[i] = first_force(i, std::ldexp(1., level), level == 0 && has_body_loads(run));
+    keep_loads_of_shared(max_level());
   }
 
 
@@ -629,10 +619,7 @@ namespace tread
     // Not before: the sums of nodes that are not due must stay zero.
     for (const LoadOfShared &shared : loads_of_shared)
       if (shared.level <= due)
-        {
-          force[shared.node] += shared.load;
-          force[shared.node][2] += shared.weight;
-        }
+        force[shared.node] += shared.load;
     times.communication += watch.lap();
 
     // What acts on the nodes from outside.
@@ -717,13 +704,11 @@ namespace tread
                 v[i] = velocity;
                 x[i] += factor * time_step * velocity;
                 x_damped[i] = x[i] + beta * velocity;
-                force[i]    = Row{0., 0., weight[i], 0.};
-                if (has_loads)
-                  force[i] += body_load(i, 1., next_loads);
+                force[i]    = first_force(i, factor, has_loads);
               }
           }
       }
-    keep_loads_of_shared();
+    keep_loads_of_shared(due);
     totals.external_work += work;
     totals.gross_work += gross;
     if (hub)

@@ -156,7 +156,7 @@ namespace tread
     /// Bytes that the nodes of this rank hold here.
     std::size_t memory_consumption() const
     {
-      std::size_t bytes = x.size() * (4 * sizeof(Row) + 4 * sizeof(double) + 3 + sizeof(level_of_node[0]));
+      std::size_t bytes = x.size() * (4 * sizeof(Row) + 2 * sizeof(double) + 3 + sizeof(level_of_node[0]));
       for (const auto &shares : slow_shares)
         bytes += shares.size() * sizeof(SlowShare);
       for (const HangingNodesOfLevel &of_level : hanging)
@@ -229,8 +229,7 @@ namespace tread
     struct LoadOfShared
     {
       unsigned int node, level;
-      double       weight; ///< N, times 2^level
-      Row          load;   ///< N, of level 0
+      Row          load; ///< N, times 2^level
     };
 
     /// Sums over this rank's own nodes of what slows them and compensates the centrifugal force of density
@@ -260,8 +259,11 @@ namespace tread
       return (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     }
 
-    /// Level 0 begins its next step with weight and loads; take them from shared nodes.
-    void keep_loads_of_shared();
+    /// What the force on a node of a level begins its next step with, N; loads of level 0 go to next_loads.
+    Row first_force(const unsigned int i, const double factor, const bool with_body_loads);
+
+    /// Take from shared nodes up to this level what their forces begin with.
+    void keep_loads_of_shared(const unsigned int due);
 
 
     DynamicsParameters                  parameters;
@@ -272,11 +274,10 @@ namespace tread
     std::vector<std::vector<SlowShare>> slow_shares; ///< by level
     bool                                slow_shares_known = false;
     NodalField                          force, x_damped;
-    std::vector<double> true_mass, inverse_mass, inertia; ///< by node; inertia: scaled, 0 where prescribed
-    std::vector<LoadOfShared> loads_of_shared;
-    BodyLoads                 next_loads; ///< of level 0 in its next step
-    std::vector<double>       weight;     ///< N, times 2^level: what forces begin with; 0 where shared
-    std::vector<char>         fixed, carried, on_wheel;
+    std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
+    std::vector<LoadOfShared>                          loads_of_shared;
+    BodyLoads                                          next_loads; ///< of level 0 in its next step
+    std::vector<char>                                  fixed, carried, on_wheel;
     std::vector<std::pair<unsigned int, unsigned int>> guided; ///< node, direction
     std::vector<unsigned int>                          hub_nodes;
     std::vector<Row>                                   hub_reference; ///< relative to the axle
