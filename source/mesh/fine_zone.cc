@@ -66,11 +66,12 @@ namespace tread
     FineZone path         = *this;
     path.path_level       = 0;
     path.finest_cell_size = std::ldexp(finest_cell_size, path_level);
-    FineZone cubes        = *this;
-    cubes.path_level      = 0;
-    cubes.x_begin         = std::max(x_begin, cubes_begin);
-    cubes.x_end           = std::min(x_end, cubes_end);
-    return std::min(path.wanted_size(x, y, depth_of_point), cubes.wanted_size(x, y, depth_of_point));
+    const double on_path  = path.wanted_size(x, y, depth_of_point);
+    FineZone     fine     = *this;
+    fine.path_level       = 0;
+    fine.x_begin          = cubes()[0];
+    fine.x_end            = cubes()[1];
+    return fine.x_begin < fine.x_end ? std::min(on_path, fine.wanted_size(x, y, depth_of_point)) : on_path;
   }
 
   double regular_length(const double length, const double size)

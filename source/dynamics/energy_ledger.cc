@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace tread
+{
+  double EnergyLedger::residual_share() const
+  {
+    return gross_work > 0. ? residual() / gross_work : 0.;
+  }
+
+
+  void ExplicitDynamics::sample_damping()
+  {
+    // Power of the damping forces, v . (f(x) - f(x + beta v)), trapezoid between samples.
+    double power = 0.;
+    if (parameters.damping_steps > 0. || solid.needs_velocity())
+      {
+        NodalField with(x.size(), Row{}), without(x.size(), Row{}), no_velocity;
+        solid.add_internal_forces(x_damped.data(), v.data(), with.data(), history);
+        if (solid.needs_velocity())
+          no_velocity.assign(x.size(), Row{});
+        solid.add_internal_forces(x.data(), no_velocity.data(), without.data(), history);
+        for (unsigned int i = 0; i < x.size(); ++i)
+          power += dot(v[i], without[i] - with[i]);
+      }
+    totals.damping += 0.5 * (power + last_damping_power) * time_step * (n_steps - last_damping_step);
+    last_damping_power = power;
+    last_damping_step  = n_steps;
+  }
+
+
+  double ExplicitDynamics::kinetic_energy() const
+  {
+    // The product of the velocities half a step before and after now: central differences keep its sum with
+    // the strain energy. What is not the cells' adds as much to the work.
+    NodalField cell_force(x.size(), Row{});
+    solid.add_internal_forces(x.data(), v.data(), cell_force.data(), history);
+    mesh.condense_hanging_nodes(cell_force.data());
+    if (supports)
+      supports->add_spring_forces(cell_force.data());
+    double energy = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      {
+        energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(cell_force[i], v[i]);
+        if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
+          energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
+      }
+    energy = dealii::Utilities::MPI::sum(energy, mesh.comm);
+    if (supports)
+      energy += supports->sleeper_kinetic_energy(time_step);
+    return hub ? energy + hub->kinetic_energy(0.5 * time_step) : energy;
+  }
+
+
+  StrainEnergy ExplicitDynamics::strain_energy() const
+  {
+    StrainEnergy energy = solid.strain_energy(x.data(), history);
+    energy.strain       = dealii::Utilities::MPI::sum(energy.strain, mesh.comm);
+    energy.hourglass    = dealii::Utilities::MPI::sum(energy.hourglass, mesh.comm);
+    return energy;
+  }
+
+
+  double ExplicitDynamics::body_potential() const
+  {
+    // At the instant of the velocities, half a step back: so far work is counted.
+    const double compensation =
+      (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
+    double potential = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
+        {
+          const double back     = 0.5 * std::ldexp(time_step, level_of_node[i]);
+          const Row    position = x[i] - back * v[i];
+          potential += true_mass[i] * parameters.gravity * position[2];
+          if (on_wheel[i])
+            {
+              const double rx = position[0] - hub->motion.x + back * hub->motion.velocity_x,
+                           rz = position[2] - hub->motion.z + back * hub->motion.velocity_z;
+              potential += 0.5 * compensation * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
+            }
+        }
+    potential = dealii::Utilities::MPI::sum(potential, mesh.comm);
+    return supports ? potential + supports->weight_potential(time_step) : potential;
+  }
+
+
+  EnergyLedger ExplicitDynamics::ledger()
+  {
+    using dealii::Utilities::MPI::sum;
+    sample_damping();
+    EnergyLedger now  = totals;
+    now.damping       = sum(totals.damping, mesh.comm);
+    now.plastic       = sum(totals.plastic, mesh.comm);
+    now.external_work = sum(totals.external_work, mesh.comm);
+    now.gross_work    = sum(totals.gross_work, mesh.comm);
+    const double fall = start_potential - body_potential();
+    now.external_work += fall;
+    now.gross_work += std::abs(fall);
+    if (hub)
+      {
+        now.external_work += hub->external_work() - start_hub_work;
+        now.gross_work += hub->gross_work() - start_hub_gross;
+      }
+    if (supports)
+      {
+        now.springs = supports->spring_energy() - start_springs;
+        now.damping += supports->dissipated() - start_dissipated;
+      }
+    now.kinetic               = kinetic_energy() - start_kinetic;
+    const StrainEnergy energy = strain_energy();
+    now.strain                = energy.strain - start_strain.strain;
+    now.hourglass             = energy.hourglass - start_strain.hourglass;
+    return now;
+  }
+} // namespace tread

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    /// Part of the way that the steady share of slow cells' forces goes to their present value when these are
+    /// evaluated.
+    constexpr double follow = 0.5;
+  } // namespace
+
+
+  void ExplicitDynamics::set_node_levels()
+  {
+    unsigned int max_level = 0;
+    for (const unsigned int level : solid.cell_levels())
+      max_level = std::max(max_level, level);
+    max_level = dealii::Utilities::MPI::max(max_level, mesh.comm);
+    level_of_node.assign(x.size(), max_level);
+    for (unsigned int level = max_level; level-- > 0;)
+      {
+        // A node moves with its fastest cell on any rank, a parent with those of its hanging nodes, too.
+        NodalField marks(x.size(), Row{});
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              marks[i][0] = 1.;
+        if (level == 0)
+          {
+            for (const Mesh::Face &face : mesh.faces)
+              if (face.boundary == Boundary::contact)
+                for (const unsigned int i : face.nodes)
+                  marks[i][0] = 1.;
+            for (const unsigned int i : hub_nodes)
+              marks[i][0] = 1.;
+            if (supports)
+              for (const unsigned int i : supports->nodes())
+                marks[i][0] = 1.;
+          }
+        mesh.condense_hanging_nodes(marks.data());
+        mesh.shared_nodes.sum(marks.data());
+        for (unsigned int i = 0; i < marks.size(); ++i)
+          if (marks[i][0] > 0.)
+            level_of_node[i] = level;
+      }
+    // Forces on hanging nodes are their parents'.
+    std::vector<const Mesh::HangingNode *> hangs(x.size(), nullptr);
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      hangs[h.node] = &h;
+    hanging.assign(max_level + 1, {});
+    hanging_at_contact.clear();
+    for (unsigned int body = 0; body < mesh.body_names.size(); ++body)
+      for (const unsigned int i : boundary_nodes(body, Boundary::contact))
+        if (hangs[i])
+          hanging_at_contact.push_back(*hangs[i]);
+    std::vector<char> is_placed(x.size(), false);
+    for (unsigned int level = 0; level <= max_level; ++level)
+      {
+        std::vector<char> is_loaded(x.size(), false);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              if (hangs[i] && !is_loaded[i])
+                {
+                  hanging[level].loaded.push_back(*hangs[i]);
+                  is_loaded[i] = true;
+                  if (!is_placed[i])
+                    hanging[level].placed.push_back(*hangs[i]);
+                  is_placed[i] = true;
+                }
+      }
+    slow_shares.assign(max_level + 1, {});
+    for (unsigned int level = 1; level <= max_level; ++level)
+      {
+        std::vector<char> seen(x.size(), false);
+        const auto        add = [&](const unsigned int i) {
+          if (level_of_node[i] < level && !seen[i])
+            slow_shares[level].push_back(
+                     {i, level_of_node[i], std::ldexp(1., level_of_node[i]), Row{}, Row{}});
+          seen[i] = true;
+        };
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              {
+                if (!hangs[i])
+                  add(i);
+                else
+                  for (const unsigned int parent : hangs[i]->parents)
+                    add(parent);
+              }
+      }
+    nodes_of_level.assign(max_level + 1, Runs());
+    for (unsigned int begin = 0; begin < level_of_node.size();)
+      {
+        unsigned int end = begin + 1;
+        while (end < level_of_node.size() && level_of_node[end] == level_of_node[begin] &&
+               on_wheel[end] == on_wheel[begin])
+          ++end;
+        nodes_of_level[level_of_node[begin]].push_back({begin, end, bool(on_wheel[begin])});
+        begin = end;
+      }
+  }
+
+
+  double ExplicitDynamics::ideal_gain_of_levels(const unsigned int largest) const
+  {
+    double updates = 0.;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      updates += std::ldexp(1., -static_cast<int>(solid.level_up_to(largest, c)));
+    return mesh.n_global_cells / dealii::Utilities::MPI::sum(updates, mesh.comm);
+  }
+
+
+  double ExplicitDynamics::critical_time_step() const
+  {
+    if (critical_step > 0.)
+      return critical_step;
+    double highest = 0.;
+    for (unsigned int level = 0; level <= max_level(); ++level)
+      highest = std::max(highest, std::ldexp(highest_frequency(level), level));
+    // Three digits, rounded up: the same step on any number of ranks.
+    const auto rounded = [](const double value) {
+      const double digit = std::pow(10., std::floor(std::log10(value)) - 2.);
+      return value > 0. ? digit * std::ceil(value / digit) : 0.;
+    };
+    // Forces at x + beta v of half a step back, dampers with v of half a step back: dt^2 K + 2 dt C <= 4 for
+    // the largest eigenvalues of M^-1 K (1 + 2 beta/dt) and M^-1 C, or their bounds by row sums.
+    highest  = rounded(highest);
+    double K = highest * highest * (1. + 2. * parameters.damping_steps), C = 0.;
+    if (supports)
+      {
+        const std::vector<double> inverse = free_inverse_masses();
+        NodalField                rows(x.size(), Row{});
+        supports->add_row_sums(rows.data());
+        mesh.shared_nodes.sum(rows.data());
+        double of_springs, of_dampers;
+        supports->sleeper_row_sums(of_springs, of_dampers);
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          {
+            of_springs = std::max(of_springs, inverse[i] * rows[i][0]);
+            of_dampers = std::max(of_dampers, inverse[i] * rows[i][1]);
+          }
+        K += rounded(dealii::Utilities::MPI::max(of_springs, mesh.comm));
+        C = rounded(dealii::Utilities::MPI::max(of_dampers, mesh.comm));
+      }
+    critical_step = 4. / (C + std::sqrt(C * C + 4. * K));
+    return critical_step;
+  }
+
+
+  double ExplicitDynamics::highest_frequency(const unsigned int first_level) const
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::sum;
+    double bound = 0.;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (solid.cell_levels()[c] >= first_level)
+        bound = std::max(bound, solid.cell_frequencies()[c]);
+    bound = max(bound, mesh.comm);
+
+    // No cell can vibrate as fast in the mesh as it would alone: the power method on M^-1 K finds how fast
+    // the mesh does. Its Rayleigh quotient comes from below, hence the margin; the cells' bound stays the
+    // limit.
+    constexpr unsigned int    iterations = 80;
+    constexpr double          margin     = 1.03;
+    const std::vector<double> inverse    = free_inverse_masses();
+    NodalField mode(x.size(), Row{}), reference(x.size()), moved(x.size()), at_rest(x.size(), Row{}),
+      f(x.size());
+    // Not where the nodes are now, so that a run that resumes has the same step.
+    for (unsigned int i = 0; i < x.size(); ++i)
+      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    for (unsigned int i = 0; i < mode.size(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          // Any numbers will do that depend on the place alone, not on the rank.
+          const double wave =
+            1e4 *
+            std::sin(1e5 * (mesh.nodes[i][0] + 1.7 * mesh.nodes[i][1] + 2.3 * mesh.nodes[i][2]) + 2. * d);
+          mode[i][d] = inverse[i] > 0. ? wave - std::floor(wave) - 0.5 : 0.;
+        }
+    double highest = 0.;
+    for (unsigned int k = 0; k < iterations; ++k)
+      {
+        double inertia = 0., largest = 0.;
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          if (inverse[i] > 0.)
+            largest = std::max(largest, dot(mode[i], mode[i]));
+        const double scale = 1e-9 / std::sqrt(max(largest, mesh.comm)); // m: small against any cell
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          {
+            mode[i] *= scale;
+            if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+              inertia += dot(mode[i], mode[i]) / inverse[i];
+          }
+        mesh.distribute_hanging_nodes(mode.data());
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          {
+            moved[i] = reference[i] + mode[i];
+            f[i]     = Row{};
+          }
+        solid.add_internal_forces(moved.data(), at_rest.data(), f.data(), Levels{first_level});
+        mesh.condense_hanging_nodes(f.data());
+        mesh.shared_nodes.sum(f.data());
+        double stiffness = 0.;
+        for (unsigned int i = 0; i < mode.size(); ++i)
+          {
+            const Row change = -f[i]; // the reference is free of stress
+            if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+              stiffness += dot(mode[i], change);
+            mode[i] = inverse[i] * change;
+          }
+        highest = std::sqrt(std::max(0., sum(stiffness, mesh.comm) / sum(inertia, mesh.comm)));
+      }
+    // Bulk viscosity damps high modes, which shortens the stable step: the cells' bound leaves room for it.
+    return solid.needs_velocity() ? bound : std::min(bound, margin * highest);
+  }
+
+
+  void ExplicitDynamics::add_forces_due(const unsigned int due)
+  {
+    totals.plastic +=
+      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true});
+    Mesh::condense(hanging[0].loaded, force.data());
+    for (unsigned int level = 1; level <= max_level(); ++level)
+      {
+        const double factor = std::ldexp(1., level);
+        if (level <= due)
+          {
+            for (SlowShare &share : slow_shares[level])
+              share.before = force[share.node];
+            solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
+            Mesh::condense(hanging[level].loaded, force.data());
+            for (SlowShare &share : slow_shares[level])
+              {
+                const Row now    = (1. / factor) * (force[share.node] - share.before);
+                const Row change = slow_shares_known ? follow * (now - share.steady) : now;
+                share.steady += change;
+                force[share.node] -= factor * share.steady;
+                // The steady part acts on average half of (factor - own) steps late: what that takes from a
+                // force that changes is given at once, or motion would be fed with energy.
+                if (slow_shares_known)
+                  force[share.node] += 0.5 * (factor - share.factor) * change;
+              }
+          }
+        for (const SlowShare &share : slow_shares[level])
+          if (share.level <= due)
+            force[share.node] += share.factor * share.steady;
+      }
+    slow_shares_known = true;
+  }
+
+
+  unsigned int ExplicitDynamics::level_due() const
+  {
+    unsigned int level = max_level();
+    while (n_steps % (std::uint64_t(1) << level) != 0)
+      --level;
+    return level;
+  }
+
+
+  void ExplicitDynamics::place_hanging_nodes()
+  {
+    if (synchronised())
+      {
+        for (Row *field : {v.data(), x.data(), x_damped.data()})
+          mesh.distribute_hanging_nodes(field);
+        return;
+      }
+    for (unsigned int level = 0; level <= level_due(); ++level)
+      {
+        Mesh::distribute(hanging[level].placed, x_damped.data());
+        if (solid.needs_velocity())
+          Mesh::distribute(hanging[level].placed, v.data());
+      }
+    Mesh::distribute(hanging_at_contact, x.data());
+    Mesh::distribute(hanging_at_contact, v.data());
+  }
+} // namespace tread
