@@ -332,7 +332,8 @@ def zimmermann(run):
     run = run.twin or run
     p = run.parameters
     names = ["Track/Sleeper spacing (m)", "Track/Support 0 (mm)", "Track/Pad stiffness (MN per m)", "Rail/Young's modulus (GPa)"]
-    if not run.supports("pad") or any(name not in p for name in names) or p.get("Rail/Profile") not in SECOND_MOMENT:
+    if (not run.supports("pad") or p.get("Track/Foundation") == "rigid" or any(name not in p for name in names)
+            or p.get("Rail/Profile") not in SECOND_MOMENT):
         return None
     spacing, origin, pad, young = (float(p[name]) for name in names)
     stiffness = pad

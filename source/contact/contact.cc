@@ -447,8 +447,13 @@ namespace tread
 
   std::optional<Row> Contact::contact_at_rim() const
   {
+    // Faces that overlap by a hair give nodes beside the patch a trace of impulse.
+    constexpr double trace   = 1e-3;
+    double           largest = 0.;
+    for (const Row &p : nodal_impulse)
+      largest = std::max(largest, norm(p));
     for (unsigned int i = 0; i < involved.size(); ++i)
-      if (surfaces.nodes[involved[i]].at_rim && norm(nodal_impulse[i]) > 0.)
+      if (surfaces.nodes[involved[i]].at_rim && norm(nodal_impulse[i]) > trace * largest)
         return position[i];
     return {};
   }

@@ -82,7 +82,7 @@ PAIRS = [
     (BAR + ["Track/Sleeper spacing (m)=0.65"], ["Track/Sleeper spacing (m)", "does not fit the rail"]),
     (BAR + ["Track/Support 0 (mm)=-600"], ["Track/Sleeper spacing (m)", "begins 30 mm before its first support", "half a spacing"]),
     (BAR + ["Track/Support 0 (mm)=-630"], ["begins 0 mm before its first support", "half a pad, 75,"]),
-    (BAR + ["Rail/Begin (mm)=-3630", "Rail/Length (mm)=6950"], ["ends 50 mm behind its last support", "half a pad, 75,"]),
+    (BAR + ["Rail/Margin (mm)=3300", "Rail/Begin (mm)=-3630", "Rail/Length (mm)=6950"], ["ends 50 mm behind its last support", "half a pad, 75,"]),
     (BAR + ["Track/Sleeper spacing (m)=9"], ["Track/Sleeper spacing (m)", "at least 2"]),
     (BAR + ["Track/Pad length (mm)=700"], ["Track/Pad length (mm)", "below the sleeper spacing"]),
     (BAR + ["Track/Pad width (mm)=140"], ["Track/Pad width (mm)", "rail's base"]),

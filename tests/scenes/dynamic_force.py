@@ -169,11 +169,12 @@ with tempfile.TemporaryDirectory() as folder:
         print(drawn.stdout, drawn.stderr)
 
     # 54E1, pads and ballast of 1300 and 45 MN/m: characteristic length and largest share of a support as published.
-    with open(path("twin/parameters.prm"), "w", encoding="utf-8") as stream:
+    write(path("on-track"), 2000)
+    with open(path("on-track/parameters.prm"), "w", encoding="utf-8") as stream:
         stream.write("subsection Rail\nset Profile = 54E1\nset Young's modulus (GPa) = 210\nend\nsubsection Track\n"
                      "set Foundation = two-layer\nset Sleeper spacing (m) = 0.6\nset Support 0 (mm) = -500\n"
                      "set Pad stiffness (MN per m) = 1300\nset Ballast stiffness (MN per m) = 45\nend\n")
-    table = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("twin"), "--zimmermann"],
+    table = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("on-track"), "--zimmermann"],
                            env=environment(), capture_output=True, text=True).stdout
     rows = [[float(cell.split()[0]) for cell in line.strip("| ").split("|")] for line in table.splitlines()[2:]]
     check.that("Zimmermann: two instants", len(rows) == 2)
