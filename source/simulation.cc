@@ -443,6 +443,7 @@ namespace tread
           continue;
         if (contact.contact_at_rim())
           {
+            dynamics.check_stability();
             end = End::left_surface;
             break;
           }
