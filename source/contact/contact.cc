@@ -447,8 +447,8 @@ namespace tread
 
   std::optional<Row> Contact::contact_at_rim() const
   {
-    // Faces that overlap by a hair give nodes beside the patch a trace of impulse.
-    constexpr double trace   = 1e-3;
+    // Faces that overlap give nodes beside the patch a trace of impulse.
+    constexpr double trace   = 0.05;
     double           largest = 0.;
     for (const Row &p : nodal_impulse)
       largest = std::max(largest, norm(p));
