@@ -447,14 +447,20 @@ namespace tread
 
   std::optional<Row> Contact::contact_at_rim() const
   {
-    // Faces that overlap give nodes beside the patch a trace of impulse.
-    constexpr double trace   = 0.05;
-    double           largest = 0.;
+    // Slave nodes beside the patch have no impulse. Master nodes there have some where faces overlap, but not
+    // as much as those under it.
+    constexpr double beside_patch = 0.3;
+    double           largest      = 0.;
     for (const Row &p : nodal_impulse)
       largest = std::max(largest, norm(p));
     for (unsigned int i = 0; i < involved.size(); ++i)
-      if (surfaces.nodes[involved[i]].at_rim && norm(nodal_impulse[i]) > trace * largest)
-        return position[i];
+      {
+        const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
+        if (node.at_rim &&
+            (node.body == parameters.slave_body ? norm(impulse_of_node[involved[i]]) > 0.
+                                                : norm(nodal_impulse[i]) > beside_patch * largest))
+          return position[i];
+      }
     return {};
   }
 } // namespace tread
