@@ -6,17 +6,16 @@ import csv
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 
-from tread_runner import ROOT, Check, command, environment, run
+from tread_runner import ROOT, Check, arguments_of, command, environment, press_ctrl_c, run
 
 program, what = sys.argv[1], sys.argv[2]
 check = Check()
 
+SCENE = "smooth-rolling.prm"
 COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"]
 SHORT = COARSE + ["Motion/Rolled distance (mm)=12"]
 NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "creepage", "max_pressure_Pa", "patch_area_m2",
@@ -32,33 +31,15 @@ def same(name, a, b, allowed):
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
-def arguments_of(output, settings):
-    arguments = [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", output]
-    for setting in settings:
-        arguments += ["-s", setting]
-    return arguments
-
-
 def interrupt(output, settings, ranks=1, rows=12, more=()):
     """Start a run, press Ctrl-C when its history has so many rows; the ended process and what it wrote to stderr."""
     # mpirun waits a second, tells its ranks to end, and kills them a second later: too soon on a busy machine.
     patient = dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="3")
-    process = subprocess.Popen(command(program, arguments_of(output, settings) + list(more), ranks), env=patient,
+    process = subprocess.Popen(command(program, arguments_of(SCENE, output, settings) + list(more), ranks), env=patient,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    history = os.path.join(output, "history.csv")
-    deadline = time.time() + 600
-    while time.time() < deadline and process.poll() is None:
-        if os.path.exists(history) and len(lines_of(output)) > rows:
-            break
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    press_ctrl_c(process, os.path.join(output, "history.csv"), rows)
     _, errors = process.communicate(timeout=120)
     return process, errors
-
-
-def lines_of(output):
-    with open(os.path.join(output, "history.csv"), encoding="utf-8") as stream:
-        return stream.read().splitlines()
 
 
 def read_summary(output):
@@ -94,7 +75,7 @@ with tempfile.TemporaryDirectory() as folder:
         one_of_levels = run(program, "smooth-rolling.prm", path("levels-1"), levels)
         two_of_levels = run(program, "smooth-rolling.prm", path("levels-2"), levels, 2)
         same("levels of time steps, 2 ranks against 1", two_of_levels, one_of_levels, 1e-8)
-        dry = subprocess.run(command(program, arguments_of(path("dry"), levels) + ["--dry-run"]), env=environment(),
+        dry = subprocess.run(command(program, arguments_of(SCENE, path("dry"), levels) + ["--dry-run"]), env=environment(),
                              capture_output=True, text=True)
         gain = float(re.search(r"cell updates fall to 1/([\d.]+)", dry.stdout)[1])
         check.that("levels: most cells wait", gain > 1.5)
@@ -123,15 +104,15 @@ with tempfile.TemporaryDirectory() as folder:
         same("resumed on 4 ranks against never stopped on 1",
              run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 3e-4)
 
-        again = subprocess.run(command(program, arguments_of(path("parts"), settings) + ["--resume"]), env=environment(),
+        again = subprocess.run(command(program, arguments_of(SCENE, path("parts"), settings) + ["--resume"]), env=environment(),
                                capture_output=True, text=True)
         check.that("a complete run is left as it is", again.returncode == 0 and "complete" in again.stdout
                    and read_summary(path("parts")) == resumed)
         fails("other parameters are refused and named",
-              arguments_of(path("other-parameters"), settings) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
+              arguments_of(SCENE, path("other-parameters"), settings) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
         fails("other columns of the history are refused",
-              arguments_of(path("other-parameters"), settings) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])
+              arguments_of(SCENE, path("other-parameters"), settings) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])
         for name, word in (("damaged", "damaged"), ("foreign", "version")):
             with open(os.path.join(path(name), "checkpoint.last"), encoding="utf-8") as stream:
                 checkpoint = os.path.join(path(name), stream.read().strip())
@@ -139,7 +120,7 @@ with tempfile.TemporaryDirectory() as folder:
                 stream.seek(-200 if name == "damaged" else 0, os.SEEK_END if name == "damaged" else os.SEEK_SET)
                 stream.write(b"another program's")
             fails(f"a {name} checkpoint is refused on all ranks in one line",
-                  arguments_of(path(name), settings) + ["--resume"], [word], ranks=2)
+                  arguments_of(SCENE, path(name), settings) + ["--resume"], [word], ranks=2)
 
         # Every group of steps ends a row of the history, so every interruption comes at the end of a row.
         every = COARSE + ["Motion/Rolled distance (mm)=20", "Scene/Density scale=1", "Output/History interval (mm)=0.001",
@@ -239,19 +220,7 @@ with tempfile.TemporaryDirectory() as folder:
             check.relative(f"levels of time steps: {key}", float(rows("levels")[1][key]), float(second[key]), 5e-3)
 
         # Stopped while the second wheel rolls.
-        arguments = [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", path("parts")]
-        for setting in settings:
-            arguments += ["-s", setting]
-        process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE)
-        deadline = time.time() + 600
-        history = os.path.join(path("parts"), "history.csv")
-        while time.time() < deadline and process.poll() is None:
-            if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 65:
-                break
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        process.wait(timeout=120)
+        process, _ = interrupt(path("parts"), settings, rows=65)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
         resumed = run(program, "smooth-rolling.prm", path("parts"), settings, ranks=2, more=["--resume"])
         same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3)

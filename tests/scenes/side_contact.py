@@ -5,13 +5,11 @@ an interruption, on any number of ranks."""
 
 import csv
 import os
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 
-from tread_runner import ROOT, Check, command, environment, run
+from tread_runner import Check, arguments_of, command, environment, press_ctrl_c, run
 
 program = sys.argv[1]
 check = Check()
@@ -65,17 +63,9 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("2 ranks against 1: stress of a cell, share",
                 max(abs(b / a - 1.) for a, b in zip(cells["cell_2_von_mises_Pa"], others["cell_2_von_mises_Pa"])), 1e-6)
 
-    arguments = [os.path.join(ROOT, "prm", SCENE), "--output", path("parts")]
-    for setting in settings:
-        arguments += ["-s", setting]
+    arguments = arguments_of(SCENE, path("parts"), settings)
     process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL)
-    deadline = time.time() + 600
-    history = os.path.join(path("parts"), "history.csv")
-    while time.time() < deadline and process.poll() is None:
-        if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 40:
-            break
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    press_ctrl_c(process, os.path.join(path("parts"), "history.csv"), 40)
     process.wait(timeout=120)
     check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
     more = subprocess.run(command(program, arguments + ["--resume", "-s", "Output/Cells=-8,-12,1"]), env=environment(),

@@ -3,15 +3,12 @@
 """Parameter variations: complete runs are not repeated, interrupted ones go on, one that fails leaves the others alone."""
 
 import csv
-import json
 import os
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 
-from tread_runner import ROOT, Check, environment, run
+from tread_runner import ROOT, Check, environment, press_ctrl_c, run
 
 program = sys.argv[1]
 check = Check()
@@ -112,12 +109,7 @@ with tempfile.TemporaryDirectory() as folder:
                   Figures="traction_coefficient", Processes="2")
     history = path("slow", "creepage-0.002", "history.csv")
     process = subprocess.Popen(line(study), env=environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    deadline = time.time() + 600
-    while time.time() < deadline and process.poll() is None:
-        if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > 12:
-            break
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    press_ctrl_c(process, history, 12)
     process.communicate(timeout=300)
     check.that("interrupted: exit code 130", process.returncode == 130)
     rows = table(path("slow"))

@@ -4,13 +4,11 @@
 
 import csv
 import os
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 
-from tread_runner import ROOT, Check, command, environment, run
+from tread_runner import Check, arguments_of, command, environment, press_ctrl_c, run
 
 program = sys.argv[1]
 check = Check()
@@ -57,17 +55,8 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("support_0_pad_N", "support_0_ballast_N", "support_1_rail_m"):
         check.relative(f"2 ranks against 1: {name}", history(path("2"))[-1][name], rows[-1][name], 1e-7)
 
-    arguments = [os.path.join(ROOT, "prm", SCENE), "--output", path("parts")]
-    for setting in SETTINGS:
-        arguments += ["-s", setting]
-    process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL)
-    deadline = time.time() + 600
-    while time.time() < deadline and process.poll() is None:
-        table = os.path.join(path("parts"), "history.csv")
-        if os.path.exists(table) and sum(1 for _ in open(table, encoding="utf-8")) > 5:
-            break
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    process = subprocess.Popen(command(program, arguments_of(SCENE, path("parts"), SETTINGS)), env=environment(), stdout=subprocess.DEVNULL)
+    press_ctrl_c(process, os.path.join(path("parts"), "history.csv"), 5)
     process.wait(timeout=120)
     check.that("interrupted", process.returncode == 130)
     resumed = run(program, SCENE, path("parts"), SETTINGS, more=["--resume"], ranks=2)

@@ -3,8 +3,10 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -19,11 +21,26 @@ def environment():
                 OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
 
 
-def run(program, scene, output, settings=(), ranks=1, more=()):
-    """Run a scene to its end and return its summary; anything else ends the test."""
-    arguments = [os.path.join(ROOT, "prm", scene), "--output", output, *more]
+def arguments_of(scene, output, settings=()):
+    arguments = [os.path.join(ROOT, "prm", scene), "--output", output]
     for setting in settings:
         arguments += ["-s", setting]
+    return arguments
+
+
+def press_ctrl_c(process, history, rows):
+    """Interrupt a process when the table `history` has more than so many lines, its heading included."""
+    deadline = time.time() + 600
+    while time.time() < deadline and process.poll() is None:
+        if os.path.exists(history) and sum(1 for _ in open(history, encoding="utf-8")) > rows:
+            break
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+
+
+def run(program, scene, output, settings=(), ranks=1, more=()):
+    """Run a scene to its end and return its summary; anything else ends the test."""
+    arguments = arguments_of(scene, output, settings) + list(more)
     result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True)
     if result.returncode != 0:
         sys.exit(f"{scene} on {ranks} rank(s) ended with {result.returncode}: {result.stderr.strip()[-1000:]}")
