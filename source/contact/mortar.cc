@@ -23,6 +23,18 @@ namespace tread
       double s, t;
     };
 
+    /// A value at each point of a triangle's quadrature rule; six of eight count,
+    /// the last two repeat the sixth with no weight.
+    typedef double AtPoints __attribute__((vector_size(64)));
+
+    double total(const AtPoints value)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < 8; ++i)
+        sum += value[i];
+      return sum;
+    }
+
     Row cross(const Row a, const Row b)
     {
       return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
@@ -44,7 +56,8 @@ namespace tread
       std::array<Plane2, 4> corners;
       std::array<double, 4> inverse;
 
-      static std::array<double, 4> shape(const double xi, const double eta)
+      template <typename T>
+      static std::array<T, 4> shape(const T xi, const T eta)
       {
         return {0.25 * (1. - xi) * (1. - eta), 0.25 * (1. + xi) * (1. - eta), 0.25 * (1. + xi) * (1. + eta),
                 0.25 * (1. - xi) * (1. + eta)};
@@ -62,26 +75,30 @@ namespace tread
         inverse          = {e / det, -b / det, -d / det, a / det};
       }
 
-      /// Shape functions at a point of the plane, by Newton's method with the derivative at the centre:
+      /// Shape functions at points of the plane, by Newton's method with the derivative at the centre:
       /// faces are nearly parallelograms, for which one step is exact.
-      std::array<double, 4> shape_at(const Plane2 p) const
+      std::array<AtPoints, 4> shape_at(const AtPoints s, const AtPoints t) const
       {
-        double                xi = 0., eta = 0.;
-        std::array<double, 4> N = shape(xi, eta);
+        AtPoints                xi{}, eta{};
+        std::array<AtPoints, 4> N = shape(xi, eta);
         for (unsigned int iteration = 0; iteration < 60; ++iteration)
           {
-            double rs = -p.s, rt = -p.t;
+            AtPoints rs = -s, rt = -t;
             for (unsigned int i = 0; i < 4; ++i)
               {
                 rs += N[i] * corners[i].s;
                 rt += N[i] * corners[i].t;
               }
-            const double step_xi  = inverse[0] * rs + inverse[1] * rt,
-                         step_eta = inverse[2] * rs + inverse[3] * rt;
+            const AtPoints step_xi  = inverse[0] * rs + inverse[1] * rt,
+                           step_eta = inverse[2] * rs + inverse[3] * rt;
             xi -= step_xi;
             eta -= step_eta;
-            N = shape(xi, eta);
-            if (std::abs(step_xi) + std::abs(step_eta) < 1e-9) // the next step would be smaller than 1e-10
+            N                     = shape(xi, eta);
+            const AtPoints step2  = step_xi * step_xi + step_eta * step_eta;
+            double         moving = 0.;
+            for (unsigned int i = 0; i < 8; ++i)
+              moving = std::max(moving, step2[i]);
+            if (moving < 1e-18) // the next step would be smaller than 1e-10
               break;
           }
         return N;
@@ -172,14 +189,14 @@ namespace tread
       return polygon;
     }
 
-    // Symmetric rule of degree 4 with 6 points on a triangle (Dunavant 1985).
-    constexpr double triangle_points[6][4] = {
-      {0.108103018168070, 0.445948490915965, 0.445948490915965, 0.223381589678011},
-      {0.445948490915965, 0.108103018168070, 0.445948490915965, 0.223381589678011},
-      {0.445948490915965, 0.445948490915965, 0.108103018168070, 0.223381589678011},
-      {0.816847572980459, 0.091576213509771, 0.091576213509771, 0.109951743655322},
-      {0.091576213509771, 0.816847572980459, 0.091576213509771, 0.109951743655322},
-      {0.091576213509771, 0.091576213509771, 0.816847572980459, 0.109951743655322}};
+    // Symmetric rule of degree 4 with 6 points on a triangle (Dunavant 1985): barycentric coordinates,
+    // weights.
+    constexpr double near_1 = 0.108103018168070, far_1 = 0.445948490915965, near_2 = 0.816847572980459,
+                     far_2 = 0.091576213509771, weight_1 = 0.223381589678011, weight_2 = 0.109951743655322;
+    constexpr AtPoints triangle_points[3] = {{near_1, far_1, far_1, near_2, far_2, far_2, far_2, far_2},
+                                             {far_1, near_1, far_1, far_2, near_2, far_2, far_2, far_2},
+                                             {far_1, far_1, near_1, far_2, far_2, near_2, near_2, near_2}},
+                       triangle_weights   = {weight_1, weight_1, weight_1, weight_2, weight_2, weight_2};
   } // namespace
 
 
@@ -227,7 +244,8 @@ namespace tread
       return coupling;
     const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(boxes);
 
-    // First pass: the slave faces that have a master face opposite, and how near it is.
+    // First pass: the slave faces that have a master face opposite, and how near it is. The ranks take them
+    // in turn.
     struct SlaveFace
     {
       const ContactSurfaces::Face *face;
@@ -240,12 +258,15 @@ namespace tread
         return {dot(x - origin, along_s), dot(x - origin, along_t)};
       }
     };
-    std::vector<SlaveFace> slave_faces;
-    std::vector<char>      near_node(surfaces.nodes.size(), false);
-    std::vector<Entry>     found;
+    std::vector<SlaveFace>   slave_faces;
+    std::vector<signed char> near_node(surfaces.nodes.size(), false);
+    std::vector<Entry>       found;
+    const unsigned int       n_ranks = dealii::Utilities::MPI::n_mpi_processes(surfaces.comm),
+                       this_rank     = dealii::Utilities::MPI::this_mpi_process(surfaces.comm);
+    unsigned int turn                = 0;
     for (const ContactSurfaces::Face &face : surfaces.faces)
       {
-        if (face.body != slave_body)
+        if (face.body != slave_body || turn++ % n_ranks != this_rank)
           continue;
         const Box box = box_of(face, search_reach);
         found.clear();
@@ -291,13 +312,20 @@ namespace tread
         slave_faces.push_back(std::move(slave));
       }
 
+    if (n_ranks > 1)
+      {
+        MPI_Allreduce(MPI_IN_PLACE, near_node.data(), near_node.size(), MPI_SIGNED_CHAR, MPI_MAX,
+                      surfaces.comm);
+        MPI_Allreduce(MPI_IN_PLACE, &coupling.time_to_touch, 1, MPI_DOUBLE, MPI_MIN, surfaces.comm);
+      }
+
     // A hanging node gives its row to its parents. What they need are all the faces around them and around
     // the nodes that hang on them.
     for (const auto &h : surfaces.hanging_nodes)
       if (near_node[h.node])
         for (const unsigned int parent : h.parents)
           near_node[parent] = true;
-    std::vector<char> integrated = near_node;
+    std::vector<signed char> integrated = near_node;
     for (const auto &h : surfaces.hanging_nodes)
       for (const unsigned int parent : h.parents)
         integrated[h.node] |= near_node[parent];
@@ -329,14 +357,6 @@ namespace tread
         entries.push_back({node, value});
       }
     };
-    std::vector<const SlaveFace *> to_integrate;
-    for (const SlaveFace &slave : slave_faces)
-      if (const auto &n = slave.face->nodes;
-          std::any_of(n.begin(), n.end(), [&](const unsigned int i) { return integrated[i]; }))
-        to_integrate.push_back(&slave);
-    const std::size_t n_ranks   = dealii::Utilities::MPI::n_mpi_processes(surfaces.comm),
-                      this_rank = dealii::Utilities::MPI::this_mpi_process(surfaces.comm);
-
     /// What one pair of faces shares: the master's corners in the slave's plane, and the common polygon.
     struct Piece
     {
@@ -346,12 +366,12 @@ namespace tread
     };
     std::map<unsigned int, NodeSum> sums;
     std::vector<Piece>              pieces;
-    for (std::size_t s = this_rank * to_integrate.size() / n_ranks;
-         s < (this_rank + 1) * to_integrate.size() / n_ranks; ++s)
+    for (const SlaveFace &slave : slave_faces)
       {
-        const SlaveFace &slave = *to_integrate[s];
-        const auto      &n     = slave.face->nodes;
-        Quadrilateral    corners;
+        const auto &n = slave.face->nodes;
+        if (std::none_of(n.begin(), n.end(), [&](const unsigned int i) { return integrated[i]; }))
+          continue;
+        Quadrilateral corners;
         for (unsigned int k = 0; k < 4; ++k)
           corners.corners[k] = slave.project(x[n[k]]);
         corners.prepare();
@@ -392,28 +412,37 @@ namespace tread
         for (const Piece &piece : pieces)
           {
             // Integrals of N_j N_k and N_j N_l^master; the weights follow by their coefficients.
-            double                     slave_slave[4][4] = {}, slave_master[4][4] = {}, covered[4] = {};
+            AtPoints slave_slave_at[4][4] = {}, slave_master_at[4][4] = {}, covered_at[4] = {};
             const std::vector<Plane2> &polygon = piece.polygon;
             for (unsigned int i = 1; i + 1 < polygon.size(); ++i)
               {
-                const double triangle_area = 0.5 * cross(polygon[0], polygon[i], polygon[i + 1]);
-                if (triangle_area <= 0.)
+                const Plane2 a = polygon[0], b = polygon[i], c = polygon[i + 1];
+                const double area = 0.5 * cross(a, b, c);
+                if (area <= 0.)
                   continue;
-                for (const auto &q : triangle_points)
+                const auto    &q = triangle_points;
+                const AtPoints s = q[0] * a.s + q[1] * b.s + q[2] * c.s,
+                               t = q[0] * a.t + q[1] * b.t + q[2] * c.t;
+                const auto N = corners.shape_at(s, t), N_master = piece.corners.shape_at(s, t);
+                for (unsigned int j = 0; j < 4; ++j)
                   {
-                    const Plane2 p{q[0] * polygon[0].s + q[1] * polygon[i].s + q[2] * polygon[i + 1].s,
-                                   q[0] * polygon[0].t + q[1] * polygon[i].t + q[2] * polygon[i + 1].t};
-                    const double w = q[3] * triangle_area;
-                    const auto   N = corners.shape_at(p), N_master = piece.corners.shape_at(p);
-                    for (unsigned int j = 0; j < 4; ++j)
+                    const AtPoints w = area * triangle_weights * N[j];
+                    covered_at[j] += w;
+                    for (unsigned int k = 0; k < 4; ++k)
                       {
-                        covered[j] += w * N[j];
-                        for (unsigned int k = 0; k < 4; ++k)
-                          {
-                            slave_slave[j][k] += w * N[j] * N[k];
-                            slave_master[j][k] += w * N[j] * N_master[k];
-                          }
+                        slave_slave_at[j][k] += w * N[k];
+                        slave_master_at[j][k] += w * N_master[k];
                       }
+                  }
+              }
+            double slave_slave[4][4], slave_master[4][4], covered[4];
+            for (unsigned int j = 0; j < 4; ++j)
+              {
+                covered[j] = total(covered_at[j]);
+                for (unsigned int k = 0; k < 4; ++k)
+                  {
+                    slave_slave[j][k]  = total(slave_slave_at[j][k]);
+                    slave_master[j][k] = total(slave_master_at[j][k]);
                   }
               }
             for (unsigned int j = 0; j < 4; ++j)
