@@ -70,7 +70,7 @@ namespace tread
     NodalField             previous(x.size(), Row{});
     double                 keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
     constexpr unsigned int interval = 20, steps_between_beams = 200;
-    unsigned int           iteration      = 1;
+    unsigned int           iteration = 1, last_refresh = 0;
     double                 first_residual = 0.; // N
     for (; iteration <= max_iterations; ++iteration)
       {
@@ -189,7 +189,13 @@ namespace tread
             if (progress)
               progress(iteration, share);
             if (share <= tolerance)
-              break;
+              {
+                // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
+                if (!contact || iteration <= last_refresh + interval)
+                  break;
+                contact->refresh(x.data(), v.data(), 1.);
+                last_refresh = iteration;
+              }
           }
       }
     if (iteration > max_iterations)
