@@ -61,7 +61,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-5";
+        std::string text = "tread-checkpoint-6";
         for (const std::size_t n :
              {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
               sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
@@ -154,6 +154,7 @@ namespace tread
     bytes(archive, c.steps_since_normals);
     bytes(archive, c.time_since_refresh);
     bytes(archive, c.time_to_refresh);
+    bytes(archive, c.closing_speed);
     bytes(archive, c.travelled);
     bytes(archive, c.allowed_travel);
     bytes(archive, c.unconverged_steps);
@@ -193,9 +194,8 @@ namespace tread
     const RankWork work{d.totals.damping, d.totals.external_work, d.totals.gross_work, d.totals.plastic,
                         d.last_damping_power};
     std::string    part(reinterpret_cast<const char *>(&work), sizeof work);
-    for (const auto &shares : d.slow_shares)
-      for (const ExplicitDynamics::SlowShare &share : shares)
-        part.append(reinterpret_cast<const char *>(&share.steady), sizeof share.steady);
+    for (const ExplicitDynamics::SlowShares &shares : d.slow_shares)
+      part.append(reinterpret_cast<const char *>(shares.steady.data()), shares.steady.size() * sizeof(Row));
     const std::size_t size = part.size();
     return std::string(reinterpret_cast<const char *>(&size), sizeof size) + part;
   }
@@ -224,8 +224,8 @@ namespace tread
           }
       }
     std::size_t n_shares = 0;
-    for (const auto &shares : d.slow_shares)
-      n_shares += shares.size();
+    for (const ExplicitDynamics::SlowShares &shares : d.slow_shares)
+      n_shares += shares.nodes.size();
     const bool same_ranks = !dealii::Utilities::MPI::logical_or(
       n_parts != dealii::Utilities::MPI::n_mpi_processes(comm) || own_size != n_shares * sizeof(Row), comm);
     // On other ranks the steady shares of slow cells' forces begin anew, and the first has all work.
@@ -238,12 +238,11 @@ namespace tread
     d.slow_shares_known     = same_ranks;
     const char *next_steady = own_steady;
     if (same_ranks)
-      for (auto &shares : d.slow_shares)
-        for (ExplicitDynamics::SlowShare &share : shares)
-          {
-            std::memcpy(&share.steady, next_steady, sizeof share.steady);
-            next_steady += sizeof share.steady;
-          }
+      for (ExplicitDynamics::SlowShares &shares : d.slow_shares)
+        {
+          std::memcpy(shares.steady.data(), next_steady, shares.steady.size() * sizeof(Row));
+          next_steady += shares.steady.size() * sizeof(Row);
+        }
   }
 
 

@@ -198,43 +198,48 @@ namespace tread
   }
 
 
-  inline Row ExplicitDynamics::body_load(const unsigned int i, const double factor, BodyLoads &sums) const
+  template <typename Loop>
+  inline void ExplicitDynamics::with_body_loads(const bool   has_loads,
+                                                const Run   &run,
+                                                const double factor,
+                                                BodyLoads   &sums,
+                                                const Loop  &loop) const
   {
-    if (inverse_mass[i] == 0.)
-      return Row{};
-    const double here  = factor * parameters.density_scale * true_mass[i];
-    const double owned = mesh.shared_nodes.is_owned(i) ? here : 0.;
-    Row          acceleration{};
-    if (on_wheel[i])
+    if (!has_loads)
       {
-        const Row arm    = x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.};
-        const Row inward = -compensation() * Row{1., 0., 1., 0.} * arm;
-        acceleration += inward;
-        sums.compensation += owned * inward;
+        loop([](const unsigned int) { return Row{}; });
+        return;
       }
-    if (parameters.mass_damping > 0.)
+    BodyLoads    of_run;
+    const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
+    if (run.on_wheel)
       {
-        // Against what moves on top of the rigid motion. The hub takes the reaction.
-        const Row relative = on_wheel[i] ? v[i] - hub->velocity_at(x[i]) : v[i];
-        const Row drag     = parameters.mass_damping * relative;
-        const Row reaction = owned * drag;
-        acceleration -= drag;
-        sums.drag_power += dot(reaction, relative);
-        if (on_wheel[i])
-          {
-            const Row arm = x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.};
-            sums.drag += reaction;
-            sums.drag_moment += arm[2] * reaction[0] - arm[0] * reaction[2];
-          }
+        const auto  &hub_motion = hub->motion;
+        const double omega      = hub_motion.angular_velocity;
+        const Row    axle{hub_motion.x, 0., hub_motion.z, 0.},
+          velocity{hub_motion.velocity_x, 0., hub_motion.velocity_z, 0.}, spin{omega, 0., -omega, 0.},
+          inward = -compensation() * Row{1., 0., 1., 0.};
+        loop([&](const unsigned int i) {
+          const double mass     = free_mass(i, scaled);
+          const Row    arm      = x[i] - axle;
+          const Row    swapped  = __builtin_shufflevector(arm, arm, 2, 1, 0, 3);
+          const Row    relative = v[i] - velocity - spin * swapped;
+          const Row    momentum = mass * relative;
+          of_run.arms += mass * arm;
+          of_run.momentum += momentum;
+          of_run.moments += swapped * momentum;
+          of_run.squares += relative * momentum;
+          return mass * inward * arm - damping * momentum;
+        });
       }
-    return here * acceleration;
-  }
-
-
-  inline Row ExplicitDynamics::first_force(const unsigned int i, const double factor, const bool with_loads)
-  {
-    const Row weight{0., 0., inverse_mass[i] > 0. ? -parameters.gravity * factor * true_mass[i] : 0., 0.};
-    return with_loads ? weight + body_load(i, factor, next_loads) : weight;
+    else
+      loop([&](const unsigned int i) {
+        const Row momentum = free_mass(i, scaled) * v[i];
+        of_run.squares += v[i] * momentum;
+        return -damping * momentum;
+      });
+    if (run.is_owned)
+      sums += of_run;
   }
 
 
@@ -263,7 +268,6 @@ namespace tread
         contact->refresh(x.data(), v.data(), time_step);
       }
     hold_guided_nodes(v);
-    prepare_step();
   }
 
 
@@ -274,10 +278,16 @@ namespace tread
       x_damped[i] = x[i] + beta * v[i];
     mesh.distribute_hanging_nodes(x_damped.data());
     next_loads = BodyLoads();
+    std::fill(force.begin(), force.end(), Row{});
     for (unsigned int level = 0; level <= max_level(); ++level)
       for (const Run &run : nodes_of_level[level])
-        for (unsigned int i = run.begin; i < run.end; ++i)
-          force[i] = first_force(i, std::ldexp(1., level), level == 0 && has_body_loads(run));
+        {
+          const double factor = std::ldexp(1., level);
+          with_body_loads(level == 0 && has_body_loads(run), run, factor, next_loads, [&](const auto &load) {
+            for (unsigned int i = run.begin; i < run.end; ++i)
+              force[i] = weight(i, factor) + load(i);
+          });
+        }
     keep_loads_of_shared(max_level());
   }
 
@@ -287,6 +297,7 @@ namespace tread
     if (hub)
       nominal_angular_velocity = hub->motion.angular_velocity;
     set_inertia();
+    prepare_step();
     totals             = EnergyLedger();
     start_kinetic      = kinetic_energy();
     start_potential    = body_potential();
@@ -344,32 +355,33 @@ namespace tread
     times.communication += watch.lap();
 
     // What acts on the nodes from outside.
-    BodyLoads  body_loads = next_loads;
-    const bool loaded     = !external_force.empty();
+    BodyLoads  loads  = next_loads;
+    const bool loaded = !external_force.empty();
     if (loaded)
       for (unsigned int level = 0; level <= due; ++level)
         for (const Run &run : nodes_of_level[level])
           for (unsigned int i = run.begin; i < run.end; ++i)
             force[i] += std::ldexp(1., level) * external_force[i];
-    if (has_body_loads())
-      for (unsigned int level = 1; level <= due; ++level)
-        for (const Run &run : nodes_of_level[level])
-          if (has_body_loads(run))
+    for (unsigned int level = 1; level <= due; ++level)
+      for (const Run &run : nodes_of_level[level])
+        if (has_body_loads(run))
+          with_body_loads(true, run, std::ldexp(1., level), loads, [&](const auto &load) {
             for (unsigned int i = run.begin; i < run.end; ++i)
-              force[i] += body_load(i, std::ldexp(1., level), body_loads);
-    totals.damping += time_step * body_loads.drag_power;
+              force[i] += load(i);
+          });
+    totals.damping += time_step * parameters.mass_damping * dot(loads.squares, Row{1., 1., 1., 0.});
     hold_guided_nodes(force);
 
     if (hub)
       {
         add_hub_sums(rank_sums);
         for (unsigned int d = 0; d < 3; ++d)
-          rank_sums[d] += body_loads.drag[d];
-        rank_sums[3] += body_loads.drag_moment;
+          rank_sums[d] += parameters.mass_damping * loads.momentum[d];
+        rank_sums[3] += parameters.mass_damping * (loads.moments[0] - loads.moments[2]);
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's motion is summed here.
-        const double work = time_step * (body_loads.compensation[0] * hub->motion.velocity_x +
-                                         body_loads.compensation[2] * hub->motion.velocity_z);
+        const double work = -time_step * compensation() *
+                            (loads.arms[0] * hub->motion.velocity_x + loads.arms[2] * hub->motion.velocity_z);
         totals.external_work += work;
         totals.gross_work += std::abs(work);
       }
@@ -409,24 +421,26 @@ namespace tread
         const double factor = std::ldexp(1., level);
         for (const Run &run : nodes_of_level[level])
           {
-            const bool has_loads = level == 0 && has_body_loads(run);
-            for (unsigned int i = run.begin; i < run.end; ++i)
-              {
-                const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
-                if (loaded)
-                  {
-                    const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
-                    if (mesh.shared_nodes.is_owned(i))
-                      {
-                        work += w;
-                        gross += std::abs(w);
-                      }
-                  }
-                v[i] = velocity;
-                x[i] += factor * time_step * velocity;
-                x_damped[i] = x[i] + beta * velocity;
-                force[i]    = first_force(i, factor, has_loads);
-              }
+            const auto advance = [&](const unsigned int i) {
+              const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
+              if (loaded && run.is_owned)
+                {
+                  const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
+                  work += w;
+                  gross += std::abs(w);
+                }
+              v[i] = velocity;
+              x[i] += factor * time_step * velocity;
+              x_damped[i] = x[i] + beta * velocity;
+            };
+            with_body_loads(level == 0 && has_body_loads(run), run, factor, next_loads,
+                            [&](const auto &load) {
+                              for (unsigned int i = run.begin; i < run.end; ++i)
+                                {
+                                  advance(i);
+                                  force[i] = weight(i, factor) + load(i);
+                                }
+                            });
           }
       }
     keep_loads_of_shared(due);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tread
 {
@@ -78,33 +79,41 @@ namespace tread
     slow_shares.assign(max_level + 1, {});
     for (unsigned int level = 1; level <= max_level; ++level)
       {
-        std::vector<char> seen(x.size(), false);
-        const auto        add = [&](const unsigned int i) {
-          if (level_of_node[i] < level && !seen[i])
-            slow_shares[level].push_back(
-                     {i, level_of_node[i], std::ldexp(1., level_of_node[i]), Row{}, Row{}});
-          seen[i] = true;
-        };
+        std::vector<char> is_shared(x.size(), false);
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
               {
                 if (!hangs[i])
-                  add(i);
+                  is_shared[i] = true;
                 else
                   for (const unsigned int parent : hangs[i]->parents)
-                    add(parent);
+                    is_shared[parent] = true;
               }
+        SlowShares &shares = slow_shares[level];
+        for (unsigned int own = 0; own < level; ++own)
+          {
+            for (unsigned int i = 0; i < x.size(); ++i)
+              if (is_shared[i] && level_of_node[i] == own)
+                shares.nodes.push_back(i);
+            shares.end_of_level.push_back(shares.nodes.size());
+          }
+        shares.steady.assign(shares.nodes.size(), Row{});
+        force_before.resize(std::max(force_before.size(), shares.nodes.size()));
       }
+    // Hanging nodes are placed, not moved.
+    const auto kind = [&](const unsigned int i) {
+      return std::make_tuple(level_of_node[i], on_wheel[i], mesh.shared_nodes.is_owned(i),
+                             hangs[i] != nullptr);
+    };
     nodes_of_level.assign(max_level + 1, Runs());
-    for (unsigned int begin = 0; begin < level_of_node.size();)
+    for (unsigned int begin = 0, end = 0; begin < x.size(); begin = end)
       {
-        unsigned int end = begin + 1;
-        while (end < level_of_node.size() && level_of_node[end] == level_of_node[begin] &&
-               on_wheel[end] == on_wheel[begin])
+        while (end < x.size() && kind(end) == kind(begin))
           ++end;
-        nodes_of_level[level_of_node[begin]].push_back({begin, end, bool(on_wheel[begin])});
-        begin = end;
+        if (!hangs[begin])
+          nodes_of_level[level_of_node[begin]].push_back(
+            {begin, end, bool(on_wheel[begin]), mesh.shared_nodes.is_owned(begin)});
       }
   }
 
@@ -230,28 +239,28 @@ namespace tread
     Mesh::condense(hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
-        const double factor = std::ldexp(1., level);
-        if (level <= due)
+        SlowShares &shares = slow_shares[level];
+        if (level > due)
           {
-            for (SlowShare &share : slow_shares[level])
-              share.before = force[share.node];
-            solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
-            Mesh::condense(hanging[level].loaded, force.data());
-            for (SlowShare &share : slow_shares[level])
-              {
-                const Row now    = (1. / factor) * (force[share.node] - share.before);
-                const Row change = slow_shares_known ? follow * (now - share.steady) : now;
-                share.steady += change;
-                force[share.node] -= factor * share.steady;
-                // The steady part acts on average half of (factor - own) steps late: what that takes from a
-                // force that changes is given at once, or motion would be fed with energy.
-                if (slow_shares_known)
-                  force[share.node] += 0.5 * (factor - share.factor) * change;
-              }
+            shares.for_nodes_up_to(due, [&](const std::size_t k, const double own) {
+              force[shares.nodes[k]] += own * shares.steady[k];
+            });
+            continue;
           }
-        for (const SlowShare &share : slow_shares[level])
-          if (share.level <= due)
-            force[share.node] += share.factor * share.steady;
+        for (std::size_t k = 0; k < shares.nodes.size(); ++k)
+          force_before[k] = force[shares.nodes[k]];
+        solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
+        Mesh::condense(hanging[level].loaded, force.data());
+        const double factor = std::ldexp(1., level);
+        shares.for_nodes_up_to(level - 1, [&](const std::size_t k, const double own) {
+          Row      &here   = force[shares.nodes[k]];
+          const Row now    = (1. / factor) * (here - force_before[k]);
+          const Row change = slow_shares_known ? follow * (now - shares.steady[k]) : now;
+          shares.steady[k] += change;
+          // The steady part acts on average half of (factor - own) steps late: what that takes from a
+          // force that changes is given at once, or motion would be fed with energy.
+          here -= (factor - own) * (slow_shares_known ? shares.steady[k] - 0.5 * change : shares.steady[k]);
+        });
       }
     slow_shares_known = true;
   }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 namespace tread
@@ -96,21 +97,41 @@ namespace tread
         "mesh: a body asks for cells more than 2^12 times finer than its coarse blocks");
     }
 
-    /// Ranks get equal shares of work when cells 2^l times as large as the smallest take only every 2^l-th
-    /// step.
-    void balance(Triangulation &triangulation, const unsigned int max_level)
+    /// The level of time steps that cells will likely be run with: those 2^l times as large as the smallest
+    /// take only every 2^l-th step.
+    class LikelyLevels
     {
-      double smallest = std::numeric_limits<double>::max();
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          smallest = std::min(smallest, cell->minimum_vertex_distance());
-      smallest = dealii::Utilities::MPI::min(smallest, triangulation.get_communicator());
+    public:
+      LikelyLevels(const Triangulation &triangulation, const unsigned int max_level)
+        : max_level(max_level)
+        , smallest(std::numeric_limits<double>::max())
+      {
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            smallest = std::min(smallest, cell->minimum_vertex_distance());
+        smallest = dealii::Utilities::MPI::min(smallest, triangulation.get_communicator());
+      }
+
+      template <typename Cell>
+      unsigned int operator()(const Cell &cell) const
+      {
+        unsigned int level = 0;
+        while (level < max_level && cell->minimum_vertex_distance() > 0.9 * std::ldexp(smallest, level + 1))
+          ++level;
+        return level;
+      }
+
+    private:
+      unsigned int max_level;
+      double       smallest; ///< edge of a cell, m
+    };
+
+    /// Ranks get equal shares of work.
+    void balance(Triangulation &triangulation, const LikelyLevels &likely_level)
+    {
       triangulation.signals.weight.connect(
         [=](const Triangulation::cell_iterator &cell, const Triangulation::CellStatus) -> unsigned int {
-          unsigned int level = 0;
-          while (level < max_level && cell->minimum_vertex_distance() > 0.9 * std::ldexp(smallest, level + 1))
-            ++level;
-          return 1000u >> level;
+          return 1000u >> likely_level(cell);
         });
       triangulation.repartition();
     }
@@ -123,8 +144,9 @@ namespace tread
     Triangulation triangulation(comm);
     make_coarse_mesh(triangulation, bodies);
     refine(triangulation, bodies);
+    const LikelyLevels likely_level(triangulation, max_level);
     if (max_level > 0)
-      balance(triangulation, max_level);
+      balance(triangulation, likely_level);
 
     const dealii::FE_Q<3> fe(1);
     dealii::DoFHandler<3> dof_handler(triangulation);
@@ -152,6 +174,7 @@ namespace tread
               position[dofs[v]] = body.to_space ? body.to_space(cell->vertex(v)) : cell->vertex(v);
         }
 
+    std::vector<unsigned int>             level_of_node; // the last of all for hanging nodes
     std::map<std::uint64_t, unsigned int> local;
     const auto                            local_number = [&](const std::uint64_t id) {
       const auto [entry, is_new] = local.emplace(id, nodes.size());
@@ -159,6 +182,7 @@ namespace tread
         {
           nodes.push_back(position.at(id));
           global_ids.push_back(id);
+          level_of_node.push_back(max_level);
         }
       return entry->second;
     };
@@ -174,7 +198,10 @@ namespace tread
           Cell c;
           c.body = cell->material_id();
           for (unsigned int v = 0; v < nodes_per_cell; ++v)
-            c.nodes[v] = local_number(dofs[v]);
+            {
+              c.nodes[v]                = local_number(dofs[v]);
+              level_of_node[c.nodes[v]] = std::min(level_of_node[c.nodes[v]], likely_level(cell));
+            }
           for (const unsigned int f : cell->face_indices())
             if (cell->at_boundary(f))
               {
@@ -206,7 +233,9 @@ namespace tread
           if (n_parents != h.parents.size())
             throw std::runtime_error("mesh: a hanging node is not in the middle of an edge or a face");
           hanging_nodes.push_back(h);
+          level_of_node[i] = max_level + 1;
         }
+    renumber(level_of_node);
     // Parents follow from the constraint itself, so every rank places a hanging node alike:
     // on the chord, where every linear displacement field leaves it.
     for (const HangingNode &h : hanging_nodes)
@@ -232,6 +261,36 @@ namespace tread
     for (const HangingNode &h : hanging_nodes)
       n_hanging += shared_nodes.is_owned(h.node);
     n_global_hanging_nodes = dealii::Utilities::MPI::sum(n_hanging, comm);
+  }
+
+
+  void Mesh::renumber(const std::vector<unsigned int> &level_of_node)
+  {
+    std::vector<unsigned int> order(nodes.size()), number(nodes.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+      return level_of_node[a] < level_of_node[b];
+    });
+    const std::vector<dealii::Point<3>> old_nodes(nodes);
+    const std::vector<std::uint64_t>    old_ids(global_ids);
+    for (unsigned int i = 0; i < order.size(); ++i)
+      {
+        number[order[i]] = i;
+        nodes[i]         = old_nodes[order[i]];
+        global_ids[i]    = old_ids[order[i]];
+      }
+    for (Cell &cell : cells)
+      for (unsigned int &i : cell.nodes)
+        i = number[i];
+    for (Face &face : faces)
+      for (unsigned int &i : face.nodes)
+        i = number[i];
+    for (HangingNode &h : hanging_nodes)
+      {
+        h.node = number[h.node];
+        for (unsigned int &i : h.parents)
+          i = number[i];
+      }
   }
 
 

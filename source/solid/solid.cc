@@ -409,6 +409,8 @@ namespace tread
   {
     return affine_batches.size() * sizeof(OnePointBatch<true>) +
            general_batches.size() * sizeof(OnePointBatch<false>) +
-           point_batches.size() * sizeof(BatchOfPoints) + plastic_cells.memory_consumption();
+           point_batches.size() * sizeof(BatchOfPoints) + plastic_cells.memory_consumption() +
+           cell_of_lane.size() * sizeof(cell_of_lane[0]) + frequencies.size() * sizeof(frequencies[0]) +
+           levels_of_cells.size() * sizeof(levels_of_cells[0]);
   }
 } // namespace tread

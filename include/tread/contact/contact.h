@@ -30,8 +30,8 @@ namespace tread
     bool   adhesion;
   };
 
-  /// Work of one step's impulses, J: lost by the sliding of slipping pairs, and otherwise: by touching down, and
-  /// lost or gained as pairs whose coupling is older than their sliding turn with the surfaces.
+  /// Work of one step's impulses, J: lost by the sliding of slipping pairs, and otherwise: by touching down,
+  /// and lost or gained as pairs whose coupling is older than their sliding turn with the surfaces.
   struct ContactWork
   {
     double friction = 0., normal = 0.;
@@ -140,7 +140,8 @@ namespace tread
     unsigned int                           steps_since_normals = 0;
     std::vector<double>                    send_buffer, receive_buffer;
     double                                 time_since_refresh = 0., time_to_refresh = 0.;
-    double                                 travelled = 0., allowed_travel = 0.; ///< sums of largest speeds, m
+    double                    closing_speed = 0.; ///< largest speeds of both bodies' nodes, added, m/s
+    double                    travelled = 0., allowed_travel = 0.; ///< by that speed, m
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
     std::uint64_t             unconverged_steps = 0;

@@ -9,6 +9,7 @@
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -157,11 +158,13 @@ namespace tread
     std::size_t memory_consumption() const
     {
       std::size_t bytes = x.size() * (4 * sizeof(Row) + 2 * sizeof(double) + 3 + sizeof(level_of_node[0]));
-      for (const auto &shares : slow_shares)
-        bytes += shares.size() * sizeof(SlowShare);
+      for (const SlowShares &shares : slow_shares)
+        bytes += shares.nodes.size() * (sizeof(unsigned int) + sizeof(Row));
       for (const HangingNodesOfLevel &of_level : hanging)
         bytes += (of_level.loaded.size() + of_level.placed.size()) * sizeof(Mesh::HangingNode);
-      return bytes;
+      return bytes + force_before.size() * sizeof(Row) +
+             hanging_at_contact.size() * sizeof(Mesh::HangingNode) +
+             loads_of_shared.size() * sizeof(LoadOfShared);
     }
 
     const std::vector<double> &inverse_masses() const
@@ -178,7 +181,7 @@ namespace tread
     const Solid &solid;
 
   private:
-    /// Time step, inverse masses and all that follows from positions and velocities.
+    /// Time step, inverse masses and the pairs in contact.
     void                set_inertia();
     void                prepare_step();              ///< what step() leaves behind for the next one
     std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
@@ -200,14 +203,24 @@ namespace tread
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
 
-    /// What the cells of a level exert on a node that moves in smaller steps. Pushed now and then only, a
+    /// What the cells of a level exert on nodes that move in smaller steps. Pushed now and then only, a
     /// node in a prestressed body would rattle: the steady part of the force acts in each of its steps, and
     /// only the rest, the difference to the present force, acts as one push.
-    struct SlowShare
+    struct SlowShares
     {
-      unsigned int node, level;    ///< the node's own level
-      double       factor;         ///< 2^level
-      Row          steady, before; ///< N
+      std::vector<unsigned int> nodes;        ///< by their own levels
+      std::vector<std::size_t>  end_of_level; ///< in nodes
+      NodalField                steady;       ///< N
+
+      /// Call work(k, 2^own level) for nodes[k] up to an own level.
+      template <typename Work>
+      void for_nodes_up_to(const unsigned int level, const Work &work) const
+      {
+        std::size_t k = 0;
+        for (unsigned int own = 0; own < end_of_level.size() && own <= level; ++own)
+          for (const double factor = std::ldexp(1., own); k < end_of_level[own]; ++k)
+            work(k, factor);
+      }
     };
 
     /// Hanging nodes by the levels of cells around them on this rank.
@@ -217,11 +230,11 @@ namespace tread
       std::vector<Mesh::HangingNode> placed; ///< needed at this level, and at no lower one
     };
 
-    /// Nodes [begin, end) of one level, all on the wheel or none.
+    /// Nodes [begin, end) of one level, all or none of them on the wheel, and this rank's own.
     struct Run
     {
       unsigned int begin, end;
-      bool         on_wheel;
+      bool         on_wheel, is_owned;
     };
     using Runs = std::vector<Run>;
 
@@ -232,22 +245,44 @@ namespace tread
       Row          load; ///< N, times 2^level
     };
 
-    /// Sums over this rank's own nodes of what slows them and compensates the centrifugal force of density
-    /// that is not there.
+    /// What slows nodes that move on top of the rigid motion, and what compensates the centrifugal force of
+    /// density that is not there: sums over this rank's own nodes, weighted with their scaled masses.
     struct BodyLoads
     {
-      Row    compensation{}, drag{}; ///< N
-      double drag_moment = 0.;       ///< about the axle, N m
-      double drag_power  = 0.;       ///< W
+      Row arms{};     ///< from the axle to the wheel's nodes, kg m
+      Row momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
+      Row moments{};  ///< z v_x and x v_z of that momentum about the axle, kg m^2/s
+      Row squares{};  ///< squares of all velocities on top of the rigid motion, kg m^2/s^2
+
+      void operator+=(const BodyLoads &other)
+      {
+        arms += other.arms;
+        momentum += other.momentum;
+        moments += other.moments;
+        squares += other.squares;
+      }
     };
 
-    /// The load on a node now, N, times factor, added to the sums.
-    Row body_load(const unsigned int i, const double factor, BodyLoads &sums) const;
-
-    bool has_body_loads() const
+    /// Mass of a node that is free to move, times factor, kg.
+    double free_mass(const unsigned int i, const double factor) const
     {
-      return compensation() != 0. || parameters.mass_damping > 0.;
+      return inverse_mass[i] > 0. ? factor * true_mass[i] : 0.;
     }
+
+    Row weight(const unsigned int i, const double factor) const ///< times factor, N
+    {
+      return Row{0., 0., -parameters.gravity * free_mass(i, factor), 0.};
+    }
+
+    /// Call loop(load) for a run, where load(i) is the body load on a node now, times factor (N), which is
+    /// added to the sums. Without loads it is zero.
+    template <typename Loop>
+    void with_body_loads(const bool   has_loads,
+                         const Run   &run,
+                         const double factor,
+                         BodyLoads   &sums,
+                         const Loop  &loop) const;
+
     bool has_body_loads(const Run &run) const
     {
       return parameters.mass_damping > 0. || (run.on_wheel && compensation() != 0.);
@@ -259,21 +294,18 @@ namespace tread
       return (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     }
 
-    /// What the force on a node of a level begins its next step with, N; loads of level 0 go to next_loads.
-    Row first_force(const unsigned int i, const double factor, const bool with_body_loads);
-
     /// Take from shared nodes up to this level what their forces begin with.
     void keep_loads_of_shared(const unsigned int due);
 
-
-    DynamicsParameters                  parameters;
-    std::vector<Runs>                   nodes_of_level;
-    std::vector<unsigned int>           level_of_node;
-    std::vector<HangingNodesOfLevel>    hanging; ///< by level
-    std::vector<Mesh::HangingNode>      hanging_at_contact;
-    std::vector<std::vector<SlowShare>> slow_shares; ///< by level
-    bool                                slow_shares_known = false;
-    NodalField                          force, x_damped;
+    DynamicsParameters               parameters;
+    std::vector<Runs>                nodes_of_level;
+    std::vector<unsigned int>        level_of_node;
+    std::vector<HangingNodesOfLevel> hanging; ///< by level
+    std::vector<Mesh::HangingNode>   hanging_at_contact;
+    std::vector<SlowShares>          slow_shares; ///< by level
+    bool                             slow_shares_known = false;
+    NodalField                       force_before; ///< of the cells of a level, on nodes that share them
+    NodalField                       force, x_damped;
     std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
     std::vector<LoadOfShared>                          loads_of_shared;
     BodyLoads                                          next_loads; ///< of level 0 in its next step

@@ -16,8 +16,9 @@ namespace tread
   /// The hexahedra of all bodies on this rank, and what holds them together: plain arrays for
   /// the explicit kernels, made from deal.II's distributed octree.
   ///
-  /// Nodes are numbered in the order in which the cells meet them, cells along the octree's
-  /// space-filling curve, so that neighbours are near in memory.
+  /// Nodes are numbered by the level of time steps that they will likely have, hanging nodes last, and in the
+  /// order in which the cells meet them, cells along the octree's space-filling curve: neighbours are near in
+  /// memory, and what a step moves lies together.
   struct Mesh
   {
     static constexpr unsigned int nodes_per_cell = 8;
@@ -110,6 +111,9 @@ namespace tread
         field[h.node] = HangingNode::weight * ((field[h.parents[0]] + field[h.parents[1]]) +
                                                (field[h.parents[2]] + field[h.parents[3]]));
     }
+
+  private:
+    void renumber(const std::vector<unsigned int> &level_of_node);
   };
 } // namespace tread
 
