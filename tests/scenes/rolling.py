@@ -288,7 +288,7 @@ with tempfile.TemporaryDirectory() as folder:
             output = path("full-" + name)
             os.mkdir(output)
             os.symlink("/dev/full", os.path.join(output, name + ".part"))
-            fails(f"disk full at {name}", arguments_of(output, short), ["cannot write", name], ranks)
+            fails(f"disk full at {name}", arguments_of(SCENE, output, short), ["cannot write", name], ranks)
             check.that(f"disk full at {name}: nothing half written stays",
                        not [entry for entry in os.listdir(output) if entry.endswith(".part") or entry == name])
             check.that(f"disk full at {name}: what was written before stays", "history.csv" in os.listdir(output))
