@@ -68,9 +68,8 @@ namespace tread
   double ExplicitDynamics::body_potential() const
   {
     // At the instant of the velocities, half a step back: so far work is counted.
-    const double compensation =
-      (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
-    double potential = 0.;
+    const double compensation = this->compensation();
+    double       potential    = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {

@@ -115,8 +115,9 @@ namespace tread
       template <typename Cell>
       unsigned int operator()(const Cell &cell) const
       {
+        const double edge  = max_level > 0 ? cell->minimum_vertex_distance() : 0.;
         unsigned int level = 0;
-        while (level < max_level && cell->minimum_vertex_distance() > 0.9 * std::ldexp(smallest, level + 1))
+        while (level < max_level && edge > 0.9 * std::ldexp(smallest, level + 1))
           ++level;
         return level;
       }
@@ -196,11 +197,12 @@ namespace tread
         {
           cell->get_dof_indices(dofs);
           Cell c;
-          c.body = cell->material_id();
+          c.body                   = cell->material_id();
+          const unsigned int level = likely_level(cell);
           for (unsigned int v = 0; v < nodes_per_cell; ++v)
             {
               c.nodes[v]                = local_number(dofs[v]);
-              level_of_node[c.nodes[v]] = std::min(level_of_node[c.nodes[v]], likely_level(cell));
+              level_of_node[c.nodes[v]] = std::min(level_of_node[c.nodes[v]], level);
             }
           for (const unsigned int f : cell->face_indices())
             if (cell->at_boundary(f))
