@@ -31,7 +31,8 @@ namespace tread
     /// Work that a rank has summed for its own cells and nodes, J, and power, W.
     struct RankWork
     {
-      double damping = 0., external_work = 0., gross_work = 0., plastic = 0., last_damping_power = 0.;
+      double damping = 0., external_work = 0., gross_work = 0., plastic = 0., friction = 0., contact = 0.,
+             last_damping_power = 0.;
     };
 
     template <typename Archive, typename T>
@@ -61,7 +62,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-6";
+        std::string text = "tread-checkpoint-7";
         for (const std::size_t n :
              {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
               sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
@@ -142,7 +143,6 @@ namespace tread
     bytes(archive, s.wall_seconds);
     bytes(archive, s.hub); // plain numbers only
     Contact &c = s.contact;
-    byte_vector(archive, c.impulse_of_node);
     byte_vector(archive, c.problem.constraints);
     byte_vector(archive, c.problem.entries);
     byte_vector(archive, c.involved);
@@ -191,8 +191,8 @@ namespace tread
 
   std::string Checkpoint::own_part(const ExplicitDynamics &d)
   {
-    const RankWork work{d.totals.damping, d.totals.external_work, d.totals.gross_work, d.totals.plastic,
-                        d.last_damping_power};
+    const RankWork work{d.totals.damping,  d.totals.external_work, d.totals.gross_work, d.totals.plastic,
+                        d.totals.friction, d.totals.contact,       d.last_damping_power};
     std::string    part(reinterpret_cast<const char *>(&work), sizeof work);
     for (const ExplicitDynamics::SlowShares &shares : d.slow_shares)
       part.append(reinterpret_cast<const char *>(shares.steady.data()), shares.steady.size() * sizeof(Row));
@@ -213,8 +213,9 @@ namespace tread
         i += sizeof size;
         RankWork work;
         std::memcpy(&work, &parts[i], sizeof work);
-        for (double RankWork::*value : {&RankWork::damping, &RankWork::external_work, &RankWork::gross_work,
-                                        &RankWork::plastic, &RankWork::last_damping_power})
+        for (double RankWork::*value :
+             {&RankWork::damping, &RankWork::external_work, &RankWork::gross_work, &RankWork::plastic,
+              &RankWork::friction, &RankWork::contact, &RankWork::last_damping_power})
           sum.*value += work.*value;
         if (n_parts == rank)
           {
@@ -234,6 +235,8 @@ namespace tread
     d.totals.external_work  = work.external_work;
     d.totals.gross_work     = work.gross_work;
     d.totals.plastic        = work.plastic;
+    d.totals.friction       = work.friction;
+    d.totals.contact        = work.contact;
     d.last_damping_power    = work.last_damping_power;
     d.slow_shares_known     = same_ranks;
     const char *next_steady = own_steady;
@@ -272,7 +275,8 @@ namespace tread
       cells.append(reinterpret_cast<const char *>(&cell), sizeof cell);
     cells                   = folder.gather(cells);
     const std::string parts = folder.gather(own_part(d));
-    std::string       peaks;
+    simulation.contact.complete_state();
+    std::string peaks;
     if (simulation.strip)
       for (const StoredPeak &peak : simulation.strip->stored())
         peaks.append(reinterpret_cast<const char *>(&peak), sizeof peak);

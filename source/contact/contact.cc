@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/gathered.h>
 #include <tread/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tread
 {
@@ -35,7 +37,7 @@ namespace tread
     , friction(std::move(friction))
     , inverse_mass(surfaces.nodes.size(), 0.)
     , face_size(0.)
-    , impulse_of_node(surfaces.nodes.size(), Row{})
+    , strips(problem)
   {
     // The smallest slave face sets the scale of search distances.
     const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
@@ -75,8 +77,6 @@ namespace tread
 
   void Contact::scale_impulses(const double factor)
   {
-    for (Row &p : impulse_of_node)
-      p *= factor;
     for (Row &p : impulse)
       p *= factor;
     previous_impulse = impulse;
@@ -89,7 +89,11 @@ namespace tread
     surfaces.replicate(x, all_x);
     surfaces.replicate(v, all_v);
 
-    const double         search_reach = 0.7 * face_size, reach = 0.1 * face_size;
+    std::vector<Row> impulse_of_node(surfaces.nodes.size(), Row{}); // the warm start
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      impulse_of_node[problem.constraints[j].slave] = impulse[j];
+
+    const double         search_reach = 1.5 * face_size, reach = 0.15 * face_size;
     const MortarCoupling coupling =
       couple(surfaces, all_x, all_v, parameters.slave_body, parameters.master_body, search_reach, reach);
 
@@ -138,15 +142,10 @@ namespace tread
     time_since_refresh = 0.;
 
     std::vector<unsigned int> chosen;
-    std::vector<Row>          kept(impulse_of_node.size(), Row{});
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       if (gap[j] <= 0.5 * reach || norm(impulse_of_node[coupling.rows[j].slave]) > 0.)
-        {
-          chosen.push_back(j);
-          kept[coupling.rows[j].slave] = impulse_of_node[coupling.rows[j].slave];
-        }
-    impulse_of_node.swap(kept);
-    compact(coupling, chosen, all_x);
+        chosen.push_back(j);
+    compact(coupling, chosen, impulse_of_node, all_x);
   }
 
 
@@ -165,6 +164,7 @@ namespace tread
 
   void Contact::compact(const MortarCoupling            &coupling,
                         const std::vector<unsigned int> &chosen,
+                        const std::vector<Row>          &impulse_of_node,
                         const std::vector<Row>          &x)
   {
     std::vector<int> number(surfaces.nodes.size(), -1);
@@ -232,9 +232,83 @@ namespace tread
                                     {{static_cast<unsigned int>(number[h.parents[0]]),
                                       static_cast<unsigned int>(number[h.parents[1]])}}});
     velocity.assign(involved.size(), Row{});
+    predicted.assign(involved.size(), Row{});
     velocity_before.assign(involved.size(), Row{});
-    nodal_impulse.assign(involved.size(), Row{});
     gap_rate.resize(problem.constraints.size());
+    strips = Strips(problem, impulse, involved.size(), comm);
+
+    // Nodes that the sweeps of this rank's strip move, and others whose positions it needs.
+    std::vector<char> swept(involved.size(), false), needed(involved.size(), false);
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
+      {
+        for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+          swept[problem.entries[i].node] = true;
+        for (const unsigned int i : corners_around[j])
+          needed[i] = true;
+      }
+    rim_nodes.clear();
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      if (surfaces.nodes[involved[i]].at_rim)
+        {
+          rim_nodes.push_back(i);
+          needed[i] = true;
+        }
+    for (const ContactSurfaces::HangingNode &h : involved_hanging)
+      if (needed[h.node])
+        for (const unsigned int parent : h.parents)
+          needed[parent] = true;
+    swept_nodes.clear();
+    moved_nodes.clear();
+    node_terms.clear();
+    std::vector<int> number_of_terms(involved.size(), -1);
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      {
+        const bool has_terms = surfaces.nodes[involved[i]].local >= 0 || (needed[i] && !swept[i]);
+        if (swept[i])
+          swept_nodes.push_back(i);
+        if (swept[i] || has_terms)
+          moved_nodes.push_back(i);
+        if (has_terms)
+          {
+            number_of_terms[i] = node_terms.size();
+            node_terms.push_back({i, 0, 0});
+          }
+      }
+    for (const ContactProblem::Entry &entry : problem.entries)
+      if (const int k = number_of_terms[entry.node]; k >= 0)
+        ++node_terms[k].end;
+    unsigned int n_terms = 0;
+    for (NodeTerms &node : node_terms)
+      {
+        node.begin = n_terms;
+        n_terms += std::exchange(node.end, n_terms);
+      }
+    terms.resize(n_terms);
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        if (const int k = number_of_terms[problem.entries[i].node]; k >= 0)
+          terms[node_terms[k].end++] = {j, problem.entries[i].coefficient};
+  }
+
+
+  void Contact::complete_state()
+  {
+    std::vector<Row> rows(slid.size());
+    for (unsigned int j = 0; j < slid.size(); ++j)
+      rows[j] = Row{slid[j], 0., 0., 0.};
+    strips.gather(rows);
+    for (unsigned int j = 0; j < slid.size(); ++j)
+      slid[j] = rows[j][0];
+    strips.gather(previous_impulse);
+
+    rows.clear();
+    for (const unsigned int i : involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])
+      rows.push_back(position[i]);
+    rows     = gathered(rows, comm);
+    auto row = rows.begin();
+    for (const std::vector<unsigned int> &nodes : involved_of_rank)
+      for (const unsigned int i : nodes)
+        position[i] = *row++;
   }
 
 
@@ -250,13 +324,13 @@ namespace tread
     send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
     for (const unsigned int i : involved_of_rank[this_rank])
       {
-        const unsigned int node      = surfaces.nodes[involved[i]].local;
-        const Row          before    = v[node];
-        const Row          predicted = before + time_step * inverse_mass[involved[i]] * force[node];
+        const unsigned int node   = surfaces.nodes[involved[i]].local;
+        const Row          before = v[node];
+        const Row          after  = before + time_step * inverse_mass[involved[i]] * force[node];
         for (unsigned int d = 0; d < 3; ++d)
           send_buffer.push_back(before[d]);
         for (unsigned int d = 0; d < 3; ++d)
-          send_buffer.push_back(predicted[d]);
+          send_buffer.push_back(after[d]);
       }
     std::vector<int> counts(n_ranks), offsets(n_ranks);
     unsigned int     total = 0;
@@ -285,7 +359,7 @@ namespace tread
         for (const unsigned int i : involved_of_rank[rank])
           {
             velocity_before[i] = Row{received[0], received[1], received[2], 0.};
-            velocity[i]        = Row{received[3], received[4], received[5], 0.};
+            predicted[i]       = Row{received[3], received[4], received[5], 0.};
             received += 6;
           }
       }
@@ -297,7 +371,7 @@ namespace tread
 
   void Contact::update_normals()
   {
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         Row sum{};
         for (unsigned int k = 0; k < corners_around[j].size(); k += 4)
@@ -315,11 +389,13 @@ namespace tread
   {
     if (++steps_since_normals > steps_between_normals)
       update_normals();
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+    for (const unsigned int i : swept_nodes)
+      velocity[i] = predicted[i];
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
       gap_rate[j] =
         dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
     // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
-    for (unsigned int j = 0; j < impulse.size(); ++j)
+    for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       {
         const Row guess     = 2. * impulse[j] - previous_impulse[j];
         previous_impulse[j] = impulse[j];
@@ -327,41 +403,46 @@ namespace tread
           impulse[j] = guess;
       }
     const CoulombSolverResult result =
-      solve_coulomb(problem, *friction, parameters.solver, gap_rate, velocity, impulse);
+      solve_coulomb(problem, *friction, parameters.solver, strips, gap_rate, velocity, impulse);
 
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;
 
     // Nodal impulses give forces and the whole work; only pairs that slip lose work by friction.
-    work = ContactWork();
-    std::fill(nodal_impulse.begin(), nodal_impulse.end(), Row{});
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+    work             = ContactWork();
+    bool slid_enough = false;
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         const Row                         p          = impulse[j];
-        impulse_of_node[constraint.slave]            = p;
-        const double normal                          = dot(p, constraint.normal);
-        if (normal <= 0.)
-          continue;
-        for (unsigned int i = constraint.begin; i < constraint.end; ++i)
-          nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * p;
-        if (adheres(p, normal, constraint.normal))
+        const double                      normal     = dot(p, constraint.normal);
+        if (normal <= 0. || adheres(p, normal, constraint.normal))
           continue;
         const Row after = problem.combine(constraint, velocity);
         const Row u     = 0.5 * (after + problem.combine(constraint, velocity_before));
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
-        if (slid[j] > parameters.sliding_share * face_size)
-          time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
+        slid_enough = slid_enough || slid[j] > parameters.sliding_share * face_size;
         work.friction -= dot(p - normal * constraint.normal, u);
       }
-    work.normal = -work.friction;
-    for (unsigned int i = 0; i < involved.size(); ++i)
+    if (strips.gather(impulse, slid_enough) > 0.)
+      time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
+
+    const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    work.normal         = -work.friction;
+    for (const NodeTerms &of_node : node_terms)
       {
-        work.normal -= 0.5 * dot(nodal_impulse[i], velocity[i] + velocity_before[i]);
-        if (const int node = surfaces.nodes[involved[i]].local; node >= 0)
-          force[node] += (1. / time_step) * nodal_impulse[i];
+        const ContactSurfaces::Node &node = surfaces.nodes[involved[of_node.node]];
+        Row                          p{};
+        for (unsigned int k = of_node.begin; k < of_node.end; ++k)
+          p += terms[k].coefficient * impulse[terms[k].constraint];
+        Row &after = velocity[of_node.node];
+        after      = predicted[of_node.node] + inverse_mass[involved[of_node.node]] * p;
+        if (node.local >= 0)
+          force[node.local] += (1. / time_step) * p;
+        if (node.owner == this_rank)
+          work.normal -= 0.5 * dot(p, after + velocity_before[of_node.node]);
       }
-    for (unsigned int i = 0; i < involved.size(); ++i)
+    for (const unsigned int i : moved_nodes)
       position[i] += time_step * velocity[i];
     for (const ContactSurfaces::HangingNode &h : involved_hanging)
       position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
@@ -427,7 +508,7 @@ namespace tread
     for (unsigned int i = 0; i < involved.size(); ++i)
       number[involved[i]] = i;
     std::vector<ContactNodeState> states;
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         const double                      normal     = dot(impulse[j], constraint.normal);
@@ -445,26 +526,34 @@ namespace tread
         state.adhesion = adheres(impulse[j], normal, constraint.normal);
         states.push_back(state);
       }
-    return states;
+    return gathered(states, comm);
   }
 
 
   std::optional<Row> Contact::contact_at_rim() const
   {
+    if (rim_nodes.empty())
+      return {};
     // Slave nodes beside the patch have no impulse. Master nodes there have some where faces overlap, but not
     // as much as those under it.
-    constexpr double beside_patch = 0.3;
-    double           largest      = 0.;
+    constexpr double  beside_patch = 0.3;
+    std::vector<Row>  nodal_impulse(involved.size(), Row{});
+    std::vector<char> loaded(surfaces.nodes.size(), false);
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      if (const ContactProblem::Constraint &constraint = problem.constraints[j]; norm(impulse[j]) > 0.)
+        {
+          loaded[constraint.slave] = true;
+          for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+            nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * impulse[j];
+        }
+    double largest = 0.;
     for (const Row &p : nodal_impulse)
       largest = std::max(largest, norm(p));
-    for (unsigned int i = 0; i < involved.size(); ++i)
-      {
-        const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
-        if (node.at_rim &&
-            (node.body == parameters.slave_body ? norm(impulse_of_node[involved[i]]) > 0.
-                                                : norm(nodal_impulse[i]) > beside_patch * largest))
-          return position[i];
-      }
+    for (const unsigned int i : rim_nodes)
+      if (surfaces.nodes[involved[i]].body == parameters.slave_body
+            ? loaded[involved[i]]
+            : norm(nodal_impulse[i]) > beside_patch * largest)
+        return position[i];
     return {};
   }
 } // namespace tread

@@ -9,50 +9,61 @@ namespace tread
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
                                     const CoulombSolverParameters &parameters,
+                                    Strips                        &strips,
                                     const std::vector<double>     &gap_rate,
                                     std::vector<Row>              &velocity,
                                     std::vector<Row>              &impulse)
   {
-    const unsigned int n = problem.constraints.size();
-    for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
         problem.apply(problem.constraints[j], impulse[j], velocity);
 
     // Open constraints wait: they are looked at in the first sweep, and again before the end.
-    std::vector<char>   waits(n, false);
+    std::vector<char>   waits(problem.constraints.size(), false);
     bool                all = true;
     CoulombSolverResult result{0, 0.};
+    double              largest[2]; // change squared, normal impulse
+    const auto          sweep = [&](const unsigned int begin, const unsigned int end) {
+      for (unsigned int j = begin; j < end; ++j)
+        {
+          if (!all && waits[j])
+            continue;
+          const ContactProblem::Constraint &constraint  = problem.constraints[j];
+          const Row                         u           = problem.combine(constraint, velocity);
+          const Row                         old         = impulse[j];
+          const double                      old_normal  = dot(old, constraint.normal);
+          const double                      normal_rate = dot(u, constraint.normal) + gap_rate[j];
+          const double new_normal = std::max(0., old_normal - normal_rate / constraint.compliance);
+          waits[j]                = new_normal == 0. && old_normal == 0.;
+          if (waits[j])
+            continue;
+
+          const Row slip = u - dot(u, constraint.normal) * constraint.normal;
+          Row       tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
+          const double limit = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
+          const double size2 = dot(tangential, tangential);
+          if (size2 > limit * limit)
+            tangential *= limit / std::sqrt(size2);
+
+          impulse[j]       = new_normal * constraint.normal + tangential;
+          const Row change = impulse[j] - old;
+          problem.apply(constraint, change, velocity);
+          largest[0] = std::max(largest[0], dot(change, change));
+          largest[1] = std::max(largest[1], new_normal);
+        }
+    };
     for (result.sweeps = 1; result.sweeps <= parameters.max_sweeps; ++result.sweeps)
       {
-        double largest_change = 0., largest_impulse = 0.;
-        for (unsigned int j = 0; j < n; ++j)
-          {
-            if (!all && waits[j])
-              continue;
-            const ContactProblem::Constraint &constraint  = problem.constraints[j];
-            const Row                         u           = problem.combine(constraint, velocity);
-            const Row                         old         = impulse[j];
-            const double                      old_normal  = dot(old, constraint.normal);
-            const double                      normal_rate = dot(u, constraint.normal) + gap_rate[j];
-            const double new_normal = std::max(0., old_normal - normal_rate / constraint.compliance);
-            waits[j]                = new_normal == 0. && old_normal == 0.;
-            if (waits[j])
-              continue;
-
-            const Row slip       = u - dot(u, constraint.normal) * constraint.normal;
-            Row       tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
-            const double limit   = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
-            const double size2   = dot(tangential, tangential);
-            if (size2 > limit * limit)
-              tangential *= limit / std::sqrt(size2);
-
-            impulse[j]       = new_normal * constraint.normal + tangential;
-            const Row change = impulse[j] - old;
-            problem.apply(constraint, change, velocity);
-            largest_change  = std::max(largest_change, dot(change, change));
-            largest_impulse = std::max(largest_impulse, new_normal);
-          }
-        result.change = largest_impulse > 0. ? std::sqrt(largest_change) / largest_impulse : 0.;
+        largest[0] = largest[1] = 0.;
+        sweep(strips.begin, strips.end_lower);
+        strips.send(strips.lower, velocity);
+        sweep(strips.end_lower, strips.begin_upper);
+        strips.receive(strips.upper, velocity);
+        sweep(strips.begin_upper, strips.end);
+        strips.send(strips.upper, velocity);
+        strips.receive(strips.lower, velocity);
+        strips.largest(largest);
+        result.change = largest[1] > 0. ? std::sqrt(largest[0]) / largest[1] : 0.;
         if (result.change <= parameters.tolerance)
           {
             if (all)
@@ -62,6 +73,8 @@ namespace tread
         else
           all = false;
       }
+    strips.wait(strips.lower);
+    strips.wait(strips.upper);
     return result;
   }
 } // namespace tread

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/gathered.h>
 #include <tread/contact/mortar.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
@@ -11,7 +14,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace tread
@@ -151,31 +153,21 @@ namespace tread
       }
     };
 
-    /// What all ranks have, in the order of the ranks.
-    std::vector<double> gathered(const std::vector<double> &own, const MPI_Comm comm)
-    {
-      const int        n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm), n_own = own.size();
-      std::vector<int> counts(n_ranks), offsets(n_ranks);
-      MPI_Allgather(&n_own, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-      std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-      std::vector<double> all(offsets.back() + counts.back());
-      MPI_Allgatherv(own.data(), n_own, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE,
-                     comm);
-      return all;
-    }
+    /// Of two convex quadrilaterals each edge of one adds at most a corner to what is left of the other.
+    using Polygon = boost::container::static_vector<Plane2, 8>;
 
-    /// Convex polygon, cut by the inner side of each edge of another (Sutherland & Hodgman 1974).
-    std::vector<Plane2> intersection(const Quadrilateral &subject, const Quadrilateral &clip)
+    /// The subject cut by the inner side of each edge of the other (Sutherland & Hodgman 1974).
+    Polygon intersection(const Quadrilateral &subject, const Quadrilateral &clip)
     {
-      std::vector<Plane2> polygon(subject.corners.begin(), subject.corners.end()), input;
+      Polygon polygon(subject.corners.begin(), subject.corners.end()), input;
       for (unsigned int e = 0; e < 4 && !polygon.empty(); ++e)
         {
           const Plane2 a = clip.corners[e], b = clip.corners[(e + 1) % 4];
-          input.swap(polygon);
+          input = polygon;
           polygon.clear();
           for (unsigned int i = 0; i < input.size(); ++i)
             {
-              const Plane2 p = input[i], q = input[(i + 1) % input.size()];
+              const Plane2 p = input[i], q = input[i + 1 < input.size() ? i + 1 : 0];
               const double side_p = cross(a, b, p), side_q = cross(a, b, q);
               if (side_p >= 0.)
                 polygon.push_back(p);
@@ -208,11 +200,12 @@ namespace tread
                         const double            search_reach,
                         const double            reach)
   {
-    namespace bg      = boost::geometry;
-    using BoxPoint    = bg::model::point<double, 3, bg::cs::cartesian>;
-    using Box         = bg::model::box<BoxPoint>;
-    using Entry       = std::pair<Box, unsigned int>;
-    const auto box_of = [&](const ContactSurfaces::Face &face, const double margin) {
+    namespace bg   = boost::geometry;
+    using BoxPoint = bg::model::point<double, 3, bg::cs::cartesian>;
+    using Box      = bg::model::box<BoxPoint>;
+    using Entry    = std::pair<Box, unsigned int>;
+    /// Of a face moved to and fro by some way.
+    const auto box_of = [&](const ContactSurfaces::Face &face, const Row way) {
       Row low = x[face.nodes[0]], high = low;
       for (const unsigned int i : face.nodes)
         for (unsigned int d = 0; d < 3; ++d)
@@ -220,20 +213,26 @@ namespace tread
             low[d]  = std::min(low[d], x[i][d]);
             high[d] = std::max(high[d], x[i][d]);
           }
-      return Box(BoxPoint(low[0] - margin, low[1] - margin, low[2] - margin),
-                 BoxPoint(high[0] + margin, high[1] + margin, high[2] + margin));
+      const Row margin{std::abs(way[0]), std::abs(way[1]), std::abs(way[2]), 0.};
+      low -= margin;
+      high += margin;
+      return Box(BoxPoint(low[0], low[1], low[2]), BoxPoint(high[0], high[1], high[2]));
     };
 
     Box slave_extent, master_extent;
     bg::assign_inverse(slave_extent);
     bg::assign_inverse(master_extent);
+    unsigned int n_slave_faces = 0;
     for (const ContactSurfaces::Face &face : surfaces.faces)
       if (face.body == slave_body)
-        bg::expand(slave_extent, box_of(face, search_reach));
+        {
+          bg::expand(slave_extent, box_of(face, search_reach * Row{1., 1., 1., 0.}));
+          ++n_slave_faces;
+        }
     std::vector<Entry> boxes;
     for (unsigned int f = 0; f < surfaces.faces.size(); ++f)
       if (surfaces.faces[f].body == master_body)
-        if (const Box box = box_of(surfaces.faces[f], 0.); bg::intersects(box, slave_extent))
+        if (const Box box = box_of(surfaces.faces[f], Row{}); bg::intersects(box, slave_extent))
           {
             boxes.emplace_back(box, f);
             bg::expand(master_extent, box);
@@ -244,8 +243,8 @@ namespace tread
       return coupling;
     const bg::index::rtree<Entry, bg::index::quadratic<16>> tree(boxes);
 
-    // First pass: the slave faces that have a master face opposite, and how near it is. The ranks take them
-    // in turn.
+    // First pass: the slave faces that have a master face opposite, and how near it is. The ranks take some
+    // that lie together in turn.
     struct SlaveFace
     {
       const ContactSurfaces::Face *face;
@@ -261,26 +260,28 @@ namespace tread
     std::vector<SlaveFace>   slave_faces;
     std::vector<signed char> near_node(surfaces.nodes.size(), false);
     std::vector<Entry>       found;
-    const unsigned int       n_ranks = dealii::Utilities::MPI::n_mpi_processes(surfaces.comm),
-                       this_rank     = dealii::Utilities::MPI::this_mpi_process(surfaces.comm);
-    unsigned int turn                = 0;
+    const unsigned int       n_ranks  = dealii::Utilities::MPI::n_mpi_processes(surfaces.comm),
+                       this_rank      = dealii::Utilities::MPI::this_mpi_process(surfaces.comm);
+    constexpr unsigned int turns      = 32;
+    const unsigned int     n_together = 1 + n_slave_faces / (turns * n_ranks);
+    unsigned int           turn       = 0;
     for (const ContactSurfaces::Face &face : surfaces.faces)
       {
-        if (face.body != slave_body || turn++ % n_ranks != this_rank)
+        if (face.body != slave_body || (turn++ / n_together) % n_ranks != this_rank ||
+            !bg::intersects(box_of(face, search_reach * Row{1., 1., 1., 0.}), master_extent))
           continue;
-        const Box box = box_of(face, search_reach);
+        const auto &n = face.nodes;
+        SlaveFace   slave;
+        slave.face        = &face;
+        slave.area_vector = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
+        slave.normal      = normalised(slave.area_vector);
         found.clear();
-        if (bg::intersects(box, master_extent))
-          tree.query(bg::index::intersects(box), std::back_inserter(found));
+        tree.query(bg::index::intersects(box_of(face, search_reach * slave.normal)),
+                   std::back_inserter(found));
         if (found.empty())
           continue;
 
-        const auto &n = face.nodes;
-        SlaveFace   slave;
-        slave.face               = &face;
         slave.origin             = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
-        slave.area_vector        = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
-        slave.normal             = normalised(slave.area_vector);
         const Row edge           = x[n[1]] - x[n[0]];
         slave.along_s            = normalised(edge - dot(edge, slave.normal) * slave.normal);
         slave.along_t            = cross(slave.normal, slave.along_s);
@@ -333,9 +334,10 @@ namespace tread
     // Second pass: integrate all faces around the nodes that are near.
     struct NodeSum
     {
-      Row                      normal{};
-      double                   area = 0., covered = 0., whole = 0.;
-      std::vector<MortarEntry> entries;
+      unsigned int                                    node = 0;
+      Row                                             normal{};
+      double                                          area = 0., covered = 0., whole = 0.;
+      boost::container::small_vector<MortarEntry, 32> entries;
 
       void add(const NodeSum &other, const double share)
       {
@@ -362,10 +364,20 @@ namespace tread
     {
       const ContactSurfaces::Face *master;
       Quadrilateral                corners;
-      std::vector<Plane2>          polygon;
+      Polygon                      polygon;
     };
-    std::map<unsigned int, NodeSum> sums;
-    std::vector<Piece>              pieces;
+    std::vector<NodeSum> sums;
+    std::vector<int>     number_of_sum(surfaces.nodes.size(), -1);
+    const auto           sum_number = [&](const unsigned int node) {
+      if (number_of_sum[node] < 0)
+        {
+          number_of_sum[node] = sums.size();
+          sums.emplace_back();
+          sums.back().node = node;
+        }
+      return number_of_sum[node];
+    };
+    std::vector<Piece> pieces;
     for (const SlaveFace &slave : slave_faces)
       {
         const auto &n = slave.face->nodes;
@@ -380,7 +392,7 @@ namespace tread
         corners.dual_functions(weighting, integral);
         for (unsigned int k = 0; k < 4; ++k)
           {
-            NodeSum &sum = sums[n[k]];
+            NodeSum &sum = sums[sum_number(n[k])];
             sum.normal += slave.area_vector;
             sum.whole += integral[k];
           }
@@ -409,11 +421,15 @@ namespace tread
             for (unsigned int k = 0; k < 4; ++k)
               weighting[j][k] = j == k ? 1. : 0.;
 
+        // Integrals of N_j, N_j N_k and N_j N_l^master; the weights follow by their coefficients.
+        AtPoints slave_slave_at[4][4] = {}, covered_at[4] = {};
+        NodeSum *sum_of[4];
+        for (unsigned int j = 0; j < 4; ++j)
+          sum_of[j] = &sums[number_of_sum[n[j]]];
         for (const Piece &piece : pieces)
           {
-            // Integrals of N_j N_k and N_j N_l^master; the weights follow by their coefficients.
-            AtPoints slave_slave_at[4][4] = {}, slave_master_at[4][4] = {}, covered_at[4] = {};
-            const std::vector<Plane2> &polygon = piece.polygon;
+            AtPoints       slave_master_at[4][4] = {};
+            const Polygon &polygon               = piece.polygon;
             for (unsigned int i = 1; i + 1 < polygon.size(); ++i)
               {
                 const Plane2 a = polygon[0], b = polygon[i], c = polygon[i + 1];
@@ -435,32 +451,36 @@ namespace tread
                       }
                   }
               }
-            double slave_slave[4][4], slave_master[4][4], covered[4];
+            double slave_master[4][4];
             for (unsigned int j = 0; j < 4; ++j)
-              {
-                covered[j] = total(covered_at[j]);
-                for (unsigned int k = 0; k < 4; ++k)
-                  {
-                    slave_slave[j][k]  = total(slave_slave_at[j][k]);
-                    slave_master[j][k] = total(slave_master_at[j][k]);
-                  }
-              }
+              for (unsigned int k = 0; k < 4; ++k)
+                slave_master[j][k] = total(slave_master_at[j][k]);
             for (unsigned int j = 0; j < 4; ++j)
+              for (unsigned int k = 0; k < 4; ++k)
+                {
+                  double M = 0.;
+                  for (unsigned int l = 0; l < 4; ++l)
+                    M += weighting[j][l] * slave_master[l][k];
+                  sum_of[j]->add(piece.master->nodes[3 - k], M);
+                }
+          }
+        double slave_slave[4][4], covered[4];
+        for (unsigned int j = 0; j < 4; ++j)
+          {
+            covered[j] = total(covered_at[j]);
+            for (unsigned int k = 0; k < 4; ++k)
+              slave_slave[j][k] = total(slave_slave_at[j][k]);
+          }
+        for (unsigned int j = 0; j < 4; ++j)
+          {
+            sum_of[j]->covered += covered[j];
+            for (unsigned int k = 0; k < 4; ++k)
               {
-                NodeSum &sum = sums[n[j]];
-                sum.covered += covered[j];
-                for (unsigned int k = 0; k < 4; ++k)
-                  {
-                    double D = 0., M = 0.;
-                    for (unsigned int l = 0; l < 4; ++l)
-                      {
-                        D += weighting[j][l] * slave_slave[l][k];
-                        M += weighting[j][l] * slave_master[l][k];
-                      }
-                    sum.area += weighting[j][k] * covered[k];
-                    sum.add(n[k], -D);
-                    sum.add(piece.master->nodes[3 - k], M);
-                  }
+                double D = 0.;
+                for (unsigned int l = 0; l < 4; ++l)
+                  D += weighting[j][l] * slave_slave[l][k];
+                sum_of[j]->area += weighting[j][k] * covered[k];
+                sum_of[j]->add(n[k], -D);
               }
           }
       }
@@ -468,55 +488,65 @@ namespace tread
     if (n_ranks > 1)
       {
         std::vector<double> own;
-        for (const auto &[node, sum] : sums)
+        for (const NodeSum &sum : sums)
           {
-            own.insert(own.end(), {double(node), sum.normal[0], sum.normal[1], sum.normal[2], sum.area,
+            own.insert(own.end(), {double(sum.node), sum.normal[0], sum.normal[1], sum.normal[2], sum.area,
                                    sum.covered, sum.whole, double(sum.entries.size())});
             for (const MortarEntry &entry : sum.entries)
               own.insert(own.end(), {double(entry.node), entry.coefficient});
           }
         sums.clear();
+        std::fill(number_of_sum.begin(), number_of_sum.end(), -1);
         const std::vector<double> all = gathered(own, surfaces.comm);
         for (const double *value = all.data(); value < all.data() + all.size();)
           {
-            NodeSum &sum = sums[static_cast<unsigned int>(value[0])];
+            NodeSum &sum = sums[sum_number(value[0])];
             sum.normal += Row{value[1], value[2], value[3], 0.};
             sum.area += value[4];
             sum.covered += value[5];
             sum.whole += value[6];
             const unsigned int n_entries = value[7];
             value += 8;
+            const bool is_first = sum.entries.empty();
             for (unsigned int i = 0; i < n_entries; ++i, value += 2)
-              sum.add(static_cast<unsigned int>(value[0]), value[1]);
+              if (const unsigned int node = value[0]; is_first)
+                sum.entries.push_back({node, value[1]});
+              else
+                sum.add(node, value[1]);
           }
       }
 
+    std::vector<const std::array<unsigned int, 2> *> parents_of(surfaces.nodes.size(), nullptr);
     for (const auto &h : surfaces.hanging_nodes)
-      if (const auto hanging = sums.find(h.node); hanging != sums.end())
-        {
-          for (const unsigned int parent : h.parents)
-            sums[parent].add(hanging->second, 0.5);
-          sums.erase(hanging);
-        }
-    std::map<unsigned int, std::array<unsigned int, 2>> parents_of;
-    for (const auto &h : surfaces.hanging_nodes)
-      parents_of[h.node] = h.parents;
-    if (!parents_of.empty())
-      for (auto &[node, sum] : sums)
-        {
-          const std::vector<MortarEntry> entries = std::move(sum.entries);
-          sum.entries.clear();
-          for (const MortarEntry &entry : entries)
-            if (const auto h = parents_of.find(entry.node); h == parents_of.end())
-              sum.add(entry.node, entry.coefficient);
-            else
-              for (const unsigned int parent : h->second)
-                sum.add(parent, 0.5 * entry.coefficient);
-        }
-    for (auto &[node, sum] : sums)
       {
-        if (!near_node[node] || sum.covered < 0.5 * sum.whole || sum.area < 0.25 * sum.whole)
+        parents_of[h.node] = &h.parents;
+        if (number_of_sum[h.node] >= 0)
+          for (const unsigned int parent : h.parents)
+            {
+              const int sum = sum_number(parent);
+              sums[sum].add(sums[number_of_sum[h.node]], 0.5);
+            }
+      }
+    for (unsigned int node = 0; node < surfaces.nodes.size(); ++node)
+      {
+        if (number_of_sum[node] < 0)
           continue;
+        NodeSum &sum = sums[number_of_sum[node]];
+        if (parents_of[node] || !near_node[node] || sum.covered < 0.5 * sum.whole ||
+            sum.area < 0.25 * sum.whole)
+          continue;
+        if (std::any_of(sum.entries.begin(), sum.entries.end(),
+                        [&](const MortarEntry &entry) { return parents_of[entry.node]; }))
+          {
+            const auto entries = std::move(sum.entries);
+            sum.entries.clear();
+            for (const MortarEntry &entry : entries)
+              if (const auto *parents = parents_of[entry.node]; !parents)
+                sum.add(entry.node, entry.coefficient);
+              else
+                for (const unsigned int parent : *parents)
+                  sum.add(parent, 0.5 * entry.coefficient);
+          }
         MortarRow row;
         row.slave  = node;
         row.normal = normalised(sum.normal);

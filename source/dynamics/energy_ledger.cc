@@ -95,6 +95,8 @@ namespace tread
     EnergyLedger now  = totals;
     now.damping       = sum(totals.damping, mesh.comm);
     now.plastic       = sum(totals.plastic, mesh.comm);
+    now.friction      = sum(totals.friction, mesh.comm);
+    now.contact       = sum(totals.contact, mesh.comm);
     now.external_work = sum(totals.external_work, mesh.comm);
     now.gross_work    = sum(totals.gross_work, mesh.comm);
     const double fall = start_potential - body_potential();

@@ -182,11 +182,12 @@ namespace tread
   {
     std::vector<Row> positions;
     contact.surfaces.replicate(dynamics.x.data(), positions);
+    const std::vector<ContactNodeState> states = contact.active_nodes();
     if (!writes_tables) // all ranks know all of the surface
       return;
     ArrayOutput<2>             output = surface_output();
     std::vector<SurfaceValues> values(contact.surfaces.nodes.size());
-    for (const ContactNodeState &state : contact.active_nodes())
+    for (const ContactNodeState &state : states)
       {
         const double normal = dot(state.impulse, state.normal),
                      scale  = 1e-6 / (state.area * dynamics.time_step);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The solver for impulses alone, on random problems: do the results satisfy Signorini's conditions and
-// Coulomb's law?
+// Coulomb's law, and is it the same when ranks share the constraints?
 #include <tread/contact/coulomb_solver.h>
+
+#include <deal.II/base/mpi.h>
 
 #include "check.h"
 
@@ -25,8 +27,8 @@ namespace
     std::vector<Row>    velocity;
   };
 
-  /// n constraints, each between one slave node and four of n master nodes, as a mortar coupling has them;
-  /// normals about z, masses over a decade, part of the pairs open.
+  /// n constraints, each between one slave node and four of n master nodes in a row, as a mortar coupling has
+  /// them; normals about z, masses over a decade, part of the pairs open.
   RandomProblem make_problem(const unsigned int n, std::mt19937 &random)
   {
     std::uniform_real_distribution<double> from_0_to_1(0., 1.);
@@ -47,9 +49,9 @@ namespace
         for (double &w : weight)
           total += w = between(-0.1, 1.); // dual functions make some coefficients negative
         r.problem.entries.push_back({j, -1., -1. / mass[j]});
+        const unsigned int first = n + std::min(j, n - 4);
         for (unsigned int i = 0; i < 4; ++i)
-          r.problem.entries.push_back(
-            {n + (j + i) % n, weight[i] / total, weight[i] / total / mass[n + (j + i) % n]});
+          r.problem.entries.push_back({first + i, weight[i] / total, weight[i] / total / mass[first + i]});
         c.end = r.problem.entries.size();
         for (unsigned int i = c.begin; i < c.end; ++i)
           c.compliance += r.problem.entries[i].coefficient * r.problem.entries[i].over_mass;
@@ -119,11 +121,13 @@ namespace
   }
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 {
-  Check                   check;
-  std::mt19937            random(1);
-  CoulombSolverParameters parameters;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int                       n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  Check                                    check;
+  std::mt19937                             random(1);
+  CoulombSolverParameters                  parameters;
   parameters.tolerance  = 1e-10;
   parameters.max_sweeps = 2000;
   // The sweeps stop at changes of 1e-10; what is left is that over (1 - rate of convergence), at worst a
@@ -134,15 +138,18 @@ int main()
     {
       const CoulombFriction friction(mu);
       Violation             worst;
-      unsigned int          cold = 0, warm = 0, most = 0;
+      unsigned int          cold = 0, warm = 0, most = 0, fewest = 200;
+      double                impulses_apart = 0., moved_apart = 0.;
       for (unsigned int k = 0; k < 20; ++k)
         {
-          const RandomProblem r        = make_problem(200, random);
+          const RandomProblem r = make_problem(200, random);
+          Strips              whole(r.problem);
           std::vector<Row>    velocity = r.velocity, impulse(200, Row{});
-          const auto first    = solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
-          const Violation now = violation(r, impulse, friction);
-          worst.penetration   = std::max(worst.penetration, now.penetration);
-          worst.tension       = std::max(worst.tension, now.tension);
+          const auto          first =
+            solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse);
+          const Violation now   = violation(r, impulse, friction);
+          worst.penetration     = std::max(worst.penetration, now.penetration);
+          worst.tension         = std::max(worst.tension, now.tension);
           worst.complementarity = std::max(worst.complementarity, now.complementarity);
           worst.cone            = std::max(worst.cone, now.cone);
           worst.stick           = std::max(worst.stick, now.stick);
@@ -152,6 +159,24 @@ int main()
           worst.n_slip += now.n_slip;
           cold += first.sweeps;
           most = std::max(most, first.sweeps);
+
+          // Shared among the ranks.
+          std::vector<Row> shared_velocity = r.velocity, shared_impulse(200, Row{});
+          Strips           strips(r.problem, shared_impulse, shared_velocity.size(), MPI_COMM_WORLD);
+          solve_coulomb(r.problem, friction, parameters, strips, r.gap_rate, shared_velocity, shared_impulse);
+          strips.gather(shared_impulse);
+          double largest = 0., apart = 0.;
+          for (unsigned int j = 0; j < impulse.size(); ++j)
+            {
+              largest = std::max(largest, size(impulse[j]));
+              apart   = std::max(apart, size(shared_impulse[j] - impulse[j]));
+              if (j >= strips.begin && j < strips.end)
+                for (unsigned int i = r.problem.constraints[j].begin; i < r.problem.constraints[j].end; ++i)
+                  moved_apart = std::max(moved_apart, size(shared_velocity[r.problem.entries[i].node] -
+                                                           velocity[r.problem.entries[i].node]));
+            }
+          impulses_apart = std::max(impulses_apart, apart / largest);
+          fewest         = std::min(fewest, strips.end - strips.begin);
 
           // The velocities that came back hold the impulses' effect.
           std::vector<Row> expected = r.velocity;
@@ -167,13 +192,14 @@ int main()
           for (Row &v : next.velocity)
             v *= 1.001;
           velocity = next.velocity;
-          warm += solve_coulomb(next.problem, friction, parameters, next.gap_rate, velocity, impulse).sweeps;
+          warm +=
+            solve_coulomb(next.problem, friction, parameters, whole, next.gap_rate, velocity, impulse).sweeps;
 
           if (k == 0)
             {
               velocity = r.velocity;
               impulse.assign(200, Row{});
-              solve_coulomb(r.problem, friction, parameters, r.gap_rate, velocity, impulse);
+              solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse);
               const unsigned int active =
                 std::max_element(impulse.begin(), impulse.end(),
                                  [](const Row a, const Row b) { return size(a) < size(b); }) -
@@ -192,10 +218,19 @@ int main()
       check.below(name + "beyond the cone, share", worst.cone, allowed);
       check.below(name + "slip where it sticks, m/s", worst.stick, allowed);
       check.below(name + "impulse not against slip, share", worst.direction, allowed);
+      check.below(name + "shared among the ranks, impulses apart, share", impulses_apart, allowed);
+      check.below(name + "shared among the ranks, velocities apart, m/s", moved_apart, allowed);
+      check.that(name + "each rank has a share of the constraints", fewest >= 150 / n_ranks);
       check.that(name + "all states occur",
                  worst.n_open > 0 && (mu == 0. || worst.n_stick > 0) && worst.n_slip > 0);
       check.that(name + "sweeps end by the tolerance", most <= parameters.max_sweeps);
       check.that(name + "a warm start takes fewer sweeps", warm < cold);
     }
+  // So few that each of two strips would have a node of the other at both its ends.
+  const RandomProblem few = make_problem(6, random);
+  const Strips        one(few.problem, std::vector<Row>(6, Row{}), 12, MPI_COMM_WORLD);
+  const unsigned int  own = one.end - one.begin;
+  check.that("a few constraints are one rank's", dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD) == 6 &&
+                                                   dealii::Utilities::MPI::max(own, MPI_COMM_WORLD) >= 3);
   return check.exit_code();
 }

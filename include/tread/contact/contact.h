@@ -5,6 +5,7 @@
 #include <tread/contact/contact_surfaces.h>
 #include <tread/contact/coulomb_solver.h>
 #include <tread/contact/mortar.h>
+#include <tread/contact/strips.h>
 
 #include <memory>
 #include <optional>
@@ -39,8 +40,9 @@ namespace tread
 
   /// Contact between two surfaces: search, mortar coupling and impulses of each step.
   ///
-  /// All ranks solve the same small problem: predicted velocities of the nodes that may touch are
-  /// gathered, the impulses are found, and each rank applies those on its own nodes.
+  /// All ranks know the same small problem: predicted velocities of the nodes that may touch are gathered,
+  /// each rank finds the impulses of its strip, these are gathered, and each rank applies those on its own
+  /// nodes.
   class Contact
   {
   public:
@@ -55,6 +57,9 @@ namespace tread
     {
       friction = std::move(law);
     }
+
+    /// Give all ranks what only the rank of a constraint or node knows. Collective.
+    void complete_state();
 
     /// Multiply the impulses that start the next step, e.g. with the ratio of two time steps.
     void scale_impulses(const double factor);
@@ -74,12 +79,13 @@ namespace tread
     void predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra);
 
     /// Solve for the impulses and add them, divided by time_step, to the forces on this rank's nodes.
-    /// Nodes with inverse mass 0 keep their velocity.
+    /// Nodes with inverse mass 0 keep their velocity. Collective.
     CoulombSolverResult solve(const double time_step, Row *force);
 
     /// Total impulse on the master surface in the last step, N s.
     Row total_impulse() const;
 
+    /// This rank's share.
     ContactWork last_work() const
     {
       return work;
@@ -90,7 +96,7 @@ namespace tread
     /// and rails of finite size have some 1e-5. Collective; x: nodal positions of this rank.
     double free_rolling_creepage(const Row *x) const;
 
-    /// Slave nodes that carry an impulse after the last step, ordered by number.
+    /// Slave nodes that carry an impulse after the last step, ordered by number. Collective.
     std::vector<ContactNodeState> active_nodes() const;
 
     /// Steps in which the sweeps ended before the tolerance was reached.
@@ -114,6 +120,7 @@ namespace tread
     void update_normals();
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
+                 const std::vector<Row>          &impulse_of_node,
                  const std::vector<Row>          &x);
     /// Room for what each step finds, by the pairs and involved nodes of now.
     void make_room();
@@ -124,16 +131,33 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
-    std::vector<Row>                          impulse_of_node; ///< by surface node: the warm start
     ContactProblem                            problem;
+    Strips                                    strips;
     std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
     std::vector<std::vector<unsigned int>>    involved_of_rank; ///< compact numbers
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
-    std::vector<Row>                          position, velocity, velocity_before; ///< by compact number
-    std::vector<Row>                          nodal_impulse; ///< of the last step, by compact number
-    std::vector<Row>                          impulse, previous_impulse; ///< by constraint
-    std::vector<double>                       gap_rate;
-    std::vector<double>                       slid;     ///< since the last refresh, m
+    /// By compact number; positions and velocities at the end of a step are those of the nodes of this rank's
+    /// strip and of the mesh's nodes that it has.
+    std::vector<Row>          position, predicted, velocity, velocity_before;
+    std::vector<Row>          impulse;          ///< by constraint
+    std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
+    std::vector<double>       gap_rate;         ///< by constraint of the strip
+    std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
+    std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
+    std::vector<unsigned int> moved_nodes;      ///< and of those whose positions this rank knows
+    /// What the constraints do to a node, where this rank has to know it.
+    struct NodeTerms
+    {
+      unsigned int node, begin, end; ///< compact number; range of terms
+    };
+    struct Term
+    {
+      unsigned int constraint;
+      double       coefficient;
+    };
+    std::vector<NodeTerms>                 node_terms;
+    std::vector<Term>                      terms;
+    std::vector<unsigned int>              rim_nodes;   ///< compact numbers
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;

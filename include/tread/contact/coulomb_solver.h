@@ -2,54 +2,13 @@
 #ifndef tread_contact_coulomb_solver_h
 #define tread_contact_coulomb_solver_h
 
-#include <tread/base/simd.h>
 #include <tread/contact/friction_law.h>
+#include <tread/contact/strips.h>
 
 #include <vector>
 
 namespace tread
 {
-  /// The contact problem of one time step: rows of weighted constraints between nodes that are
-  /// numbered compactly.
-  struct ContactProblem
-  {
-    struct Constraint
-    {
-      Row          normal;
-      double       area;       ///< m^2
-      double       compliance; ///< sum c^2 / m, 1/kg
-      unsigned int begin, end; ///< range of entries
-      unsigned int slave;      ///< surface node
-    };
-    struct Entry
-    {
-      unsigned int node;                   ///< compact number
-      double       coefficient, over_mass; ///< c and c / m
-    };
-
-    std::vector<Constraint> constraints;
-    std::vector<Entry>      entries;
-
-    /// Sum of c times the field. Four sums at a time, as each addition waits for the one before it.
-    Row combine(const Constraint &constraint, const std::vector<Row> &field) const
-    {
-      Row          sum[4] = {};
-      unsigned int i      = constraint.begin;
-      for (; i + 4 <= constraint.end; i += 4)
-        for (unsigned int k = 0; k < 4; ++k)
-          sum[k] += entries[i + k].coefficient * field[entries[i + k].node];
-      for (; i < constraint.end; ++i)
-        sum[0] += entries[i].coefficient * field[entries[i].node];
-      return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    }
-
-    void apply(const Constraint &constraint, const Row impulse, std::vector<Row> &velocity) const
-    {
-      for (unsigned int i = constraint.begin; i < constraint.end; ++i)
-        velocity[entries[i].node] += entries[i].over_mass * impulse;
-    }
-  };
-
   struct CoulombSolverParameters
   {
     /// Sweeps end when no impulse changes by more than this share of the largest one.
@@ -67,12 +26,16 @@ namespace tread
   /// as the compliance of one constraint is the same in all directions:
   /// P_n >= 0, gap >= 0 at the step's end, P_n gap = 0; |P_t| <= f P_n, P_t = -f P_n u_t/|u_t| in slip.
   ///
+  /// Collective: each rank changes the impulses of its strip.
   /// @param gap_rate gap now over the time step, m/s, one a constraint.
-  /// @param velocity compact nodes; holds the predictions with the impulses' effect on return.
-  /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity.
+  /// @param velocity compact nodes; holds the predictions with the impulses' effect on return, for the nodes
+  /// of the strip.
+  /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity. What acts on
+  /// the nodes of the strip has to be there.
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
                                     const CoulombSolverParameters &parameters,
+                                    Strips                        &strips,
                                     const std::vector<double>     &gap_rate,
                                     std::vector<Row>              &velocity,
                                     std::vector<Row>              &impulse);
