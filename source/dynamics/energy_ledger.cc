@@ -13,39 +13,62 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::sample_damping()
+  NodalField ExplicitDynamics::cell_forces() const
   {
-    // Power of the damping forces, v . (f(x) - f(x + beta v)), trapezoid between samples.
+    NodalField forces(x.size(), Row{});
+    solid.add_internal_forces(x.data(), v.data(), forces.data(), history);
+    return forces;
+  }
+
+
+  double ExplicitDynamics::damping_power(const NodalField &forces) const
+  {
+    // v . (f(x) - f(x + beta v))
     double power = 0.;
     if (parameters.damping_steps > 0. || solid.needs_velocity())
       {
-        NodalField with(x.size(), Row{}), without(x.size(), Row{}), no_velocity;
+        NodalField with(x.size(), Row{}), without;
         solid.add_internal_forces(x_damped.data(), v.data(), with.data(), history);
         if (solid.needs_velocity())
-          no_velocity.assign(x.size(), Row{});
-        solid.add_internal_forces(x.data(), no_velocity.data(), without.data(), history);
+          {
+            const NodalField no_velocity(x.size(), Row{});
+            without.assign(x.size(), Row{});
+            solid.add_internal_forces(x.data(), no_velocity.data(), without.data(), history);
+          }
+        const NodalField &elastic = solid.needs_velocity() ? without : forces;
         for (unsigned int i = 0; i < x.size(); ++i)
-          power += dot(v[i], without[i] - with[i]);
+          power += dot(v[i], elastic[i] - with[i]);
       }
-    totals.damping += 0.5 * (power + last_damping_power) * time_step * (n_steps - last_damping_step);
+    return power;
+  }
+
+
+  double ExplicitDynamics::damping_since_sample(const double power) const
+  {
+    return 0.5 * (power + last_damping_power) * time_step * (n_steps - last_damping_step);
+  }
+
+
+  void ExplicitDynamics::sample_damping()
+  {
+    const double power = damping_power(cell_forces());
+    totals.damping += damping_since_sample(power);
     last_damping_power = power;
     last_damping_step  = n_steps;
   }
 
 
-  double ExplicitDynamics::kinetic_energy() const
+  double ExplicitDynamics::kinetic_energy(NodalField forces) const
   {
     // The product of the velocities half a step before and after now: central differences keep its sum with
     // the strain energy. What is not the cells' adds as much to the work.
-    NodalField cell_force(x.size(), Row{});
-    solid.add_internal_forces(x.data(), v.data(), cell_force.data(), history);
-    mesh.condense_hanging_nodes(cell_force.data());
+    mesh.condense_hanging_nodes(forces.data());
     if (supports)
-      supports->add_spring_forces(cell_force.data());
+      supports->add_spring_forces(forces.data());
     double energy = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(cell_force[i], v[i]);
+        energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(forces[i], v[i]);
         if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
           energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
       }
@@ -88,18 +111,18 @@ namespace tread
   }
 
 
-  EnergyLedger ExplicitDynamics::ledger()
+  EnergyLedger ExplicitDynamics::ledger() const
   {
     using dealii::Utilities::MPI::sum;
-    sample_damping();
-    EnergyLedger now  = totals;
-    now.damping       = sum(totals.damping, mesh.comm);
-    now.plastic       = sum(totals.plastic, mesh.comm);
-    now.friction      = sum(totals.friction, mesh.comm);
-    now.contact       = sum(totals.contact, mesh.comm);
-    now.external_work = sum(totals.external_work, mesh.comm);
-    now.gross_work    = sum(totals.gross_work, mesh.comm);
-    const double fall = start_potential - body_potential();
+    const NodalField forces = cell_forces();
+    EnergyLedger     now    = totals;
+    now.damping             = sum(totals.damping + damping_since_sample(damping_power(forces)), mesh.comm);
+    now.plastic             = sum(totals.plastic, mesh.comm);
+    now.friction            = sum(totals.friction, mesh.comm);
+    now.contact             = sum(totals.contact, mesh.comm);
+    now.external_work       = sum(totals.external_work, mesh.comm);
+    now.gross_work          = sum(totals.gross_work, mesh.comm);
+    const double fall       = start_potential - body_potential();
     now.external_work += fall;
     now.gross_work += std::abs(fall);
     if (hub)
@@ -112,7 +135,7 @@ namespace tread
         now.springs = supports->spring_energy() - start_springs;
         now.damping += supports->dissipated() - start_dissipated;
       }
-    now.kinetic               = kinetic_energy() - start_kinetic;
+    now.kinetic               = kinetic_energy(forces) - start_kinetic;
     const StrainEnergy energy = strain_energy();
     now.strain                = energy.strain - start_strain.strain;
     now.hourglass             = energy.hourglass - start_strain.hourglass;

@@ -12,8 +12,9 @@ namespace tread
 {
   namespace
   {
-    /// Damping power is sampled every so many steps: two force evaluations more each time.
-    constexpr std::uint64_t steps_between_damping_samples = 50;
+    /// Damping power is sampled every so many steps: two force evaluations more each time. A prime, as a
+    /// vibration whose period divides it would be met in the same phase each time.
+    constexpr std::uint64_t steps_between_damping_samples = 47;
 
     class Stopwatch
     {
@@ -299,7 +300,7 @@ namespace tread
     set_inertia();
     prepare_step();
     totals             = EnergyLedger();
-    start_kinetic      = kinetic_energy();
+    start_kinetic      = kinetic_energy(cell_forces());
     start_potential    = body_potential();
     start_strain       = strain_energy();
     start_hub_work     = hub ? hub->external_work() : 0.;

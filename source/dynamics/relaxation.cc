@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace tread
 {
@@ -44,12 +45,12 @@ namespace tread
         inverse[i] = 1. / mass[i][0];
     hub_mass = sum(hub_mass, mesh.comm);
 
-    // Weight and true centrifugal force act on the true masses.
+    // Weight and true centrifugal force act on the true masses; once on nodes that ranks share.
     const double omega2 = nominal_angular_velocity * nominal_angular_velocity;
     const Row    axle   = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
     NodalField   body_force(x.size(), Row{});
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (inverse[i] > 0.)
+      if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
           body_force[i] = Row{0., 0., -parameters.gravity * true_mass[i], 0.};
           if (on_wheel[i])
@@ -74,7 +75,7 @@ namespace tread
     double                 first_residual = 0.; // N
     for (; iteration <= max_iterations; ++iteration)
       {
-        std::fill(force.begin(), force.end(), Row{});
+        std::copy(body_force.begin(), body_force.end(), force.begin());
         solid.add_internal_forces(x.data(), at_rest.data(), force.data(), history);
         mesh.condense_hanging_nodes(force.data());
         if (supports)
@@ -88,7 +89,8 @@ namespace tread
                    remember = iteration % interval == interval - 1;
         if (measure && iteration > 1)
           {
-            // Rayleigh quotient of the last displacement: the frequency that still moves.
+            // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves:
+            // the frequency that still moves.
             double change = 0., inertia = 0.;
             for (unsigned int i = 0; i < x.size(); ++i)
               if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
@@ -96,20 +98,17 @@ namespace tread
                   change -= dot(v[i], force[i] - previous[i]);
                   inertia += dot(v[i], v[i]) / inverse[i];
                 }
-            change             = sum(change, mesh.comm);
-            inertia            = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
+            change  = sum(change, mesh.comm) / keep;
+            inertia = sum(inertia, mesh.comm) / (keep * keep) + hub_mass * hub_velocity * hub_velocity;
             const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
             // Stable for omega^2 < 2 (1 + keep): with highest_frequency 1.8 keep must exceed 0.62.
-            keep = std::clamp(1. - 2. * omega, 0.75, 0.9998);
+            const double kept = std::exchange(keep, std::clamp(1. - 2. * omega, 0.75, 0.9998));
+            for (Row &velocity : v)
+              velocity *= keep / kept;
           }
         if (remember)
           previous = force;
 
-        for (unsigned int i = 0; i < x.size(); ++i)
-          {
-            v[i] *= keep;
-            force[i] += body_force[i];
-          }
         hold_guided_nodes(force);
         if (hub)
           add_hub_sums(rank_sums);
@@ -166,14 +165,15 @@ namespace tread
                 squares += dot(force[i], force[i]);
                 load_squares += dot(body_force[i], body_force[i]);
               }
-            v[i] += inverse[i] * force[i];
-            x[i] += v[i];
+            const Row displacement = v[i] + inverse[i] * force[i];
+            x[i] += displacement;
+            v[i] = keep * displacement;
           }
         if (hub)
           for (unsigned int k = 0; k < hub_nodes.size(); ++k)
             {
               x[hub_nodes[k]] = hub->position_of(hub_reference[k]);
-              v[hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
+              v[hub_nodes[k]] = Row{0., 0., keep * hub_velocity, 0.};
             }
         mesh.distribute_hanging_nodes(x.data());
         mesh.distribute_hanging_nodes(v.data());

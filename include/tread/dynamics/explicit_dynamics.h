@@ -99,7 +99,7 @@ namespace tread
     void set_track_velocities();
 
     /// Largest stable time step of level 0 with the damping asked for, s: from the highest frequencies of the
-    /// cells of each level and above. Collective; costs some 80 force evaluations a level the first time,
+    /// cells of each level and above. Collective; costs some 30 force evaluations a level the first time,
     /// when all supports must have been set.
     double critical_time_step() const;
 
@@ -141,7 +141,7 @@ namespace tread
                        const std::function<void(unsigned int, double)> &progress);
 
     /// Energies now, when nodes must be synchronised. Collective; costs about two steps.
-    EnergyLedger ledger();
+    EnergyLedger ledger() const;
 
     /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
     void check_stability() const;
@@ -195,10 +195,16 @@ namespace tread
     void           hold_guided_nodes(NodalField &field) const;
     void           move_hub_nodes();
     /// Of velocities half a step back, and what the cells' forces add to it in half a step.
-    double       kinetic_energy() const;
+    double       kinetic_energy(NodalField cell_forces) const;
     double       body_potential() const;
     StrainEnergy strain_energy() const;
-    void         sample_damping();
+    /// Of the cells, before hanging nodes give theirs to their parents.
+    NodalField cell_forces() const;
+    /// Of this rank, W. @param forces cell_forces() of now.
+    double damping_power(const NodalField &forces) const;
+    /// Trapezoid from the last sample to a power of now, J.
+    double damping_since_sample(const double power) const;
+    void   sample_damping();
 
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
