@@ -158,6 +158,10 @@ namespace tread
     bytes(archive, c.travelled);
     bytes(archive, c.allowed_travel);
     bytes(archive, c.unconverged_steps);
+    std::vector<unsigned int> begin_of_strip = c.strips.begins();
+    byte_vector(archive, begin_of_strip);
+    if constexpr (Archive::is_loading::value)
+      c.make_room(begin_of_strip);
     bytes(archive, s.target_creepage);
     bytes(archive, s.free_creepage);
     bytes(archive, s.torque_released);
@@ -363,7 +367,6 @@ namespace tread
       }
     d.set_inertia(); // first, as it looks for the pairs in contact, which are read
     state(archive, simulation);
-    simulation.contact.make_room();
     std::string nodes, cells, parts, peaks;
     archive >> nodes >> cells >> parts >> peaks;
     restore_parts(d, parts);

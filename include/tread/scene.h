@@ -112,7 +112,7 @@ namespace tread
     double       traction_coefficient = 0.3;
     unsigned int passages             = 1;
     // Time stepping
-    double       courant_number = 0.9;
+    double       courant_number = 0.95;
     unsigned int time_levels    = 1;
     // Start
     double       start_tolerance  = 1e-5;

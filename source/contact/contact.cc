@@ -217,7 +217,7 @@ namespace tread
   }
 
 
-  void Contact::make_room()
+  void Contact::make_room(const std::vector<unsigned int> &begin_of_strip)
   {
     involved_of_rank.assign(dealii::Utilities::MPI::n_mpi_processes(comm), {});
     for (unsigned int i = 0; i < involved.size(); ++i)
@@ -235,17 +235,18 @@ namespace tread
     predicted.assign(involved.size(), Row{});
     velocity_before.assign(involved.size(), Row{});
     gap_rate.resize(problem.constraints.size());
-    strips = Strips(problem, impulse, involved.size(), comm);
+    const unsigned int n_ranks = involved_of_rank.size();
+    strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
+                                                  : Strips(problem, impulse, involved.size(), comm);
 
     // Nodes that the sweeps of this rank's strip move, and others whose positions it needs.
     std::vector<char> swept(involved.size(), false), needed(involved.size(), false);
     for (unsigned int j = strips.begin; j < strips.end; ++j)
-      {
-        for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
-          swept[problem.entries[i].node] = true;
-        for (const unsigned int i : corners_around[j])
-          needed[i] = true;
-      }
+      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        swept[problem.entries[i].node] = true;
+    for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
+      for (const unsigned int i : corners_around[j])
+        needed[i] = true;
     rim_nodes.clear();
     for (unsigned int i = 0; i < involved.size(); ++i)
       if (surfaces.nodes[involved[i]].at_rim)
@@ -258,17 +259,13 @@ namespace tread
         for (const unsigned int parent : h.parents)
           needed[parent] = true;
     swept_nodes.clear();
-    moved_nodes.clear();
     node_terms.clear();
     std::vector<int> number_of_terms(involved.size(), -1);
     for (unsigned int i = 0; i < involved.size(); ++i)
       {
-        const bool has_terms = surfaces.nodes[involved[i]].local >= 0 || (needed[i] && !swept[i]);
         if (swept[i])
           swept_nodes.push_back(i);
-        if (swept[i] || has_terms)
-          moved_nodes.push_back(i);
-        if (has_terms)
+        if (swept[i] || needed[i] || surfaces.nodes[involved[i]].local >= 0)
           {
             number_of_terms[i] = node_terms.size();
             node_terms.push_back({i, 0, 0});
@@ -300,6 +297,11 @@ namespace tread
     for (unsigned int j = 0; j < slid.size(); ++j)
       slid[j] = rows[j][0];
     strips.gather(previous_impulse);
+    for (unsigned int j = 0; j < rows.size(); ++j)
+      rows[j] = problem.constraints[j].normal;
+    strips.gather(rows);
+    for (unsigned int j = 0; j < rows.size(); ++j)
+      problem.constraints[j].normal = rows[j];
 
     rows.clear();
     for (const unsigned int i : involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])
@@ -371,7 +373,7 @@ namespace tread
 
   void Contact::update_normals()
   {
-    for (unsigned int j = strips.begin; j < strips.end; ++j)
+    for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       {
         Row sum{};
         for (unsigned int k = 0; k < corners_around[j].size(); k += 4)
@@ -431,19 +433,23 @@ namespace tread
     work.normal         = -work.friction;
     for (const NodeTerms &of_node : node_terms)
       {
-        const ContactSurfaces::Node &node = surfaces.nodes[involved[of_node.node]];
-        Row                          p{};
-        for (unsigned int k = of_node.begin; k < of_node.end; ++k)
-          p += terms[k].coefficient * impulse[terms[k].constraint];
-        Row &after = velocity[of_node.node];
-        after      = predicted[of_node.node] + inverse_mass[involved[of_node.node]] * p;
+        const ContactSurfaces::Node &node   = surfaces.nodes[involved[of_node.node]];
+        Row                          sum[2] = {}; // each addition waits for the one before it
+        unsigned int                 k      = of_node.begin;
+        for (; k + 2 <= of_node.end; k += 2)
+          for (unsigned int half : {0u, 1u})
+            sum[half] += terms[k + half].coefficient * impulse[terms[k + half].constraint];
+        if (k < of_node.end)
+          sum[0] += terms[k].coefficient * impulse[terms[k].constraint];
+        const Row p     = sum[0] + sum[1];
+        Row      &after = velocity[of_node.node];
+        after           = predicted[of_node.node] + inverse_mass[involved[of_node.node]] * p;
+        position[of_node.node] += time_step * after;
         if (node.local >= 0)
           force[node.local] += (1. / time_step) * p;
         if (node.owner == this_rank)
           work.normal -= 0.5 * dot(p, after + velocity_before[of_node.node]);
       }
-    for (const unsigned int i : moved_nodes)
-      position[i] += time_step * velocity[i];
     for (const ContactSurfaces::HangingNode &h : involved_hanging)
       position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
     time_since_refresh += time_step;

@@ -56,6 +56,21 @@ namespace tread
   }
 
 
+  Strips::Strips(const ContactProblem            &problem,
+                 const std::vector<unsigned int> &begin_of_strip,
+                 const unsigned int               n_nodes,
+                 const MPI_Comm                   comm)
+    : Strips(problem)
+  {
+    this->comm            = comm;
+    this->begin_of_strip  = begin_of_strip;
+    unsigned int n_strips = 1;
+    while (n_strips + 1 < begin_of_strip.size() && begin_of_strip[n_strips] < begin_of_strip.back())
+      ++n_strips;
+    divide(problem, n_strips, n_nodes);
+  }
+
+
   bool Strips::divide(const ContactProblem &problem, const unsigned int n_strips, const unsigned int n_nodes)
   {
     const auto for_nodes = [&](const unsigned int strip, const auto &loop) {

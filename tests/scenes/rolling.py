@@ -140,6 +140,8 @@ with tempfile.TemporaryDirectory() as folder:
         rest = run(program, "smooth-rolling.prm", path("two-ranks"), longer, ranks=2, more=["--resume"])
         check.that("Ctrl-C to mpirun: resumed to the end", rest["completed"] and rest["steps"] > part["steps"])
         check.below("Ctrl-C to mpirun: energy residual over both parts, share of the work", rest["energy_residual_share"], 1e-3)
+        run(program, "smooth-rolling.prm", path("two-ranks-whole"), longer, ranks=2)
+        identical("two ranks, resumed against never stopped", "two-ranks", "two-ranks-whole")
 
     elif what == "torque":
         settings = COARSE + ["Motion/Rolled distance (mm)=120", "Motion/Hold distance (mm)=45"]

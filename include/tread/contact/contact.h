@@ -123,7 +123,8 @@ namespace tread
                  const std::vector<Row>          &impulse_of_node,
                  const std::vector<Row>          &x);
     /// Room for what each step finds, by the pairs and involved nodes of now.
-    void make_room();
+    /// @param begin_of_strip as it was for these pairs, for as many ranks; otherwise strips are made anew.
+    void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
     MPI_Comm                           comm;
     ContactParameters                  parameters;
@@ -144,8 +145,8 @@ namespace tread
     std::vector<double>       gap_rate;         ///< by constraint of the strip
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
     std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
-    std::vector<unsigned int> moved_nodes;      ///< and of those whose positions this rank knows
-    /// What the constraints do to a node, where this rank has to know it.
+    /// What the constraints do to a node, of the strip or of this rank: summed in the same order on all ranks
+    /// that know it, so that its position is the same.
     struct NodeTerms
     {
       unsigned int node, begin, end; ///< compact number; range of terms

@@ -31,6 +31,18 @@ namespace tread
            const unsigned int      n_nodes,
            const MPI_Comm          comm);
 
+    /// Strips that were made before for as many ranks.
+    Strips(const ContactProblem            &problem,
+           const std::vector<unsigned int> &begin_of_strip,
+           const unsigned int               n_nodes,
+           const MPI_Comm                   comm);
+
+    /// First constraint of each rank, and the number of constraints.
+    const std::vector<unsigned int> &begins() const
+    {
+      return begin_of_strip;
+    }
+
     /// This rank's constraints, and where those end and begin that have nodes of the strips beside.
     unsigned int begin, end_lower, begin_upper, end;
     /// Of those that act on a node of this rank's constraints: neighbours' too.
@@ -60,7 +72,7 @@ namespace tread
     /// Whether so many strips can do their sweeps at the same time; finds the borders if so.
     bool     divide(const ContactProblem &problem, const unsigned int n_strips, const unsigned int n_nodes);
     MPI_Comm comm;
-    std::vector<unsigned int> begin_of_strip; ///< of each rank, and the number of constraints
+    std::vector<unsigned int> begin_of_strip;
     std::vector<double>       send_buffer, receive_buffer;
     std::vector<int>          counts, offsets;
   };
