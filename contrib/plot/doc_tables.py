@@ -22,7 +22,7 @@ def command(arguments, ranks, program=PROGRAM):
 
 def environment():
     settings = {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                "OMPI_MCA_mtl": "^psm,psm2"}
+                "OMPI_MCA_pml": "ob1"}
     if os.getuid() == 0:
         settings.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return dict(os.environ, **settings)
