@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace tread
@@ -290,20 +291,16 @@ namespace tread
 
   void Contact::complete_state()
   {
-    std::vector<Row> rows(slid.size());
-    for (unsigned int j = 0; j < slid.size(); ++j)
-      rows[j] = Row{slid[j], 0., 0., 0.};
-    strips.gather(rows);
-    for (unsigned int j = 0; j < slid.size(); ++j)
-      slid[j] = rows[j][0];
-    strips.gather(previous_impulse);
-    for (unsigned int j = 0; j < rows.size(); ++j)
-      rows[j] = problem.constraints[j].normal;
-    strips.gather(rows);
-    for (unsigned int j = 0; j < rows.size(); ++j)
-      problem.constraints[j].normal = rows[j];
+    // The strips follow each other as the ranks do.
+    const auto gather_strips = [&](auto &values) {
+      values = gathered(
+        std::decay_t<decltype(values)>(values.begin() + strips.begin, values.begin() + strips.end), comm);
+    };
+    gather_strips(problem.constraints); // for their normals
+    gather_strips(previous_impulse);
+    gather_strips(slid);
 
-    rows.clear();
+    std::vector<Row> rows;
     for (const unsigned int i : involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])
       rows.push_back(position[i]);
     rows     = gathered(rows, comm);

@@ -49,7 +49,7 @@ namespace tread
           begin_of_strip[strip] =
             std::lower_bound(work.begin(), work.end(), std::uint64_t(work[n]) * strip / n_strips) -
             work.begin();
-        if (divide(problem, n_strips, n_nodes))
+        if (divide(problem, n_nodes))
           return;
       }
   }
@@ -61,18 +61,16 @@ namespace tread
                  const MPI_Comm                   comm)
     : Strips(problem)
   {
-    this->comm            = comm;
-    this->begin_of_strip  = begin_of_strip;
-    unsigned int n_strips = 1;
-    while (n_strips + 1 < begin_of_strip.size() && begin_of_strip[n_strips] < begin_of_strip.back())
-      ++n_strips;
-    divide(problem, n_strips, n_nodes);
+    this->comm           = comm;
+    this->begin_of_strip = begin_of_strip;
+    divide(problem, n_nodes);
   }
 
 
-  bool Strips::divide(const ContactProblem &problem, const unsigned int n_strips, const unsigned int n_nodes)
+  bool Strips::divide(const ContactProblem &problem, const unsigned int n_nodes)
   {
-    const auto for_nodes = [&](const unsigned int strip, const auto &loop) {
+    const unsigned int n_strips  = begin_of_strip.size() - 1; // the last ones may be empty
+    const auto         for_nodes = [&](const unsigned int strip, const auto &loop) {
       for (unsigned int j = begin_of_strip[strip]; j < begin_of_strip[strip + 1]; ++j)
         for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
           loop(j, problem.entries[i].node);

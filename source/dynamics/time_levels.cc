@@ -225,7 +225,7 @@ namespace tread
           f[i] *= -inverse[i] / scale; // the reference is free of stress
         tridiagonal(k, k) = product(f, mode);
         for (unsigned int i = 0; i < x.size(); ++i)
-          mode_before[i] = f[i] - tridiagonal(k, k) * mode[i] - (k > 0 ? size : 0.) * mode_before[i];
+          mode_before[i] = f[i] - tridiagonal(k, k) * mode[i] - size * mode_before[i];
         mode.swap(mode_before);
         size = std::sqrt(product(mode, mode));
         if (k + 1 < iterations)

@@ -69,9 +69,10 @@ namespace tread
     double gather(std::vector<Row> &values, const double own = 0.);
 
   private:
-    /// Whether so many strips can do their sweeps at the same time; finds the borders if so.
-    bool     divide(const ContactProblem &problem, const unsigned int n_strips, const unsigned int n_nodes);
-    MPI_Comm comm;
+    /// Whether these strips can do their sweeps at the same time; finds the borders if so.
+    bool divide(const ContactProblem &problem, const unsigned int n_nodes);
+
+    MPI_Comm                  comm;
     std::vector<unsigned int> begin_of_strip;
     std::vector<double>       send_buffer, receive_buffer;
     std::vector<int>          counts, offsets;
