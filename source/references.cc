@@ -83,6 +83,25 @@ namespace tread
   }
 
 
+  Row traction_over_pressure(const reference::RollingResult &half_space, const double x, const double y)
+  {
+    const double       size    = half_space.element_size;
+    const unsigned int n_steps = std::ceil(std::max(std::abs(x), std::abs(y)) / size);
+    for (unsigned int step = n_steps; step + 1 > 0; --step)
+      {
+        const double share  = n_steps > 0 ? double(step) / n_steps : 0.;
+        const double column = std::round((share * x - half_space.x.front()) / size),
+                     row    = std::round((share * y - half_space.y.front()) / size);
+        if (column < 0. || column >= half_space.n_x || row < 0. || row >= half_space.n_y)
+          continue;
+        const std::size_t i = half_space.n_x * std::size_t(row) + std::size_t(column);
+        if (half_space.pressure[i] > 0.)
+          return Row{half_space.shear_x[i], half_space.shear_y[i], 0., 0.} * (1. / half_space.pressure[i]);
+      }
+    return Row{};
+  }
+
+
   ContactAnswer contact_answer(const reference::RollingResult &half_space)
   {
     ContactAnswer answer;

@@ -311,10 +311,11 @@ namespace tread
       "rolled "
       "distance is changed.",
       Anything());
-    prm.add_parameter("Rolled distance (mm)", rolled_mm,
-                      "From the start to the solution instant. The tangential solution needs three to four "
-                      "patch lengths to become steady.",
-                      Double(tiny, 10000.));
+    prm.add_parameter(
+      "Rolled distance (mm)", rolled_mm,
+      "From the start to the solution instant. The tangential solution needs one and a half to two "
+      "patch lengths to become steady, and three to four if 'Start/Tractions' is none.",
+      Double(tiny, 10000.));
     prm.add_parameter(
       "Drive", drive,
       "creepage: the angular velocity is kept. torque: a torque of traction coefficient x load x radius acts "
@@ -353,6 +354,12 @@ namespace tread
     prm.leave_subsection();
 
     prm.enter_subsection("Start");
+    prm.add_parameter(
+      "Tractions", start_tractions,
+      "none: the wheel stands without friction at the start, and the tangential tractions build up as it "
+      "rolls. predicted: it starts with what half-space theory gives for steady rolling, so that only what "
+      "differs from that must still build up.",
+      Selection("none|predicted"));
     prm.add_parameter("Tolerance", start_tolerance,
                       "Of the force balance at the start, share of the largest force.", Double(1e-12, 0.1));
     prm.add_parameter("Largest number of iterations", start_iterations, "Of the dynamic relaxation.",

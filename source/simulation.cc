@@ -182,38 +182,48 @@ namespace tread
 
   void Simulation::prepare_start(Progress &progress)
   {
-    const double radius = scene.rolling_radius();
-    if (scene.creepage == "predicted")
-      {
-        predicted =
-          reference::solve_rolling(half_space_case(scene, scene.static_load(), scene.traction_coefficient));
-        target_creepage = -predicted.creepage;
-      }
-    else
-      target_creepage = std::stod(scene.creepage);
+    const double radius            = scene.rolling_radius();
+    const bool   predicts_creepage = scene.creepage == "predicted",
+               predicts_tractions  = scene.start_tractions == "predicted";
+    reference::RollingResult predicted;
+    if (predicts_creepage || predicts_tractions)
+      predicted = reference::solve_rolling(half_space_case(scene));
+    target_creepage                = predicts_creepage ? -predicted.creepage : std::stod(scene.creepage);
+    const auto predicted_tractions = [&, x = hub.motion.x, y = scene.first_contact().y](const Row place) {
+      return traction_over_pressure(predicted, place[0] - x, place[1] - y);
+    };
+    bool free_rolling_known = false;
 
-    const double began    = progress.seconds();
-    unsigned int unloaded = 0; // measurements in a row
-    relaxation_iterations = dynamics.relax(
-      scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
+    const double began                  = progress.seconds();
+    unsigned int unloaded               = 0; // measurements in a row
+    const double free_rolling_tolerance = std::max(scene.start_tolerance, 3e-4);
+    relaxation_iterations               = dynamics.relax(
+                    scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
         if (interrupted())
           throw Interruption();
         unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
         if (unloaded > 100)
           throw std::runtime_error(
-            "the wheel finds no rail under it at the start: it sinks past what is meshed "
-            "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
+                          "the wheel finds no rail under it at the start: it sinks past what is meshed "
+                                        "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
+        if (!free_rolling_known && share <= free_rolling_tolerance)
+          {
+            free_creepage      = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
+            free_rolling_known = true;
+            if (predicts_tractions)
+              contact.give_tractions(predicted_tractions);
+          }
         if (progress.due())
           progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
       });
     relaxation_seconds = progress.seconds() - began;
     check_rim();
-    free_creepage = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
 
     contact.set_friction(std::make_shared<CoulombFriction>(scene.friction));
+    contact.give_tractions({});
     hub.drive                   = Drive::creepage;
     hub.motion.velocity_x       = scene.speed();
     hub.motion.angular_velocity = scene.speed() / radius * (1. + target_creepage + free_creepage);
@@ -617,7 +627,8 @@ namespace tread
     const double rolled        = position() - scene.path_begin();
     const double patch_lengths = (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) /
                                  (2. * hertz(scene, normal > 0. ? normal : scene.static_load()).semi_axis_x);
-    const bool long_enough = patch_lengths >= 3.;
+    const double lengths_to_be_steady = scene.start_tractions == "predicted" && !torque_released ? 1.5 : 3.;
+    const bool   long_enough          = patch_lengths >= lengths_to_be_steady;
     summary.set("rolled_m", rolled);
     summary.set("rolled_patch_lengths", patch_lengths);
     summary.set("long_enough_to_be_steady", long_enough);
@@ -673,8 +684,8 @@ namespace tread
           1e-3 * normal, 100. * ripple, traction, energy.residual_share(), summary.table().c_str(),
           note.c_str(), note.empty() ? "" : "\n");
         if (completed && !long_enough)
-          std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes three or more\n",
-                      patch_lengths, torque_released ? "torque acts" : "start");
+          std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
+                      patch_lengths, torque_released ? "torque acts" : "start", lengths_to_be_steady);
         std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s%s\n",
                     completed                 ? "finished"
                     : end == End::interrupted ? "INTERRUPTED: stopped"

@@ -42,8 +42,8 @@ def available_ranks():
 def run_scene(scene, folder, settings=None, ranks=None):
     """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command.
 
-    Beside the summary's figures: `seconds` from the start of the program to its end, and `peak_bytes`, the
-    memory of its largest process.
+    Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
+    the memory of its largest process.
     """
     line = command(arguments_of(scene, settings or {}) + ["--output", folder], ranks or available_ranks())
     cost_file = os.path.join(folder, "cost.json")
@@ -55,19 +55,26 @@ def run_scene(scene, folder, settings=None, ranks=None):
         print(" ".join(line), flush=True)
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as output:
-            began = time.monotonic()
+            began = time.time()
             process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT)
             _, status, usage = os.wait4(process.pid, 0)
-            seconds = time.monotonic() - began
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             with open(output.name, encoding="utf-8") as stream:
                 said = [text.strip() for text in stream if text.startswith("tread: ")]
             raise DataError(f"{scene} ended with {process.returncode} ({' '.join(said)}), see {output.name}")
-        cost = {"command": line, "seconds": seconds, "peak_bytes": 1024 * usage.ru_maxrss}
+        cost = {"command": line, "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began,
+                "peak_bytes": 1024 * usage.ru_maxrss}
         with open(cost_file, "w", encoding="utf-8") as stream:
             json.dump(cost, stream, indent=2)
     return dict(read_summary(folder), **cost)
+
+
+def in_turn(turns, runs, time_of=lambda summary: summary["seconds"]):
+    """The fastest summary of each run(turn) of a dictionary, all runs made one after the other so many times: where
+    other programs take their part of a machine, the least time is the nearest to the run's own."""
+    summaries = [{name: run(turn) for name, run in runs.items()} for turn in range(turns)]
+    return {name: min((of_turn[name] for of_turn in summaries), key=time_of) for name in runs}
 
 
 def is_complete(folder):

@@ -34,6 +34,10 @@ namespace tread
   /// The elements in contact of a half-space answer, as nodes of a patch table.
   std::vector<PatchNode> patch_nodes(const reference::RollingResult &half_space);
 
+  /// Tangential traction on the wheel over the pressure in a half-space answer [-], at a place relative to
+  /// the centre of contact (m); beside the patch what is nearest on the way to the centre.
+  Row traction_over_pressure(const reference::RollingResult &half_space, double x, double y);
+
   /// What acts in the contact: forces on the wheel (N), creepage as in the scene (positive when driving), and
   /// the measures of the patch.
   struct ContactAnswer

@@ -115,6 +115,7 @@ namespace tread
     double       courant_number = 0.95;
     unsigned int time_levels    = 1;
     // Start
+    std::string  start_tractions  = "predicted";
     double       start_tolerance  = 1e-5;
     unsigned int start_iterations = 20000;
     // Output

@@ -69,7 +69,6 @@ namespace tread
 
     const Scene                 &scene;
     MPI_Comm                     comm;
-    reference::RollingResult     predicted; ///< half-space answer before the run
     Mesh                         mesh;
     Solid                        solid;
     WheelHub                     hub;

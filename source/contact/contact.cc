@@ -214,6 +214,10 @@ namespace tread
       position[i] = x[involved[i]];
     previous_impulse = impulse;
     slid.assign(problem.constraints.size(), 0.);
+    given_ratio.clear();
+    if (given_tractions)
+      for (const ContactProblem::Constraint &constraint : problem.constraints)
+        given_ratio.push_back(given_tractions(x[constraint.slave]));
     make_room();
   }
 
@@ -402,7 +406,7 @@ namespace tread
           impulse[j] = guess;
       }
     const CoulombSolverResult result =
-      solve_coulomb(problem, *friction, parameters.solver, strips, gap_rate, velocity, impulse);
+      solve_coulomb(problem, *friction, parameters.solver, strips, gap_rate, velocity, impulse, given_ratio);
 
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;

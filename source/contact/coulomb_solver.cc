@@ -12,7 +12,8 @@ namespace tread
                                     Strips                        &strips,
                                     const std::vector<double>     &gap_rate,
                                     std::vector<Row>              &velocity,
-                                    std::vector<Row>              &impulse)
+                                    std::vector<Row>              &impulse,
+                                    const std::vector<Row>        &given)
   {
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
@@ -38,12 +39,18 @@ namespace tread
           if (waits[j])
             continue;
 
-          const Row slip = u - dot(u, constraint.normal) * constraint.normal;
-          Row       tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
-          const double limit = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
-          const double size2 = dot(tangential, tangential);
-          if (size2 > limit * limit)
-            tangential *= limit / std::sqrt(size2);
+          Row tangential;
+          if (given.empty())
+            {
+              const Row slip = u - dot(u, constraint.normal) * constraint.normal;
+              tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
+              const double limit = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
+              const double size2 = dot(tangential, tangential);
+              if (size2 > limit * limit)
+                tangential *= limit / std::sqrt(size2);
+            }
+          else
+            tangential = new_normal * (given[j] - dot(given[j], constraint.normal) * constraint.normal);
 
           impulse[j]       = new_normal * constraint.normal + tangential;
           const Row change = impulse[j] - old;

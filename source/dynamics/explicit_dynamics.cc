@@ -396,6 +396,7 @@ namespace tread
       {
         if (contact->refresh_due())
           {
+            check_stability(); // a search among nodes that fly apart fills the memory
             contact->refresh(x.data(), v.data(), time_step);
             times.search += watch.lap();
           }

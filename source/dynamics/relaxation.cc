@@ -60,6 +60,20 @@ namespace tread
         }
     const double hub_load = hub ? hub->static_force() : 0.;
 
+    // By far the slowest is the whole wheel as it sinks into the contact. Shifts of it get this much more
+    // acceleration by the force on all of it: inverse masses M^-1 + lightness r r^T / (r^T M r), which no
+    // cell feels, as K r = 0.
+    const double lightness  = hub && contact ? 16. : 0.;
+    double       wheel_mass = 0., wheel_load = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (on_wheel[i] && mesh.shared_nodes.is_owned(i))
+        {
+          wheel_mass += mass[i][0];
+          wheel_load += body_force[i][2];
+        }
+    wheel_mass = sum(wheel_mass, mesh.comm);
+    wheel_load = sum(wheel_load, mesh.comm) + hub_load;
+
     std::fill(v.begin(), v.end(), Row{});
     if (contact)
       {
@@ -91,20 +105,27 @@ namespace tread
           {
             // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves:
             // the frequency that still moves.
-            double change = 0., inertia = 0.;
+            double change = 0., inertia = 0., momentum = 0.;
             for (unsigned int i = 0; i < x.size(); ++i)
               if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
                 {
                   change -= dot(v[i], force[i] - previous[i]);
                   inertia += dot(v[i], v[i]) / inverse[i];
+                  if (on_wheel[i])
+                    momentum += v[i][2] / inverse[i];
                 }
-            change  = sum(change, mesh.comm) / keep;
-            inertia = sum(inertia, mesh.comm) / (keep * keep) + hub_mass * hub_velocity * hub_velocity;
+            change   = sum(change, mesh.comm) / keep;
+            momentum = sum(momentum, mesh.comm) + hub_mass * hub_velocity;
+            inertia  = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
+            if (lightness > 0.)
+              inertia -= lightness / (1. + lightness) * momentum * momentum / wheel_mass;
+            inertia /= keep * keep;
             const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
             // Stable for omega^2 < 2 (1 + keep): with highest_frequency 1.8 keep must exceed 0.62.
             const double kept = std::exchange(keep, std::clamp(1. - 2. * omega, 0.75, 0.9998));
             for (Row &velocity : v)
               velocity *= keep / kept;
+            hub_velocity *= keep / kept;
           }
         if (remember)
           previous = force;
@@ -148,14 +169,17 @@ namespace tread
               contact->refresh(x.data(), v.data(), 1.);
           }
 
+        const double shift =
+          lightness > 0. ? lightness / wheel_mass * (wheel_load + contact->total_impulse()[2]) : 0.;
         double residual = 0., scale = 0.;
         if (hub)
           {
-            const double imbalance = rank_sums[2] + hub_load;
-            hub_velocity           = keep * hub_velocity + imbalance / hub_mass;
-            hub->motion.z += hub_velocity;
-            residual = std::abs(imbalance);
-            scale    = std::abs(hub_load);
+            const double imbalance    = rank_sums[2] + hub_load;
+            const double displacement = hub_velocity + imbalance / hub_mass + shift;
+            hub->motion.z += displacement;
+            hub_velocity = keep * displacement;
+            residual     = std::abs(imbalance);
+            scale        = std::abs(hub_load);
           }
         double squares = 0., load_squares = 0.;
         for (unsigned int i = 0; i < x.size(); ++i)
@@ -165,7 +189,7 @@ namespace tread
                 squares += dot(force[i], force[i]);
                 load_squares += dot(body_force[i], body_force[i]);
               }
-            const Row displacement = v[i] + inverse[i] * force[i];
+            const Row displacement = v[i] + inverse[i] * force[i] + Row{0., 0., on_wheel[i] ? shift : 0., 0.};
             x[i] += displacement;
             v[i] = keep * displacement;
           }
@@ -173,7 +197,7 @@ namespace tread
           for (unsigned int k = 0; k < hub_nodes.size(); ++k)
             {
               x[hub_nodes[k]] = hub->position_of(hub_reference[k]);
-              v[hub_nodes[k]] = Row{0., 0., keep * hub_velocity, 0.};
+              v[hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
             }
         mesh.distribute_hanging_nodes(x.data());
         mesh.distribute_hanging_nodes(v.data());
@@ -188,7 +212,7 @@ namespace tread
             const double share = residual / (scale > 0. ? scale : std::max(first_residual, 1e-300));
             if (progress)
               progress(iteration, share);
-            if (share <= tolerance)
+            if (share <= tolerance && !(contact && contact->refresh_due()))
               {
                 // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
                 if (!contact || iteration <= last_refresh + interval)

@@ -57,7 +57,7 @@ SETTINGS = [
     ("Output/Cells=-20,0,0", ["Output/Cells", "depth above 0"]),
     ("Rail/Inclination=1:30", ["Rail/Inclination", "1:40", "1:20"]),
     ("Rail/Measured head=nothing.prr", ["Rail/Measured head", "nothing.prr", "cannot be read"]),
-    ("Rail/Length (mm)=100", ["Rail/Begin (mm)", "Length (mm)", "must hold the path", "from -120 to 60 mm"]),
+    ("Rail/Length (mm)=100", ["Rail/Begin (mm)", "Length (mm)", "must hold the path", "from -90 to 60 mm"]),
     ("Rail/Begin (mm)=-70", ["Rail/Begin (mm)", "from -70 to 60 mm", "must hold the path"]),
     ("Rail/Begin (mm)=here", ["Rail/Begin (mm)", "'here'", "automatic"]),
     ("Motion/Start (mm)=nan", ["Motion/Start (mm)", "'nan'", "automatic"]),
@@ -75,7 +75,8 @@ SETTINGS = [
 ]
 # A bar of 7.2 m with a support every 0.6 m.
 BAR = ["Rail/Shape=block", "Rail/Block width (mm)=60", "Rail/Block height (mm)=150", "Rail/Margin (mm)=3570",
-       "Track/Foundation=two-layer", "Track/Pad width (mm)=50", "Track/Support 0 (mm)=-330", "Scene/Density scale=1"]
+       "Track/Foundation=two-layer", "Track/Pad width (mm)=50", "Track/Support 0 (mm)=-330", "Scene/Density scale=1",
+       "Motion/Rolled distance (mm)=60"]
 DIP = ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"]
 PAIRS = [
     (["Track/Foundation=two-layer"], ["Track/Foundation", "Rail/Shape"]),
@@ -104,7 +105,7 @@ PAIRS = [
     (DIP + ["Defect/Position (mm)=-30", "Defect/Lateral position (mm)=30"], ["Lateral position (mm)", "head"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Rounded leading edge (mm)=30"], ["Rounded leading edge (mm)", "at most half"]),
     (["Defect/Shape=profile", "Defect/Profile file=nothing.txt"], ["Defect/Profile file", "nothing.txt", "cannot be read"]),
-    (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "on the rail from -120 to 60 mm"]),
+    (["Mesh/Fine from (mm)=200", "Mesh/Fine to (mm)=300"], ["Mesh/Fine from (mm)", "on the rail from -90 to 60 mm"]),
     (["Rail/Shape=block", "Rail/Inclination=1:40"], ["Rail/Inclination", "full section"]),
     (["Wheel/Tread profile=S1002", "Rail/Inclination=1:40", "Mesh/Fine half width (mm)=6"],
      ["Mesh/Fine half width (mm)", "must hold the patch from y = -", "at least"]),

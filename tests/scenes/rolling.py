@@ -167,6 +167,19 @@ with tempfile.TemporaryDirectory() as folder:
         # Normal forces of pairs that slid apart by up to 2 % of a face, on surfaces that turn by speed/2R, against friction.
         check.below("driving: other work of the contact, share of the frictional work",
                     drive["contact_loss_J"] / drive["frictional_work_J"], 2e-3)
+        # From predicted tractions half the distance does, and a start from none leads there too, but later.
+        predicted = run(program, "smooth-rolling.prm", path("predicted"), COARSE, 2)
+        built_up = run(program, "smooth-rolling.prm", path("built-up"),
+                       COARSE + ["Motion/Rolled distance (mm)=80", "Start/Tractions=none"], 2)
+        check.that("30 mm are called long enough from predicted tractions", predicted["long_enough_to_be_steady"] is True)
+        for key in ("max_pressure_Pa", "max_shear_Pa", "traction_coefficient", "adhesion_share", "frictional_power_W"):
+            check.relative(f"start from predicted tractions, 30 mm, against none, 80 mm: {key}", predicted[key], built_up[key],
+                           0.005)
+        for name, expected, allowed in (("predicted", 0.3, 0.01), ("built-up", 0., 0.05)):
+            with open(os.path.join(path(name), "history.csv"), encoding="utf-8") as stream:
+                first = next(csv.DictReader(stream))
+            check.absolute(f"{name}: traction coefficient in the first row", float(first["traction_coefficient"]), expected,
+                           allowed)
         brake = run(program, "smooth-rolling.prm", path("brake"), base + ["Motion/Traction coefficient=-0.3"], 2)
         # Wheel and rail are not the same body, hence not exactly the opposite.
         check.relative("braking: traction coefficient", brake["traction_coefficient"], -0.3, 0.02)
@@ -184,8 +197,10 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("density x 25: traction coefficient", drive["traction_coefficient"], plain["traction_coefficient"], 0.005)
         check.below("density 1: energy residual, share of the work", plain["energy_residual_share"], 1e-3)
         levels = run(program, "smooth-rolling.prm", path("levels"), base + ["Time stepping/Levels=4"], 2)
-        for key in ("max_pressure_Pa", "patch_area_m2", "max_shear_Pa", "adhesion_share", "traction_coefficient"):
-            check.relative(f"four levels of time steps: {key}", levels[key], drive[key], 0.002)
+        # With cells of 1.3 mm the adhesion share changes by 0.3 % with any change of the step.
+        for key, allowed in (("max_pressure_Pa", 0.002), ("patch_area_m2", 0.002), ("max_shear_Pa", 0.002),
+                             ("traction_coefficient", 0.002), ("adhesion_share", 0.005)):
+            check.relative(f"four levels of time steps: {key}", levels[key], drive[key], allowed)
         check.below("four levels of time steps: energy residual, share of the work", levels["energy_residual_share"], 1e-3)
         full = run(program, "smooth-rolling.prm", path("full"),
                    SHORT + ["Solid/Element=fully-integrated"], 2)

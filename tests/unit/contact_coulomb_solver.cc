@@ -134,6 +134,32 @@ int main(int argc, char **argv)
   // hundredfold. A change of an impulse by one share of the largest changes velocities by some m/s here.
   constexpr double allowed = 1e-7;
 
+  {
+    // Tangential impulses that are given: no more and no less, on normal ones that still close the gaps.
+    const RandomProblem r = make_problem(200, random);
+    Strips              whole(r.problem);
+    std::vector<Row>    velocity = r.velocity, impulse(200, Row{}), given;
+    for (unsigned int j = 0; j < 200; ++j)
+      given.push_back(Row{0.2 * std::cos(j), 0.2 * std::sin(j), 0., 0.});
+    solve_coulomb(r.problem, CoulombFriction(0.1), parameters, whole, r.gap_rate, velocity, impulse, given);
+    double       apart = 0., gap = 0., largest = 0.;
+    unsigned int n_closed = 0;
+    for (unsigned int j = 0; j < 200; ++j)
+      {
+        const ContactProblem::Constraint &constraint = r.problem.constraints[j];
+        const Row                         n          = constraint.normal;
+        const double                      normal     = dot(impulse[j], n);
+        const double rate = dot(r.problem.combine(constraint, velocity), n) + r.gap_rate[j];
+        apart   = std::max(apart, size(impulse[j] - normal * (n + given[j] - dot(given[j], n) * n)));
+        gap     = std::max(gap, normal > 0. ? std::abs(rate) : -rate);
+        largest = std::max(largest, normal);
+        n_closed += normal > 0.;
+      }
+    check.that("given tractions: some pairs close, others do not", n_closed > 10 && n_closed < 190);
+    check.below("given tractions: tangential impulse, share of the largest", apart / largest, 1e-12);
+    check.below("given tractions: gap's rate, m/s", gap, allowed);
+  }
+
   for (const double mu : {0., 0.3, 0.8})
     {
       const CoulombFriction friction(mu);

@@ -49,6 +49,19 @@ int main()
                  0.5 * (crown.patch_extent().end - crown.patch_extent().begin) / b, 0.95, 0.051);
   check.absolute("round crown: the path's middle, mm", 1e3 * crown.path_y(), 0., 0.);
 
+  // Tractions of a start: the half-space's in its patch, beside it those of its rim.
+  const reference::RollingResult answer = reference::solve_rolling(half_space_case(crown));
+  double                         force  = 0.;
+  for (unsigned int e = 0; e < answer.x.size(); ++e)
+    force += answer.pressure[e] * answer.element_size * answer.element_size *
+             traction_over_pressure(answer, answer.x[e], answer.y[e])[0];
+  check.relative("tractions of a start: their force, N", force, answer.longitudinal_force, 1e-9);
+  check.relative("tractions of a start: over pressure behind the patch",
+                 traction_over_pressure(answer, -30e-3, 0.)[0], crown.friction, 1e-6);
+  const double ahead = traction_over_pressure(answer, 30e-3, 1e-3)[0];
+  check.that("tractions of a start: below the bound ahead of the patch",
+             ahead > 0. && ahead < crown.friction);
+
   for (const std::string profile : {"54E1", "60E1"})
     {
       const std::string name = "S1002 on " + profile + " 1:40: ";

@@ -7,6 +7,7 @@
 #include <tread/contact/mortar.h>
 #include <tread/contact/strips.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -56,6 +57,15 @@ namespace tread
     void set_friction(std::shared_ptr<const FrictionLaw> law)
     {
       friction = std::move(law);
+    }
+
+    /// From the next refresh on, which is due then, tangential tractions are given instead of found: those on
+    /// the master surface over the pressure, by the place of a slave node (m). An empty function: the
+    /// friction law again.
+    void give_tractions(std::function<Row(const Row)> over_pressure)
+    {
+      given_tractions = std::move(over_pressure);
+      time_to_refresh = 0.;
     }
 
     /// Give all ranks what only the rank of a constraint or node knows. Collective.
@@ -129,6 +139,7 @@ namespace tread
     MPI_Comm                           comm;
     ContactParameters                  parameters;
     std::shared_ptr<const FrictionLaw> friction;
+    std::function<Row(const Row)>      given_tractions;
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
@@ -142,6 +153,7 @@ namespace tread
     std::vector<Row>          position, predicted, velocity, velocity_before;
     std::vector<Row>          impulse;          ///< by constraint
     std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
+    std::vector<Row>          given_ratio;      ///< by constraint: of impulses, tangential over normal
     std::vector<double>       gap_rate;         ///< by constraint of the strip
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
     std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move

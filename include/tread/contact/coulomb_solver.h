@@ -32,13 +32,15 @@ namespace tread
   /// of the strip.
   /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity. What acts on
   /// the nodes of the strip has to be there.
+  /// @param given one a constraint: P_t over P_n where it is not for Coulomb's law to find; or empty.
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
                                     const CoulombSolverParameters &parameters,
                                     Strips                        &strips,
                                     const std::vector<double>     &gap_rate,
                                     std::vector<Row>              &velocity,
-                                    std::vector<Row>              &impulse);
+                                    std::vector<Row>              &impulse,
+                                    const std::vector<Row>        &given = {});
 } // namespace tread
 
 #endif
