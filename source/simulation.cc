@@ -185,12 +185,12 @@ namespace tread
     const double radius            = scene.rolling_radius();
     const bool   predicts_creepage = scene.creepage == "predicted",
                predicts_tractions  = scene.start_tractions == "predicted";
-    reference::RollingResult predicted;
     if (predicts_creepage || predicts_tractions)
-      predicted = reference::solve_rolling(half_space_case(scene));
-    target_creepage                = predicts_creepage ? -predicted.creepage : std::stod(scene.creepage);
+      predicted =
+        std::make_shared<const reference::RollingResult>(reference::solve_rolling(half_space_case(scene)));
+    target_creepage                = predicts_creepage ? -predicted->creepage : std::stod(scene.creepage);
     const auto predicted_tractions = [&, x = hub.motion.x, y = scene.first_contact().y](const Row place) {
-      return traction_over_pressure(predicted, place[0] - x, place[1] - y);
+      return traction_over_pressure(*predicted, place[0] - x, place[1] - y);
     };
     bool free_rolling_known = false;
 
@@ -595,6 +595,11 @@ namespace tread
           reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : force[0] / normal);
           c.prescribe_force        = !all_slips;
           c.creepage               = -creepage;
+          if (predicted)
+            {
+              c.element_size = predicted->element_size;
+              c.guess        = predicted;
+            }
           const reference::RollingResult half_space = reference::solve_rolling(c);
           compare(summary, answer, half_space, c.prescribe_force);
           reference_patch = patch_nodes(half_space);

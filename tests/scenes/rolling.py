@@ -246,8 +246,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     elif what == "full-wheel":
         wheel = run(program, "tutorial/full-wheel.prm", path("wheel"), ["Motion/Rolled distance (mm)=60"], 2)
-        # The rim swings on the web after the sudden start: the traction is still far from steady after 60 mm.
-        check.relative("full wheel: traction coefficient, still swinging", wheel["traction_coefficient"], 0.3, 0.2)
+        # From no tractions the rim swings on the web, and the traction is far from steady after 60 mm.
+        check.relative("full wheel: traction coefficient", wheel["traction_coefficient"], 0.3, 0.01)
         check.relative("full wheel: normal force is the load, N", wheel["normal_force_N"], 14300. * 9.81, 0.002)
         check.relative("full wheel: maximum pressure against Hertz", wheel["max_pressure_Pa"],
                        wheel["reference"]["max_pressure_Pa"]["Hertz"]["value"], 0.02)
