@@ -38,7 +38,7 @@ namespace tread
 
   reference::RollingCase half_space_case(const Scene &scene)
   {
-    const bool             creepage_given = scene.drive == "creepage" && scene.creepage != "predicted";
+    const bool             creepage_given = scene.drive == "creepage" && !scene.predicts_creepage();
     reference::RollingCase c =
       half_space_case(scene, scene.static_load(), creepage_given ? 0. : scene.traction_coefficient);
     c.prescribe_force = !creepage_given;
@@ -87,7 +87,7 @@ namespace tread
   {
     const double       size    = half_space.element_size;
     const unsigned int n_steps = std::ceil(std::max(std::abs(x), std::abs(y)) / size);
-    for (unsigned int step = n_steps; step + 1 > 0; --step)
+    for (unsigned int step = n_steps + 1; step-- > 0;)
       {
         const double share  = n_steps > 0 ? double(step) / n_steps : 0.;
         const double column = std::round((share * x - half_space.x.front()) / size),

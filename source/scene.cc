@@ -319,7 +319,7 @@ namespace tread
     prm.add_parameter(
       "Drive", drive,
       "creepage: the angular velocity is kept. torque: a torque of traction coefficient x load x radius acts "
-      "on the axle, after Hold distance at the predicted creepage.",
+      "on the axle, after Hold distance at the creepage below.",
       Selection("creepage|torque"));
     prm.add_parameter(
       "Traction coefficient", traction_coefficient,
@@ -332,7 +332,7 @@ namespace tread
       Anything());
     prm.add_parameter(
       "Hold distance (mm)", hold_mm,
-      "Rolled at the predicted creepage before the torque acts, so that no long run-in is paid for.",
+      "Rolled at the creepage above before the torque acts, so that no long run-in is paid for.",
       Double(0., 10000.));
     prm.add_parameter(
       "Passages", passages,
@@ -426,10 +426,10 @@ namespace tread
               std::string(drive == "torque" ? ", and a torque would only spin it" : ""));
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     require(std::abs(traction_coefficient) < friction || (traction_coefficient == 0.) ||
-              (drive == "creepage" && creepage != "predicted"),
+              (drive == "creepage" && !predicts_creepage()),
             "'Motion/Traction coefficient' " + number(traction_coefficient) +
               " must be below 'Contact/Friction coefficient' " + number(friction) + " in size");
-    if (creepage != "predicted")
+    if (!predicts_creepage())
       {
         double      value = 0.;
         std::size_t used  = 0;

@@ -139,7 +139,7 @@ namespace tread
     for (unsigned int level = 0; level < n_choices; ++level)
       gains[level] = dynamics.ideal_gain_of_levels(level);
     // Of the whole run over that of the internal forces, of which the start takes some.
-    constexpr double all_over_forces = 1.7, relaxation_steps = 2000.;
+    constexpr double all_over_forces = 2.2, relaxation_steps = 1200.;
     const auto       time = [&](const double density_scale, const double gain_of_levels) {
       return all_over_forces * seconds *
              (steps * std::sqrt(scene.density_scale / density_scale) / gain_of_levels + relaxation_steps);
@@ -182,40 +182,56 @@ namespace tread
 
   void Simulation::prepare_start(Progress &progress)
   {
-    const double radius            = scene.rolling_radius();
-    const bool   predicts_creepage = scene.creepage == "predicted",
-               predicts_tractions  = scene.start_tractions == "predicted";
-    if (predicts_creepage || predicts_tractions)
-      predicted =
-        std::make_shared<const reference::RollingResult>(reference::solve_rolling(half_space_case(scene)));
-    target_creepage                = predicts_creepage ? -predicted->creepage : std::stod(scene.creepage);
-    const auto predicted_tractions = [&, x = hub.motion.x, y = scene.first_contact().y](const Row place) {
-      return traction_over_pressure(*predicted, place[0] - x, place[1] - y);
-    };
-    bool free_rolling_known = false;
+    const double             began = progress.seconds();
+    reference::RollingResult half_space;
+    bool                     predicts_tractions = scene.start_tractions == "predicted";
+    if (scene.predicts_creepage())
+      half_space = reference::solve_rolling(half_space_case(scene));
+    else if (predicts_tractions)
+      try
+        {
+          reference::RollingCase c = half_space_case(scene);
+          c.prescribe_force        = false;
+          c.creepage               = -std::stod(scene.creepage);
+          half_space               = reference::solve_rolling(c);
+        }
+      catch (const std::exception &error)
+        {
+          predicts_tractions = false;
+          progress.say(std::string("start without tractions: ") + error.what());
+        }
+    target_creepage = scene.predicts_creepage() ? -half_space.creepage : std::stod(scene.creepage);
 
-    const double began                  = progress.seconds();
+    const auto measure_free_rolling = [&]() {
+      contact.complete_state();
+      free_creepage = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
+    };
+    bool         free_rolling_known     = false;
     unsigned int unloaded               = 0; // measurements in a row
-    const double free_rolling_tolerance = std::max(scene.start_tolerance, 3e-4);
-    relaxation_iterations               = dynamics.relax(
-                    scene.start_tolerance, scene.start_iterations, [&](const unsigned int iteration, const double share) {
-        if (interrupted())
-          throw Interruption();
-        unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
-        if (unloaded > 100)
-          throw std::runtime_error(
-                          "the wheel finds no rail under it at the start: it sinks past what is meshed "
-                                        "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
-        if (!free_rolling_known && share <= free_rolling_tolerance)
-          {
-            free_creepage      = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
-            free_rolling_known = true;
-            if (predicts_tractions)
-              contact.give_tractions(predicted_tractions);
-          }
-        if (progress.due())
-          progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
-      });
+    const auto   after_each_measurement = [&](const unsigned int iteration, const double share) {
+      if (interrupted())
+        throw Interruption();
+      unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
+      if (unloaded > 100)
+        throw std::runtime_error(
+            "the wheel finds no rail under it at the start: it sinks past what is meshed "
+              "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
+      if (predicts_tractions && !free_rolling_known && share <= std::max(scene.start_tolerance, 3e-4))
+        {
+          measure_free_rolling();
+          free_rolling_known = true;
+          contact.give_tractions(
+            [half_space, x = hub.motion.x, y = scene.first_contact().y](const Row place) {
+              return traction_over_pressure(half_space, place[0] - x, place[1] - y);
+            });
+        }
+      if (progress.due())
+        progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
+    };
+    relaxation_iterations =
+      dynamics.relax(scene.start_tolerance, scene.start_iterations, after_each_measurement);
+    if (!free_rolling_known)
+      measure_free_rolling();
     relaxation_seconds = progress.seconds() - began;
     check_rim();
     progress.say(
@@ -224,9 +240,10 @@ namespace tread
 
     contact.set_friction(std::make_shared<CoulombFriction>(scene.friction));
     contact.give_tractions({});
-    hub.drive                   = Drive::creepage;
-    hub.motion.velocity_x       = scene.speed();
-    hub.motion.angular_velocity = scene.speed() / radius * (1. + target_creepage + free_creepage);
+    hub.drive             = Drive::creepage;
+    hub.motion.velocity_x = scene.speed();
+    hub.motion.angular_velocity =
+      scene.speed() / scene.rolling_radius() * (1. + target_creepage + free_creepage);
     if (supports)
       dynamics.set_track_velocities();
     dynamics.set_wheel_velocities();
@@ -595,11 +612,6 @@ namespace tread
           reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : force[0] / normal);
           c.prescribe_force        = !all_slips;
           c.creepage               = -creepage;
-          if (predicted)
-            {
-              c.element_size = predicted->element_size;
-              c.guess        = predicted;
-            }
           const reference::RollingResult half_space = reference::solve_rolling(c);
           compare(summary, answer, half_space, c.prescribe_force);
           reference_patch = patch_nodes(half_space);
@@ -622,7 +634,8 @@ namespace tread
       summary.set(name, value);
     summary.set("contact_unconverged_steps", contact.n_unconverged_steps());
     summary.set("cells", mesh.n_global_cells);
-    summary.set("plastic_cells", dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm));
+    const auto n_plastic_cells = dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm);
+    summary.set("plastic_cells", n_plastic_cells);
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
     summary.set("steps", dynamics.n_steps);
     summary.set("time_step_s", dynamics.time_step);
@@ -632,7 +645,9 @@ namespace tread
     const double rolled        = position() - scene.path_begin();
     const double patch_lengths = (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) /
                                  (2. * hertz(scene, normal > 0. ? normal : scene.static_load()).semi_axis_x);
-    const double lengths_to_be_steady = scene.start_tractions == "predicted" && !torque_released ? 1.5 : 3.;
+    const bool starts_steady =
+      scene.start_tractions == "predicted" && !torque_released && n_plastic_cells == 0;
+    const double lengths_to_be_steady = starts_steady ? 1.5 : 3.;
     const bool   long_enough          = patch_lengths >= lengths_to_be_steady;
     summary.set("rolled_m", rolled);
     summary.set("rolled_patch_lengths", patch_lengths);

@@ -40,7 +40,8 @@ def available_ranks():
 
 
 def run_scene(scene, folder, settings=None, ranks=None):
-    """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command.
+    """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command and
+    the same scene.
 
     Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
     the memory of its largest process.
@@ -51,7 +52,9 @@ def run_scene(scene, folder, settings=None, ranks=None):
     if is_complete(folder) and os.path.exists(cost_file):
         with open(cost_file, encoding="utf-8") as stream:
             cost = json.load(stream)
-    if cost.get("command") != line:
+    with open(os.path.join(ROOT, "prm", scene), encoding="utf-8") as stream:
+        scene_text = stream.read()
+    if cost.get("command") != line or cost.get("scene") != scene_text:
         print(" ".join(line), flush=True)
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as output:
@@ -63,8 +66,8 @@ def run_scene(scene, folder, settings=None, ranks=None):
             with open(output.name, encoding="utf-8") as stream:
                 said = [text.strip() for text in stream if text.startswith("tread: ")]
             raise DataError(f"{scene} ended with {process.returncode} ({' '.join(said)}), see {output.name}")
-        cost = {"command": line, "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began,
-                "peak_bytes": 1024 * usage.ru_maxrss}
+        cost = {"command": line, "scene": scene_text, "peak_bytes": 1024 * usage.ru_maxrss,
+                "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began}
         with open(cost_file, "w", encoding="utf-8") as stream:
             json.dump(cost, stream, indent=2)
     return dict(read_summary(folder), **cost)

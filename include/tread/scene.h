@@ -106,7 +106,7 @@ namespace tread
     double sprung_mass = 13400., suspension_stiffness_kN_m = 1150., suspension_damping = 2500.,
            gravity = 9.81;
     // Motion
-    double       speed_kmh = 140., rolled_mm = 60., hold_mm = 45.;
+    double       speed_kmh = 140., rolled_mm = 60., hold_mm = 15.;
     std::string  starts_at = "automatic";
     std::string  drive = "creepage", creepage = "predicted";
     double       traction_coefficient = 0.3;
@@ -153,6 +153,10 @@ namespace tread
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
 
+    bool predicts_creepage() const
+    {
+      return creepage == "predicted";
+    }
     bool has_supports() const
     {
       return foundation != "rigid";

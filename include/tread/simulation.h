@@ -67,18 +67,16 @@ namespace tread
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
 
-    const Scene &scene;
-    MPI_Comm     comm;
-    /// Half-space answer before the run, if it was needed.
-    std::shared_ptr<const reference::RollingResult> predicted;
-    Mesh                                            mesh;
-    Solid                                           solid;
-    WheelHub                                        hub;
-    ExplicitDynamics                                dynamics;
-    Contact                                         contact;
-    std::unique_ptr<Supports>                       supports; ///< none: the rail's bottom is held
-    std::unique_ptr<StressStrip>                    strip;    ///< none: no table
-    std::unique_ptr<CellProbes>                     probes;   ///< none: no table
+    const Scene                 &scene;
+    MPI_Comm                     comm;
+    Mesh                         mesh;
+    Solid                        solid;
+    WheelHub                     hub;
+    ExplicitDynamics             dynamics;
+    Contact                      contact;
+    std::unique_ptr<Supports>    supports; ///< none: the rail's bottom is held
+    std::unique_ptr<StressStrip> strip;    ///< none: no table
+    std::unique_ptr<CellProbes>  probes;   ///< none: no table
 
     double target_creepage = 0., free_creepage = 0., end_position;
     bool   torque_released = false, solution_taken = false;

@@ -13,7 +13,7 @@ namespace tread
 {
   unsigned int ExplicitDynamics::relax(const double                                     tolerance,
                                        const unsigned int                               max_iterations,
-                                       const std::function<void(unsigned int, double)> &progress)
+                                       const std::function<void(unsigned int, double)> &after_measurement)
   {
     using dealii::Utilities::MPI::sum;
 
@@ -210,8 +210,9 @@ namespace tread
               first_residual = residual;
             // Without a load: of what is out of balance at the start.
             const double share = residual / (scale > 0. ? scale : std::max(first_residual, 1e-300));
-            if (progress)
-              progress(iteration, share);
+            if (after_measurement)
+              after_measurement(iteration, share);
+            // Not yet, if what was called has changed the contact.
             if (share <= tolerance && !(contact && contact->refresh_due()))
               {
                 // Balanced with the coupling of where nodes were many iterations ago? Then not yet.

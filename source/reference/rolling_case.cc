@@ -131,15 +131,6 @@ namespace tread::reference
                 c.gap ? c.gap(x, y) : c.curvature_x * x * x + c.curvature_y * y * y;
               normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
             }
-        if (c.guess && c.guess->n_x == grid.n_x && c.guess->n_y == grid.n_y &&
-            c.guess->element_size == c.element_size)
-          {
-            normal.initial_pressure    = c.guess->pressure;
-            tangential.initial_shear_x = c.guess->shear_x;
-            tangential.initial_shear_y = c.guess->shear_y;
-            if (c.prescribe_force)
-              tangential.longitudinal = c.guess->creepage;
-          }
         contact = c.friction > 0. ? solve_contact(grid, pair, normal, tangential)
                                   : solve_frictionless(grid, pair, normal, c);
         if (!contact.normal.cut)

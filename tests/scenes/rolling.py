@@ -27,7 +27,7 @@ def same(name, a, b, allowed):
         # Damping is sampled every 50 steps; a ledger in between, as at an interruption, shifts the samples. The largest
         # micro-slip is that of one node at the patch's end.
         check.relative(f"{name}: {key}", a[key], b[key],
-                       5. * allowed if key in ("damping_work_J", "max_slip_m_per_s") else allowed)
+                       {"damping_work_J": 10., "max_slip_m_per_s": 5.}.get(key, 1.) * allowed)
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
@@ -144,10 +144,10 @@ with tempfile.TemporaryDirectory() as folder:
         identical("two ranks, resumed against never stopped", "two-ranks", "two-ranks-whole")
 
     elif what == "torque":
-        settings = COARSE + ["Motion/Rolled distance (mm)=120", "Motion/Hold distance (mm)=45"]
+        settings = COARSE + ["Motion/Rolled distance (mm)=75"]
         torque = run(program, "smooth-rolling.prm", path("torque"), settings + ["Motion/Drive=torque"], 2)
         creep = run(program, "smooth-rolling.prm", path("creepage"),
-                    COARSE + ["Motion/Rolled distance (mm)=120", f"Motion/Creepage={torque['creepage']}"], 2)
+                    COARSE + [f"Motion/Creepage={torque['creepage']}"], 2)
         with open(os.path.join(path("torque"), "history.csv"), encoding="utf-8") as stream:
             rows = [row for row in csv.DictReader(stream) if float(row["position_m"]) > -20e-3]
         worst = max(rows, key=lambda row: abs(float(row["traction_coefficient"]) - 0.3))
@@ -167,7 +167,7 @@ with tempfile.TemporaryDirectory() as folder:
         # Normal forces of pairs that slid apart by up to 2 % of a face, on surfaces that turn by speed/2R, against friction.
         check.below("driving: other work of the contact, share of the frictional work",
                     drive["contact_loss_J"] / drive["frictional_work_J"], 2e-3)
-        # From predicted tractions half the distance does, and a start from none leads there too, but later.
+        # The shipped 30 mm from predicted tractions, and 80 mm from none.
         predicted = run(program, "smooth-rolling.prm", path("predicted"), COARSE, 2)
         built_up = run(program, "smooth-rolling.prm", path("built-up"),
                        COARSE + ["Motion/Rolled distance (mm)=80", "Start/Tractions=none"], 2)

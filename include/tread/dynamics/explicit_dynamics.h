@@ -131,14 +131,16 @@ namespace tread
 
     /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
     /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with
-    /// masses that give every cell the same frequency. Contact is frictionless here. Cells of plastic zones
-    /// yield in one step, from their history before to the equilibrium: what is passed on the way to it
-    /// leaves no trace.
+    /// masses that give every cell the same frequency. Contact is without friction here, or with given
+    /// tractions. Cells of plastic zones yield in one step, from their history before to the equilibrium:
+    /// what is passed on the way to it leaves no trace.
     /// @param tolerance of the force balance, share of the largest force.
+    /// @param after_measurement is called with the number of the iteration and the balance reached, and may
+    /// give the contact tractions.
     /// @returns the number of iterations. @throws std::runtime_error if max_iterations do not do.
     unsigned int relax(const double                                     tolerance,
                        const unsigned int                               max_iterations,
-                       const std::function<void(unsigned int, double)> &progress);
+                       const std::function<void(unsigned int, double)> &after_measurement);
 
     /// Energies now, when nodes must be synchronised. Collective; costs about two steps.
     EnergyLedger ledger() const;

@@ -5,14 +5,11 @@
 #include <tread/reference/elastic.h>
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace tread::reference
 {
-  struct RollingResult;
-
   /// A wheel that rolls steadily over a rail, as the half-space solver sees it.
   ///
   /// Axes: origin at the centre of contact, x in rolling direction (leading edge at +x), y lateral, z up into
@@ -45,9 +42,6 @@ namespace tread::reference
     double spin                 = 0.; ///< [rad/m], always prescribed
 
     double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
-
-    /// The answer to a like case, which the iterations begin with if it has the same grid.
-    std::shared_ptr<const RollingResult> guess;
   };
 
   /// Where an element of the grid is.
