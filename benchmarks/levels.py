@@ -14,12 +14,15 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
 
-from doc_tables import ROOT, available_ranks, dry_run, fill, in_turn, markdown, number, provenance, run_scene, run_script
+from doc_tables import (ROOT, available_ranks, dry_run, fill, in_turn, markdown, number, provenance, run_scene,
+                        run_script)
 from run_data import DataError
 
+# Rolled twice as far as shipped, as the changes looked for are small.
+ROLLED = {"Motion/Rolled distance (mm)": 60, "Output/Write volume": "false"}
 SCENES = {"smooth": "smooth-rolling.prm", "long rail": "benchmarks/long-rail.prm"}
 LEVELS = (2, 3, 4)  # beside one
-TURNS = 3
+TURNS = 2
 # Without levels but with a shorter step: what it changes is no matter of levels.
 SHORTER_STEP = {"Time stepping/Courant number": 0.86}
 # Changes with which a scene takes 1e5 steps: true density, hence short steps, and a slow wheel.
@@ -27,16 +30,23 @@ LONG_LEVELS = (2, 3)
 LONG = {"smooth": {"Scene/Density scale": 1, "Motion/Speed (km per h)": 24},
         "long rail": {"Scene/Density scale": 1, "Motion/Speed (km per h)": 12}}
 
-# What must not change by more than 0.2 %. The largest slip is that of the last nodes before the patch ends, where
-# another step alone changes it more: it must not change by more than that.
+# What must not change by more than 0.2 %. Slip, of some 0.4 m/s, hears the bodies ring, and another step alone changes
+# it more: it must not change by more than that.
 PATCH = ("normal_force_N", "longitudinal_force_N", "patch_area_m2", "max_pressure_Pa", "max_shear_Pa", "adhesion_share",
-         "creepage", "frictional_power_W")
-SLIP = "max_slip_m_per_s"
+         "creepage")
+SLIP = ("max_slip_m_per_s", "frictional_power_W")
 ALLOWED_CHANGE, ALLOWED_RESIDUAL = 0.2, 0.1  # %
 
 
 def judged(value, allowed):
     return number(value) + ("" if abs(value) <= allowed else " **FAIL**")
+
+
+def largest_change(summary, base, keys):
+    """In %, and in what."""
+    changed = {key: 100 * (summary[key] / base[key] - 1) for key in keys}
+    worst = max(changed, key=lambda key: abs(changed[key]))
+    return changed[worst], worst
 
 
 def rolling_seconds(summary):
@@ -52,12 +62,12 @@ def main():
     rows, summaries = [], []
 
     def run(name, levels, changes, label, turn=0):
-        settings = {"Time stepping/Levels": levels, "Output/Write volume": "false", **changes}
+        settings = {"Time stepping/Levels": levels, **ROLLED, **changes}
         folder = f"{label.replace(' ', '-')}-{levels}-{turn}"
         return run_scene(SCENES[name], os.path.join(arguments.results, folder), settings)
 
     def ideal_gain(name, levels, changes):
-        return dry_run(SCENES[name], {"Time stepping/Levels": levels, **changes})["ideal gain of levels"]
+        return dry_run(SCENES[name], {"Time stepping/Levels": levels, **ROLLED, **changes})["ideal gain of levels"]
 
     for name in SCENES:
         kinds = {"1": (1, {}), "1, shorter step": (1, SHORTER_STEP), **{str(levels): (levels, {}) for levels in LEVELS}}
@@ -65,18 +75,17 @@ def main():
                                for label, kind in kinds.items()}, rolling_seconds)
         summaries += runs.values()
         base, shorter = list(runs.values())[:2]
-        allowed_slip = max(ALLOWED_CHANGE, abs(100 * (shorter[SLIP] / base[SLIP] - 1)))
+        allowed_slip = max(ALLOWED_CHANGE, abs(largest_change(shorter, base, SLIP)[0]))
         for label, summary in runs.items():
             is_base = summary is base
-            changed = {key: 100 * (summary[key] / base[key] - 1) for key in PATCH}
-            worst = max(changed, key=lambda key: abs(changed[key]))
-            slip = 100 * (summary[SLIP] / base[SLIP] - 1)
+            change, worst = largest_change(summary, base, PATCH)
+            slip, worst_slip = largest_change(summary, base, SLIP)
             rows.append([name, label, number(summary["cells"]),
                          number(summary["steps"]), f"{ideal_gain(name, *kinds[label]):.2f}",
                          f"{base['wall_s_internal_forces'] / summary['wall_s_internal_forces']:.2f}",
                          f"{rolling_seconds(base) / rolling_seconds(summary):.2f}", number(summary["seconds"]),
-                         "-" if is_base else f"{judged(changed[worst], ALLOWED_CHANGE)} ({worst})",
-                         "-" if is_base else judged(slip, allowed_slip),
+                         "-" if is_base else f"{judged(change, ALLOWED_CHANGE)} ({worst})",
+                         "-" if is_base else f"{judged(slip, allowed_slip)} ({worst_slip})",
                          judged(100 * summary["energy_residual_share"], ALLOWED_RESIDUAL)])
     for name, changes in LONG.items() if arguments.long else ():
         for levels in LONG_LEVELS:
@@ -96,7 +105,7 @@ def main():
     script = "benchmarks/levels.py" + (" --long" if arguments.long else "")
     fill("performance.md", "levels", markdown(
         ["scene", "levels", "cells", "steps", "ideal gain", "gain, internal forces", "gain, rolling", "seconds",
-         f"largest change, % (allowed {ALLOWED_CHANGE})", "largest slip, % (allowed: that of a shorter step)",
+         f"largest change, % (allowed {ALLOWED_CHANGE})", "slip, % (allowed: that of a shorter step)",
          f"energy residual, % (allowed {ALLOWED_RESIDUAL})"], rows)
         + f"\n\n{available_ranks()} ranks. " + provenance(script, summaries))
 

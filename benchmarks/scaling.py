@@ -14,7 +14,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
 
-from doc_tables import ROOT, fill, in_turn, markdown, number, provenance, run_scene, run_script
+from doc_tables import ROOT, fill, in_turn, markdown, number, provenance, run_scene, run_script, steps_seconds
 
 # name: (scene, changes)
 STRONG = {"smooth-rolling, 0.63 mm": ("smooth-rolling.prm", {}),
@@ -37,13 +37,11 @@ NUMBERS = ("normal_force_N", "longitudinal_force_N", "traction_coefficient", "pa
            "max_shear_Pa", "adhesion_share", "max_slip_m_per_s", "frictional_work_J")
 
 PICTURES_OFF = {"Output/Write volume": "false"}
-TURNS = 3
+TURNS = 2
 
 
 def step_seconds(summary):
-    """Of one time step, without start, end and output."""
-    parts = ("internal_forces", "contact", "communication", "nodes")
-    return sum(summary[f"wall_s_{part}"] for part in parts) / summary["steps"]
+    return steps_seconds(summary) / summary["steps"]
 
 
 def strong(run):

@@ -80,6 +80,11 @@ def in_turn(turns, runs, time_of=lambda summary: summary["seconds"]):
     return {name: min((of_turn[name] for of_turn in summaries), key=time_of) for name in runs}
 
 
+def steps_seconds(summary):
+    """Of all time steps, without start, end and output."""
+    return sum(summary[f"wall_s_{part}"] for part in ("internal_forces", "contact", "communication", "nodes"))
+
+
 def is_complete(folder):
     try:
         return read_summary(folder).get("completed") is True
