@@ -602,13 +602,14 @@ namespace tread
     summary.set("normal_force_ripple_share", ripple);
     summary.set("free_rolling_creepage", free_creepage);
 
-    // Kalker's answer for the forces that act; where all slips, at the creepage.
+    // Kalker's answer for the forces that act; where (nearly) all slips and they say little about the
+    // creepage, at the creepage.
     std::string            note;
     std::vector<PatchNode> reference_patch;
     if (completed && normal > 0.)
       try
         {
-          const bool             all_slips = std::abs(force[0]) >= 0.999 * scene.friction * normal;
+          const bool             all_slips = std::abs(force[0]) >= 0.99 * scene.friction * normal;
           reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : force[0] / normal);
           c.prescribe_force        = !all_slips;
           c.creepage               = -creepage;
@@ -645,8 +646,9 @@ namespace tread
     const double rolled        = position() - scene.path_begin();
     const double patch_lengths = (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) /
                                  (2. * hertz(scene, normal > 0. ? normal : scene.static_load()).semi_axis_x);
+    // Half-space theory predicts neither what yields nor the spin of a tread that is no cylinder.
     const bool starts_steady =
-      scene.start_tractions == "predicted" && !torque_released && n_plastic_cells == 0;
+      scene.start_tractions == "predicted" && n_plastic_cells == 0 && !scene.surfaces().tread_offset;
     const double lengths_to_be_steady = starts_steady ? 1.5 : 3.;
     const bool   long_enough          = patch_lengths >= lengths_to_be_steady;
     summary.set("rolled_m", rolled);

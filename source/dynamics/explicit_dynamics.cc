@@ -110,6 +110,7 @@ namespace tread
                                     const double       angular_velocity)
   {
     hub                      = &wheel_hub;
+    hub_body                 = body;
     nominal_angular_velocity = angular_velocity;
     for (unsigned int i = 0; i < on_wheel.size(); ++i)
       on_wheel[i] = mesh.node_bodies[i] == body;

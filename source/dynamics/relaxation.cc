@@ -170,7 +170,8 @@ namespace tread
           }
 
         const double shift =
-          lightness > 0. ? lightness / wheel_mass * (wheel_load + contact->total_impulse()[2]) : 0.;
+          lightness > 0. ? lightness / wheel_mass * (wheel_load + contact->total_impulse_on(hub_body)[2])
+                         : 0.;
         double residual = 0., scale = 0.;
         if (hub)
           {
@@ -210,6 +211,9 @@ namespace tread
               first_residual = residual;
             // Without a load: of what is out of balance at the start.
             const double share = residual / (scale > 0. ? scale : std::max(first_residual, 1e-300));
+            if (!std::isfinite(share))
+              throw std::runtime_error("no equilibrium at the start: forces grow without bound after " +
+                                       std::to_string(iteration) + " iterations");
             if (after_measurement)
               after_measurement(iteration, share);
             // Not yet, if what was called has changed the contact.

@@ -95,6 +95,12 @@ namespace tread
     /// Total impulse on the master surface in the last step, N s.
     Row total_impulse() const;
 
+    /// The same on either body.
+    Row total_impulse_on(const unsigned int body) const
+    {
+      return (body == parameters.master_body ? 1. : -1.) * total_impulse();
+    }
+
     /// This rank's share.
     ContactWork last_work() const
     {

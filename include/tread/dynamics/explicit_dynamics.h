@@ -322,6 +322,7 @@ namespace tread
     std::vector<unsigned int>                          hub_nodes;
     std::vector<Row>                                   hub_reference; ///< relative to the axle
     WheelHub                                          *hub      = nullptr;
+    unsigned int                                       hub_body = 0;
     Contact                                           *contact  = nullptr;
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
