@@ -47,8 +47,7 @@ def step_seconds(summary):
 def strong(run):
     rows, summaries = [], []
     for name, (scene, changes) in STRONG.items():
-        found = in_turn(TURNS, {ranks: functools.partial(run, scene, changes, ranks) for ranks in (1, 2)})
-        one, two = found[1], found[2]
+        one, two = in_turn(TURNS, {ranks: functools.partial(run, scene, changes, ranks) for ranks in (1, 2)}).values()
         summaries += [one, two]
         rows.append([name, number(one["cells"]), number(one["seconds"]), number(two["seconds"]),
                      f"{one['seconds'] / two['seconds']:.2f}", f"{step_seconds(one) / step_seconds(two):.2f}",
@@ -80,9 +79,8 @@ def size(run, sizes):
 def weak(run):
     rows, summaries = [], []
     for small, large in WEAK:
-        found = in_turn(TURNS, {ranks: functools.partial(run, SIZE_SCENE, {**SIZE_CHANGES, **SIZES[n]}, ranks)
-                                for ranks, n in ((1, small), (2, large))}, step_seconds)
-        one, two = found[1], found[2]
+        one, two = in_turn(TURNS, {ranks: functools.partial(run, SIZE_SCENE, {**SIZE_CHANGES, **SIZES[n]}, ranks)
+                                   for ranks, n in ((1, small), (2, large))}, step_seconds).values()
         summaries += [one, two]
         growth = two["cells"] / one["cells"] / 2
         rows.append([number(one["cells"]), number(two["cells"]), f"{1e3 * step_seconds(one):.3g}",

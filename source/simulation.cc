@@ -186,13 +186,18 @@ namespace tread
     reference::RollingResult half_space;
     bool                     predicts_tractions = scene.start_tractions == "predicted";
     if (scene.predicts_creepage())
-      half_space = reference::solve_rolling(half_space_case(scene));
-    else if (predicts_tractions)
+      {
+        half_space      = reference::solve_rolling(half_space_case(scene));
+        target_creepage = -half_space.creepage;
+      }
+    else
+      target_creepage = std::stod(scene.creepage);
+    if (predicts_tractions && !scene.predicts_creepage())
       try
         {
           reference::RollingCase c = half_space_case(scene);
           c.prescribe_force        = false;
-          c.creepage               = -std::stod(scene.creepage);
+          c.creepage               = -target_creepage;
           half_space               = reference::solve_rolling(c);
         }
       catch (const std::exception &error)
@@ -200,22 +205,22 @@ namespace tread
           predicts_tractions = false;
           progress.say(std::string("start without tractions: ") + error.what());
         }
-    target_creepage = scene.predicts_creepage() ? -half_space.creepage : std::stod(scene.creepage);
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
       free_creepage = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
     };
-    bool         free_rolling_known     = false;
-    unsigned int unloaded               = 0; // measurements in a row
-    const auto   after_each_measurement = [&](const unsigned int iteration, const double share) {
+    bool         free_rolling_known = false;
+    unsigned int unloaded           = 0; // measurements in a row
+
+    const auto after_each_measurement = [&](const unsigned int iteration, const double share) {
       if (interrupted())
         throw Interruption();
       unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
       if (unloaded > 100)
         throw std::runtime_error(
-            "the wheel finds no rail under it at the start: it sinks past what is meshed "
-              "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
+          "the wheel finds no rail under it at the start: it sinks past what is meshed "
+          "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
       if (predicts_tractions && !free_rolling_known && share <= std::max(scene.start_tolerance, 3e-4))
         {
           measure_free_rolling();
