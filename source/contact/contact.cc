@@ -224,9 +224,16 @@ namespace tread
 
   void Contact::make_room(const std::vector<unsigned int> &begin_of_strip)
   {
+    const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
     involved_of_rank.assign(dealii::Utilities::MPI::n_mpi_processes(comm), {});
+    own_involved.clear();
     for (unsigned int i = 0; i < involved.size(); ++i)
-      involved_of_rank[surfaces.nodes[involved[i]].owner].push_back(i);
+      {
+        const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
+        involved_of_rank[node.owner].push_back(i);
+        if (node.owner == this_rank)
+          own_involved.push_back({static_cast<unsigned int>(node.local), inverse_mass[involved[i]]});
+      }
     std::vector<int> number(surfaces.nodes.size(), -1);
     for (unsigned int i = 0; i < involved.size(); ++i)
       number[involved[i]] = i;
@@ -270,10 +277,11 @@ namespace tread
       {
         if (swept[i])
           swept_nodes.push_back(i);
-        if (swept[i] || needed[i] || surfaces.nodes[involved[i]].local >= 0)
+        if (const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
+            swept[i] || needed[i] || node.local >= 0)
           {
             number_of_terms[i] = node_terms.size();
-            node_terms.push_back({i, 0, 0});
+            node_terms.push_back({i, node.local, node.owner == this_rank, inverse_mass[involved[i]], 0, 0});
           }
       }
     for (const ContactProblem::Entry &entry : problem.entries)
@@ -317,19 +325,24 @@ namespace tread
 
   void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
   {
-    const unsigned int n_ranks   = involved_of_rank.size(),
-                       this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
-    const unsigned int n_extra   = extra.size();
+    const unsigned int n_ranks = involved_of_rank.size(), n_extra = extra.size();
     // As seldom as the normals: speeds change little in between.
     const bool measures = steps_since_normals == 0;
     const auto speeds   = measures ? largest_speeds(v) : std::array<double, 2>{{0., 0.}};
     send_buffer.assign(speeds.begin(), speeds.end());
     send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
-    for (const unsigned int i : involved_of_rank[this_rank])
+    for (std::size_t i = 0; i < own_involved.size(); ++i)
       {
-        const unsigned int node   = surfaces.nodes[involved[i]].local;
-        const Row          before = v[node];
-        const Row          after  = before + time_step * inverse_mass[involved[i]] * force[node];
+        // Surface nodes lie far apart among those of the body.
+        constexpr std::size_t ahead = 8;
+        if (i + ahead < own_involved.size())
+          {
+            __builtin_prefetch(v + own_involved[i + ahead].local);
+            __builtin_prefetch(force + own_involved[i + ahead].local);
+          }
+        const auto [local, inverse_mass] = own_involved[i];
+        const Row before                 = v[local];
+        const Row after                  = before + time_step * inverse_mass * force[local];
         for (unsigned int d = 0; d < 3; ++d)
           send_buffer.push_back(before[d]);
         for (unsigned int d = 0; d < 3; ++d)
@@ -430,13 +443,11 @@ namespace tread
     if (strips.gather(impulse, slid_enough) > 0.)
       time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
 
-    const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
-    work.normal         = -work.friction;
+    work.normal = -work.friction;
     for (const NodeTerms &of_node : node_terms)
       {
-        const ContactSurfaces::Node &node   = surfaces.nodes[involved[of_node.node]];
-        Row                          sum[2] = {}; // each addition waits for the one before it
-        unsigned int                 k      = of_node.begin;
+        Row          sum[2] = {}; // each addition waits for the one before it
+        unsigned int k      = of_node.begin;
         for (; k + 2 <= of_node.end; k += 2)
           for (unsigned int half : {0u, 1u})
             sum[half] += terms[k + half].coefficient * impulse[terms[k + half].constraint];
@@ -444,11 +455,11 @@ namespace tread
           sum[0] += terms[k].coefficient * impulse[terms[k].constraint];
         const Row p     = sum[0] + sum[1];
         Row      &after = velocity[of_node.node];
-        after           = predicted[of_node.node] + inverse_mass[involved[of_node.node]] * p;
+        after           = predicted[of_node.node] + of_node.inverse_mass * p;
         position[of_node.node] += time_step * after;
-        if (node.local >= 0)
-          force[node.local] += (1. / time_step) * p;
-        if (node.owner == this_rank)
+        if (of_node.local >= 0)
+          force[of_node.local] += (1. / time_step) * p;
+        if (of_node.owned)
           work.normal -= 0.5 * dot(p, after + velocity_before[of_node.node]);
       }
     for (const ContactSurfaces::HangingNode &h : involved_hanging)

@@ -149,10 +149,17 @@ namespace tread
     std::vector<double>                inverse_mass; ///< by surface node
     double                             face_size;
 
-    ContactProblem                            problem;
-    Strips                                    strips;
-    std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
-    std::vector<std::vector<unsigned int>>    involved_of_rank; ///< compact numbers
+    ContactProblem                         problem;
+    Strips                                 strips;
+    std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
+    std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
+    /// What a prediction needs of the involved nodes of this rank, in their order.
+    struct Predicted
+    {
+      unsigned int local;
+      double       inverse_mass;
+    };
+    std::vector<Predicted>                    own_involved;
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
     /// By compact number; positions and velocities at the end of a step are those of the nodes of this rank's
     /// strip and of the mesh's nodes that it has.
@@ -167,7 +174,11 @@ namespace tread
     /// that know it, so that its position is the same.
     struct NodeTerms
     {
-      unsigned int node, begin, end; ///< compact number; range of terms
+      unsigned int node;         ///< compact number
+      int          local;        ///< number on this rank, -1 if it has no copy
+      bool         owned;        ///< by this rank
+      double       inverse_mass; ///< 1/kg
+      unsigned int begin, end;   ///< range of terms
     };
     struct Term
     {
