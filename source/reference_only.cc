@@ -151,8 +151,6 @@ namespace tread
     summary.set("normal_residual", half_space.normal_residual);
     summary.set("tangential_iterations", half_space.tangential_iterations);
     summary.set("tangential_residual", half_space.tangential_residual);
-    if (!half_space.note.empty())
-      summary.set("note", half_space.note);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
@@ -176,8 +174,6 @@ namespace tread
                   half_space.traction_coefficient);
     progress.say(text);
     progress.say(summary.table());
-    if (!half_space.note.empty())
-      progress.say("note: " + half_space.note);
     std::snprintf(text, sizeof text, "finished in %.2f s. Results in ", progress.seconds());
     progress.say(text + folder.path("") +
                  ": summary.json, patch.csv, subsurface.csv; for ParaView: surface.pvd");

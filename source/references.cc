@@ -26,6 +26,12 @@ namespace tread
                closed = scene.surfaces().gap(scene.first_contact().y)](const double x, const double y) {
         return curvature_x * x * x + surfaces.gap(y_middle + y) - closed;
       };
+    if (const auto offset = scene.surfaces().tread_offset)
+      c.radius_change = [offset, y_middle = scene.first_contact().y,
+                         at_middle = offset(scene.first_contact().y),
+                         radius    = scene.rolling_radius()](const double y) {
+        return (offset(y_middle + y) - at_middle) / radius;
+      };
     // 100 elements along a patch, or as many elements in a wide one: fine enough for creepages within 0.5 %
     // of the limit.
     const reference::HertzEllipse ellipse = reference::hertz_ellipse(

@@ -651,9 +651,8 @@ namespace tread
     const double rolled        = position() - scene.path_begin();
     const double patch_lengths = (rolled - (torque_released ? 1e-3 * scene.hold_mm : 0.)) /
                                  (2. * hertz(scene, normal > 0. ? normal : scene.static_load()).semi_axis_x);
-    // Half-space theory predicts neither what yields nor the spin of a tread that is no cylinder.
-    const bool starts_steady =
-      scene.start_tractions == "predicted" && n_plastic_cells == 0 && !scene.surfaces().tread_offset;
+    // Half-space theory does not predict what yields.
+    const bool   starts_steady        = scene.start_tractions == "predicted" && n_plastic_cells == 0;
     const double lengths_to_be_steady = starts_steady ? 1.5 : 3.;
     const bool   long_enough          = patch_lengths >= lengths_to_be_steady;
     summary.set("rolled_m", rolled);

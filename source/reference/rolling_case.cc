@@ -32,7 +32,10 @@ namespace tread::reference
         require_finite("creepage", c.creepage);
     }
 
-    void summarise(const RollingCase &c, const Grid &grid, RollingResult &result)
+    void summarise(const RollingCase       &c,
+                   const TangentialProblem &tangential,
+                   const Grid              &grid,
+                   RollingResult           &result)
     {
       const double              area = grid.element_area();
       std::vector<unsigned int> in_row(grid.n_y, 0), in_column(grid.n_x, 0);
@@ -56,25 +59,30 @@ namespace tread::reference
       result.semi_axis_y          = 0.5 * grid.dy * *std::max_element(in_column.begin(), in_column.end());
       result.adhesion_share       = static_cast<double>(n_adhesion) / n_contact;
       result.traction_coefficient = result.longitudinal_force / result.normal_force;
-      result.power_balance =
-        0. - c.speed * (result.longitudinal_force * result.creepage +
-                        result.lateral_force * result.lateral_creepage + result.spin_moment * result.spin);
+      double work =
+        result.longitudinal_force * result.creepage + result.lateral_force * result.lateral_creepage;
+      for (std::size_t e = 0; e < grid.size(); ++e)
+        {
+          const auto uneven = tangential.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
+          work += area * (result.shear_x[e] * uneven[0] + result.shear_y[e] * uneven[1]);
+        }
+      result.power_balance = 0. - c.speed * work;
     }
 
     /// Without friction all of the patch slips, and only its rigid motion and, for unlike bodies, the
     /// tangential displacements by pressure make it.
-    ContactSolution solve_frictionless(const Grid          &grid,
-                                       const ElasticPair   &pair,
-                                       const NormalProblem &normal,
-                                       const RollingCase   &c)
+    ContactSolution solve_frictionless(const Grid              &grid,
+                                       const ElasticPair       &pair,
+                                       const NormalProblem     &normal,
+                                       const TangentialProblem &tangential)
     {
       const FourierGrid   fourier(grid);
       ContactSolution     solution;
       TangentialSolution &t = solution.tangential;
       solution.normal       = solve_normal(fourier, NormalOperator(fourier, pair), normal);
-      t.longitudinal        = c.prescribe_force ? 0. : c.creepage;
-      t.lateral             = c.lateral_creepage;
-      t.spin                = c.spin;
+      t.longitudinal        = tangential.longitudinal;
+      t.lateral             = tangential.lateral;
+      t.spin                = tangential.spin;
       std::vector<double> by_pressure(2 * grid.size(), 0.);
       if (pair.coupling != 0.)
         CouplingOperator(fourier, pair, {{1. / grid.dx, 0.}, {-1. / grid.dx, grid.dx}})
@@ -84,9 +92,10 @@ namespace tread::reference
       t.state.assign(grid.size(), ElementState::exterior);
       for (const unsigned int e : solution.normal.contact)
         {
-          t.slip_x[e] = t.longitudinal - t.spin * grid.y(e / grid.n_x) + by_pressure[e];
-          t.slip_y[e] = t.lateral + t.spin * grid.x(e % grid.n_x) + by_pressure[grid.size() + e];
-          t.state[e]  = ElementState::slip;
+          const auto uneven = tangential.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
+          t.slip_x[e]       = t.longitudinal + uneven[0] + by_pressure[e];
+          t.slip_y[e]       = t.lateral + uneven[1] + by_pressure[grid.size() + e];
+          t.state[e]        = ElementState::slip;
         }
       return solution;
     }
@@ -105,38 +114,68 @@ namespace tread::reference
               std::to_string(std::min(hertz.semi_axis_x, hertz.semi_axis_y) / 3.) + " m");
 
     TangentialProblem tangential;
-    tangential.friction                     = c.friction;
-    tangential.longitudinal                 = c.prescribe_force ? 0. : c.creepage;
-    tangential.lateral                      = c.lateral_creepage;
-    tangential.spin                         = c.spin;
+    tangential.friction     = c.friction;
+    tangential.longitudinal = c.prescribe_force ? 0. : c.creepage;
+    tangential.lateral      = c.lateral_creepage;
+    tangential.spin         = c.spin;
+    if (c.radius_change)
+      tangential.more_slip = [&](const double x, const double y) -> std::array<double, 2> {
+        const double h = 0.5 * c.element_size;
+        return {-c.radius_change(y), x * (c.radius_change(y + h) - c.radius_change(y - h)) / (2. * h)};
+      };
     tangential.prescribe_longitudinal_force = c.prescribe_force;
     tangential.longitudinal_force           = c.traction_coefficient * c.normal_force;
+
+    const auto normal_problem = [&](const Grid &grid) {
+      NormalProblem normal;
+      normal.force = c.normal_force;
+      normal.gap.resize(grid.size());
+      normal.initial_pressure.resize(grid.size());
+      for (unsigned int j = 0; j < grid.n_y; ++j)
+        for (unsigned int i = 0; i < grid.n_x; ++i)
+          {
+            const double x = grid.x(i), y = grid.y(j);
+            normal.gap[j * grid.n_x + i] =
+              c.gap ? c.gap(x, y) : c.curvature_x * x * x + c.curvature_y * y * y;
+            normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
+          }
+      return normal;
+    };
+    // How far a patch that is no ellipse reaches is found with large elements.
+    double half_x = hertz.semi_axis_x, half_y = hertz.semi_axis_y;
+    if (c.gap)
+      for (const double size = std::min(half_x, half_y) / 3.;;)
+        {
+          const Grid           coarse = centred_grid(half_x + 2. * size, half_y + 2. * size, size);
+          const FourierGrid    fourier(coarse);
+          const NormalSolution normal =
+            solve_normal(fourier, NormalOperator(fourier, pair), normal_problem(coarse));
+          if (normal.cut)
+            {
+              half_x *= 1.5;
+              half_y *= 1.5;
+              continue;
+            }
+          half_x = half_y = 0.;
+          for (const unsigned int e : normal.contact)
+            {
+              half_x = std::max(half_x, std::abs(coarse.x(e % coarse.n_x)) + size);
+              half_y = std::max(half_y, std::abs(coarse.y(e / coarse.n_x)) + size);
+            }
+          break;
+        }
 
     RollingResult   result;
     Grid            grid;
     ContactSolution contact;
-    double          margin = 2. * c.element_size;
-    for (;;)
+    for (double margin = 2. * c.element_size;; margin *= 3.)
       {
-        grid = centred_grid(hertz.semi_axis_x + margin, hertz.semi_axis_y + margin, c.element_size);
-        NormalProblem normal;
-        normal.force = c.normal_force;
-        normal.gap.resize(grid.size());
-        normal.initial_pressure.resize(grid.size());
-        for (unsigned int j = 0; j < grid.n_y; ++j)
-          for (unsigned int i = 0; i < grid.n_x; ++i)
-            {
-              const double x = grid.x(i), y = grid.y(j);
-              normal.gap[j * grid.n_x + i] =
-                c.gap ? c.gap(x, y) : c.curvature_x * x * x + c.curvature_y * y * y;
-              normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
-            }
-        contact = c.friction > 0. ? solve_contact(grid, pair, normal, tangential)
-                                  : solve_frictionless(grid, pair, normal, c);
+        grid                       = centred_grid(half_x + margin, half_y + margin, c.element_size);
+        const NormalProblem normal = normal_problem(grid);
+        contact                    = c.friction > 0. ? solve_contact(grid, pair, normal, tangential)
+                                                     : solve_frictionless(grid, pair, normal, tangential);
         if (!contact.normal.cut)
           break;
-        margin *= 3.;
-        result.note = "the patch reached the border of the grid, which was enlarged";
       }
 
     result.n_x          = grid.n_x;
@@ -177,7 +216,7 @@ namespace tread::reference
     result.linear_iterations     = t.linear_iterations;
     result.normal_residual       = n.residual;
     result.tangential_residual   = t.residual;
-    summarise(c, grid, result);
+    summarise(c, tangential, grid, result);
     result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }

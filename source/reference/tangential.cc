@@ -143,12 +143,11 @@ namespace tread::reference
       equations.fixed.resize(2 * n);
       for (std::size_t k = 0; k < n; ++k)
         {
-          const unsigned int e = patch.outer[k];
-          equations.bound[k]   = problem.friction * pressure[e];
-          equations.fixed[k] =
-            (equations.prescribed[0] ? 0. : problem.longitudinal) - problem.spin * grid.y(e / grid.n_x);
-          equations.fixed[n + k] =
-            (equations.prescribed[1] ? 0. : problem.lateral) + problem.spin * grid.x(e % grid.n_x);
+          const unsigned int e   = patch.outer[k];
+          equations.bound[k]     = problem.friction * pressure[e];
+          const auto uneven      = problem.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
+          equations.fixed[k]     = (equations.prescribed[0] ? 0. : problem.longitudinal) + uneven[0];
+          equations.fixed[n + k] = (equations.prescribed[1] ? 0. : problem.lateral) + uneven[1];
         }
       const auto add = [&](const Vector &u) {
         for (std::size_t k = 0; k < 2 * n; ++k)

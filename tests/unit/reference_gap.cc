@@ -144,9 +144,10 @@ namespace
           border =
             border || (grown.pressure[e] > 0. && (e % grown.n_x == 0 || e % grown.n_x == grown.n_x - 1 ||
                                                   e / grown.n_x == 0 || e / grown.n_x == grown.n_y - 1));
-        std::printf("    %sfirst grid for %.1f mm^2; %u x %u elements in the end; note: '%s'\n", name,
-                    side.area * 1e6, grown.n_x, grown.n_y, grown.note.c_str());
-        n_grown += grown.note.empty() ? 0 : 1;
+        const double first_width = 2. * side.semi_axis_y + 4. * grid.dy;
+        std::printf("    %sfirst guess %.1f mm wide, in the end %.1f mm\n", name, first_width * 1e3,
+                    grown.n_y * grid.dy * 1e3);
+        n_grown += grown.n_y * grid.dy > 1.2 * first_width;
         check.that(std::string(name) + "narrow first grid: holds the patch in the end", !border);
         check.relative(std::string(name) + "narrow first grid: area [mm^2]", grown.area * 1e6, area * 1e6,
                        1e-12);
@@ -157,11 +158,33 @@ namespace
                        (c.tangential.longitudinal - rolling.spin * shift) * 1e3, 1e-5);
         check.relative(std::string(name) + "narrow first grid: Fn [kN]", grown.normal_force * 1e-3, 80.,
                        1e-12);
+        // The same spin as the change of the rolling radius of a cone, and that of a hollow tread, whose
+        // power must be that of the shear stresses over their slip, which converges with the element size.
+        narrow.spin          = 0.;
+        narrow.radius_change = [&](const double y) {
+          return rolling.spin * y;
+        };
+        const RollingResult cone = solve_rolling(narrow);
+        check.relative(std::string(name) + "cone: xi [1e-3]", cone.creepage * 1e3, grown.creepage * 1e3,
+                       1e-6);
+        check.relative(std::string(name) + "cone: power [W]", cone.power_balance, grown.power_balance, 1e-6);
+        narrow.radius_change = [&](const double y) {
+          return rolling.spin * y + 20. * y * y;
+        };
+        const RollingResult hollow = solve_rolling(narrow);
+        check.relative(std::string(name) + "hollow tread: Fx [kN]", hollow.longitudinal_force * 1e-3, 8.,
+                       1e-5);
+        narrow.element_size /= 2.;
+        const double power_finer = solve_rolling(narrow).frictional_power;
+        check.relative(std::string(name) + "hollow tread: power [W], extrapolated", hollow.power_balance,
+                       2. * power_finer - hollow.frictional_power, 0.03);
+        check.that(std::string(name) + "hollow tread: creeps less, as its radius is larger beside the middle",
+                   hollow.creepage > cone.creepage);
         area_before     = area;
         pressure_before = p_max;
       }
 
-    check.that("narrow first grid: grew, with a note, on the crown and beside it", n_grown >= 3);
+    check.that("narrow first grid: grew on the crown and beside it", n_grown >= 3);
 
     std::printf("\n--- two patches: a flat-bottomed valley, loaded as one body\n");
     const Grid    grid = centred_grid(6e-3, 16e-3, 0.4e-3);

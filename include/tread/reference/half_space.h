@@ -6,6 +6,7 @@
 #include <tread/reference/rolling_case.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace tread::reference
@@ -55,8 +56,9 @@ namespace tread::reference
   };
 
   /// The tangential problem: slip s = w + (u - u')/step with the rigid slip w = (xi - phi y, eta + phi x),
-  /// the displacement u here and u' where the particle was a step ago (at x + step; not moved for a shift,
-  /// where step counts as 1); |p| <= f pn; s = 0 where |p| < f pn, else p = -f pn s/|s|.
+  /// and what else is given, the displacement u here and u' where the particle was a step ago (at x + step;
+  /// not moved for a shift, where step counts as 1); |p| <= f pn; s = 0 where |p| < f pn, else
+  /// p = -f pn s/|s|.
   struct TangentialProblem
   {
     Motion motion   = Motion::steady;
@@ -67,6 +69,15 @@ namespace tread::reference
       0.; ///< xi [-] (shift: [m]); if Fx is prescribed: not used, or first guess with initial_shear
     double lateral = 0.; ///< eta [-] (shift: [m])
     double spin    = 0.; ///< phi [rad/m] (shift: [rad])
+    /// More rigid slip (x and y component) at (x, y) [m], as of a tread that is no cone; empty: none.
+    std::function<std::array<double, 2>(double, double)> more_slip;
+
+    /// Rigid slip without the creepages.
+    std::array<double, 2> uneven_slip(const double x, const double y) const
+    {
+      const std::array<double, 2> more = more_slip ? more_slip(x, y) : std::array<double, 2>{};
+      return {more[0] - spin * y, more[1] + spin * x};
+    }
 
     bool   prescribe_longitudinal_force = false;
     bool   prescribe_lateral_force      = false;

@@ -16,14 +16,14 @@ namespace tread::reference
   /// the wheel. All forces and tractions are those ON THE WHEEL, exerted by the rail: Fx > 0 is a driving
   /// wheel. Creepages have the signs of Kalker's CONTACT: rigid slip of the wheel relative to the rail over
   /// the speed,
-  ///   w_x = creepage - spin y,   w_y = lateral_creepage + spin x,
-  /// so that `creepage` is NEGATIVE for a driving wheel.
+  ///   w_x = creepage - spin y - r(y),   w_y = lateral_creepage + spin x + r'(y) x,
+  /// so that `creepage` is NEGATIVE for a driving wheel; r is what the tread adds to the rolling radius.
   struct RollingCase
   {
     // The undeformed gap A x^2 + B y^2.
     double curvature_x = 0.; ///< A [1/m], > 0 (1/(2 R) for a wheel of radius R)
     double curvature_y = 0.; ///< B [1/m], > 0
-    /// Any other undeformed gap [m] at (x, y) [m]; A and B then only choose the first grid.
+    /// Any other undeformed gap [m] at (x, y) [m]; A and B then only choose the first grid and the start.
     std::function<double(double, double)> gap;
 
     double normal_force = 0.; ///< Fn [N], > 0
@@ -40,6 +40,8 @@ namespace tread::reference
     double creepage             = 0.; ///< longitudinal creepage [-]; used if not prescribe_force
     double lateral_creepage     = 0.; ///< [-], always prescribed
     double spin                 = 0.; ///< [rad/m], always prescribed
+    /// Rolling radius at y [m] over that at the origin, minus one; empty: 0. Of an upright cone spin y.
+    std::function<double(double)> radius_change;
 
     double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
   };
@@ -88,7 +90,8 @@ namespace tread::reference
     double max_slip       = 0.; ///< [m/s]
     double frictional_power =
       0.; ///< sum of |shear| |slip| over the patch [W], >= 0; first order in the element size
-    double power_balance = 0.; ///< -(Fx xi + Fy eta + Mz phi) v [W]; converges faster, the better reference
+    double power_balance = 0.; ///< minus shear times rigid slip, -(Fx xi + Fy eta + Mz phi) v without
+                               ///< radius_change [W]; converges faster, the better reference
 
     unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
     unsigned int tangential_iterations = 0;  ///< Newton steps
@@ -96,11 +99,10 @@ namespace tread::reference
     double       normal_residual       = 0.; ///< largest error of the gap in contact over the approach [-]
     double       tangential_residual   = 0.; ///< largest violation of Coulomb's law over f p_max [-]
     double       solve_seconds         = 0.; ///< wall time [s]
-    std::string  note;                       ///< not empty if the grid had to grow
   };
 
-  /// Solve a case with the half-space solver. Chooses the grid itself: Hertz's patch with a margin, the
-  /// centre element at (0, 0); if the patch reaches the border the grid grows and `note` says so.
+  /// Solve a case with the half-space solver. Chooses the grid itself: with the centre element at (0, 0), it
+  /// holds the patch.
   ///
   /// Errors: std::invalid_argument for non-positive curvatures, force, speed or element size, negative
   /// friction, |Fx| >= f Fn > 0, or an element size that gives fewer than 3 elements along a semi-axis
