@@ -217,7 +217,7 @@ namespace tread
     given_ratio.clear();
     if (given_tractions)
       for (const ContactProblem::Constraint &constraint : problem.constraints)
-        given_ratio.push_back(given_tractions(x[constraint.slave]));
+        given_ratio.push_back(given_tractions(surfaces.nodes[constraint.slave].reference));
     make_room();
   }
 

@@ -60,8 +60,8 @@ namespace tread
     }
 
     /// From the next refresh on, which is due then, tangential tractions are given instead of found: those on
-    /// the master surface over the pressure, by the place of a slave node (m). An empty function: the
-    /// friction law again.
+    /// the master surface over the pressure, by the place of a slave node in the mesh (m), which does not
+    /// move from one element of a table to the next. An empty function: the friction law again.
     void give_tractions(std::function<Row(const Row)> over_pressure)
     {
       given_tractions = std::move(over_pressure);
