@@ -313,8 +313,9 @@ namespace tread
       Anything());
     prm.add_parameter(
       "Rolled distance (mm)", rolled_mm,
-      "From the start to the solution instant. The tangential solution needs one and a half to two "
-      "patch lengths to become steady, and three to four if 'Start/Tractions' is none.",
+      "From the start to the solution instant; the run ends half a finest cell after it, over which the "
+      "patch is averaged. The tangential solution needs one and a half to two patch lengths to become "
+      "steady, and three to four if 'Start/Tractions' is none.",
       Double(tiny, 10000.));
     prm.add_parameter(
       "Drive", drive,

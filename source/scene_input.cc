@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <regex>
 #include <sstream>
 
 namespace tread
@@ -43,6 +44,19 @@ namespace tread
             }
         }
       return row.back();
+    }
+
+    /// A text with deal.II's patterns in it, for people: "[Selection a|b ]" is "a or b", "[Integer range
+    /// 1...6 (inclusive)]" is "1 to 6".
+    std::string readable(std::string text)
+    {
+      std::smatch match;
+      while (std::regex_search(text, match, std::regex(R"(\[Selection ([^\]]*?) ?\])")))
+        text = match.prefix().str() + std::regex_replace(match[1].str(), std::regex(R"(\|)"), " or ") +
+               match.suffix().str();
+      text = std::regex_replace(
+        text, std::regex(R"(\[(Double|Integer range) (\S*?)\.\.\.(\S*) \(inclusive\)\])"), "$2 to $3");
+      return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }
 
     struct Entry
@@ -128,7 +142,7 @@ namespace tread
       }
     catch (const dealii::ExceptionBase &error)
       {
-        std::string text = one_line(error);
+        const std::string text = readable(one_line(error));
         throw SceneError(text.find(file) == std::string::npos ? file + ": " + text : text);
       }
   }
@@ -168,7 +182,8 @@ namespace tread
           catch (const dealii::ExceptionBase &)
             {
               handler.leave_subsection();
-              throw SceneError("'" + path + "' cannot be '" + value + "'; allowed: " + entry.pattern);
+              throw SceneError("'" + path + "' cannot be '" + value +
+                               "'; allowed: " + readable(entry.pattern));
             }
           handler.leave_subsection();
           return;

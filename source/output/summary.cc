@@ -2,6 +2,7 @@
 #include <tread/output/summary.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -12,14 +13,19 @@ namespace tread
                         const double       scale,
                         const double       value,
                         const std::string &source,
-                        const double       reference_value)
+                        const double       reference_value,
+                        const double       negligible)
   {
+    std::optional<double> difference;
+    if (std::abs(reference_value) > negligible)
+      difference = value / reference_value - 1.;
     json[name]                      = value;
-    json["reference"][name][source] = {
-      {"value", reference_value},
-      {"source", source},
-      {"relative_difference", reference_value != 0. ? value / reference_value - 1. : 0.}};
-    lines.push_back({label, source, scale * value, scale * reference_value});
+    json["reference"][name][source] = {{"value", reference_value},
+                                       {"source", source},
+                                       {"relative_difference", nullptr}};
+    if (difference)
+      json["reference"][name][source]["relative_difference"] = *difference;
+    lines.push_back({label, source, scale * value, scale * reference_value, difference});
   }
 
 
@@ -29,7 +35,7 @@ namespace tread
                      const double       value)
   {
     set(name, value);
-    lines.push_back({label, "", scale * value, 0.});
+    lines.push_back({label, "", scale * value, 0., {}});
   }
 
 
@@ -68,8 +74,8 @@ namespace tread
               const Line &line = column->second;
               std::snprintf(buffer, sizeof buffer, " %12.5g", line.reference);
               text += buffer;
-              if (line.reference != 0.)
-                std::snprintf(buffer, sizeof buffer, " %+7.2f%%", 100. * (line.value / line.reference - 1.));
+              if (line.difference)
+                std::snprintf(buffer, sizeof buffer, " %+7.2f%%", 100. * *line.difference);
               else
                 std::snprintf(buffer, sizeof buffer, " %8s", "");
               text += buffer;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,15 @@ namespace tread
     void show(const std::string &name, const std::string &label, const double scale, const double value);
 
     /// A figure with its reference: stands under "reference" in the file and as a line of the table.
-    /// @param scale from SI to the unit shown in the table.
+    /// @param scale from SI to the unit shown in the table. @param negligible a reference of this magnitude
+    /// is as good as none: the relative difference from it says nothing and is null.
     void compare(const std::string &name,
                  const std::string &label,
                  const double       scale,
                  const double       value,
                  const std::string &source,
-                 const double       reference_value);
+                 const double       reference_value,
+                 const double       negligible = 0.);
 
     std::string text() const
     {
@@ -42,8 +45,9 @@ namespace tread
   private:
     struct Line
     {
-      std::string label, source; // no source: nothing to compare with
-      double      value, reference;
+      std::string           label, source; // no source: nothing to compare with
+      double                value, reference;
+      std::optional<double> difference; // relative
     };
     nlohmann::ordered_json json;
     std::vector<Line>      lines;
