@@ -9,7 +9,8 @@
 #include <tread/mesh/mesh.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
-#include <tread/reference/rolling_case.h>
+#include <tread/output/summary.h>
+#include <tread/references.h>
 #include <tread/scene.h>
 #include <tread/solid/solid.h>
 #include <tread/track/wheel_hub.h>
@@ -52,6 +53,22 @@ namespace tread
       left_surface ///< contact was about to leave what is meshed for it
     };
     void finish(RunFolder &folder, const End end);
+    /// Of the answer: Kalker's for the forces that act; where (nearly) all slips and they say little about
+    /// the creepage, at the creepage. @returns his patch.
+    std::vector<PatchNode> compare_with_half_space(Summary &summary, const ContactAnswer &answer) const;
+    void                   add_energies(Summary &summary, const EnergyLedger &energy) const;
+    /// How far the wheel rolled since the start or since a torque acts, in lengths of the patch.
+    struct Rolled
+    {
+      double patch_lengths, lengths_to_be_steady;
+      bool   long_enough() const
+      {
+        return patch_lengths >= lengths_to_be_steady;
+      }
+    };
+    Rolled add_size(Summary &summary, const double normal_force) const;
+    void   add_cost(Summary &summary) const;
+    void   add_recorded(Summary &summary, RunFolder &folder) const;
     /// @throws std::runtime_error if contact is about to leave what is meshed for it.
     void   check_rim() const;
     bool   interrupted() const;

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a simulation says at the end of a passage and of the run.
+#include <tread/base/version.h>
+#include <tread/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tread
+{
+  void Simulation::end_passage(RunFolder &folder)
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::sum;
+    const double middle = 0.5 * (scene.path_begin() + scene.path_end()), half_length = 5e-3, on_line = 1e-6;
+    double       settled = 0., shifted = 0., n_nodes = 0., strain = 0., residual = 0.;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (const dealii::Point<3> &p = mesh.nodes[i];
+          mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
+          std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
+        {
+          settled += p[2] - dynamics.x[i][2];
+          shifted += dynamics.x[i][0] - p[0];
+          n_nodes += 1.;
+        }
+    const std::vector<std::array<double, 6>> stress =
+      solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+    const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
+          std::abs(mesh.nodes[mesh.cells[c].nodes[0]][0] - middle) <= half_length)
+        {
+          strain   = std::max(strain, strains[c]);
+          residual = std::max(residual, von_mises(stress[c]));
+        }
+    n_nodes                   = std::max(1., sum(n_nodes, comm));
+    const EnergyLedger energy = dynamics.ledger();
+    const double       pressure =
+      measure(solution_taken ? solution_patch
+                             : patch_nodes(contact.active_nodes(), position(), dynamics.time_step))
+        .max_pressure;
+    passages.push_back({sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes, max(strain, comm),
+                        max(residual, comm), energy.plastic, energy.friction,
+                        last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0., pressure,
+                        energy.residual_share()});
+    folder.write_passages(passages);
+  }
+
+
+  std::vector<PatchNode> Simulation::compare_with_half_space(Summary             &summary,
+                                                             const ContactAnswer &answer) const
+  {
+    const double           normal = answer.force[2], traction = answer.force[0];
+    const bool             all_slips = std::abs(traction) >= 0.99 * scene.friction * normal;
+    reference::RollingCase c         = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
+    c.prescribe_force                = !all_slips;
+    c.creepage                       = -answer.creepage;
+    const reference::RollingResult half_space = reference::solve_rolling(c);
+    compare(summary, answer, half_space, c.prescribe_force);
+    return patch_nodes(half_space);
+  }
+
+
+  void Simulation::add_energies(Summary &summary, const EnergyLedger &energy) const
+  {
+    summary.set("energy_residual_share", energy.residual_share());
+    for (const auto &[name, value] :
+         std::vector<std::pair<const char *, double>>{{"external_work_J", energy.external_work},
+                                                      {"gross_work_J", energy.gross_work},
+                                                      {"frictional_work_J", energy.friction},
+                                                      {"damping_work_J", energy.damping},
+                                                      {"plastic_work_J", energy.plastic},
+                                                      {"contact_loss_J", energy.contact},
+                                                      {"energy_residual_J", energy.residual()}})
+      summary.set(name, value);
+  }
+
+
+  Simulation::Rolled Simulation::add_size(Summary &summary, const double normal_force) const
+  {
+    summary.set("contact_unconverged_steps", contact.n_unconverged_steps());
+    summary.set("cells", mesh.n_global_cells);
+    const auto n_plastic_cells = dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm);
+    summary.set("plastic_cells", n_plastic_cells);
+    summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
+    summary.set("steps", dynamics.n_steps);
+    summary.set("time_step_s", dynamics.time_step);
+    summary.set("density_scale", scene.density_scale);
+    summary.set("inertia_error_estimate", scene.inertia_error_estimate());
+    summary.set("passages", scene.passages);
+
+    const double                  distance = position() - scene.path_begin();
+    const reference::HertzEllipse ellipse =
+      hertz(scene, normal_force > 0. ? normal_force : scene.static_load());
+    Rolled rolled;
+    rolled.patch_lengths =
+      (distance - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * ellipse.semi_axis_x);
+    // Half-space theory does not predict what yields.
+    rolled.lengths_to_be_steady = scene.start_tractions == "predicted" && n_plastic_cells == 0 ? 1.5 : 3.;
+    summary.set("rolled_m", distance);
+    summary.set("rolled_patch_lengths", rolled.patch_lengths);
+    summary.set("long_enough_to_be_steady", rolled.long_enough());
+    return rolled;
+  }
+
+
+  void Simulation::add_cost(Summary &summary) const
+  {
+    using dealii::Utilities::MPI::max;
+    const StepTimes &times           = dynamics.times;
+    const double     internal_forces = max(times.internal_forces, comm);
+    summary.set("wall_s", max(wall_seconds, comm));
+    summary.set("wall_s_start", max(relaxation_seconds, comm));
+    summary.set("wall_s_internal_forces", internal_forces);
+    summary.set("wall_s_contact", max(times.contact + times.search, comm));
+    summary.set("wall_s_communication", max(times.communication, comm));
+    summary.set("wall_s_nodes", max(times.nodes, comm));
+    const double updates = mesh.n_global_cells / dynamics.ideal_gain_of_levels() * dynamics.n_steps;
+    summary.set("element_updates", updates);
+    summary.set("element_updates_per_s", updates / std::max(1e-9, internal_forces));
+    summary.set("cells_and_nodes_bytes", memory_of_cells_and_nodes());
+    summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
+    summary.set("version", version());
+  }
+
+
+  void Simulation::add_recorded(Summary &summary, RunFolder &folder) const
+  {
+    if (strip)
+      {
+        const std::vector<StripColumn> columns = strip->columns(dynamics);
+        const auto                     most =
+          std::max_element(columns.begin(), columns.end(), [](const StripColumn &a, const StripColumn &b) {
+            return a.largest.stress < b.largest.stress;
+          });
+        if (most != columns.end())
+          for (const auto &[name, value] : std::vector<std::pair<const char *, double>>{
+                 {"strip_max_von_mises_Pa", most->largest.stress},
+                 {"strip_max_von_mises_x_m", most->x},
+                 {"strip_max_von_mises_y_m", most->y},
+                 {"strip_max_von_mises_depth_m", most->depth},
+                 {"strip_max_von_mises_time_s", most->largest.time}})
+            summary.set(name, value);
+        folder.write_strip(columns);
+      }
+    for (std::size_t i = 0; probes && i < probes->centres().size(); ++i)
+      {
+        const dealii::Point<3> &centre = probes->centres()[i];
+        const std::string       name   = "cell_" + std::to_string(i + 1);
+        summary.set(name + "_x_m", centre[0]);
+        summary.set(name + "_y_m", centre[1]);
+        summary.set(name + "_depth_m", scene.depth_in_rail(centre));
+      }
+  }
+
+
+  void Simulation::finish(RunFolder &folder, const End end)
+  {
+    const bool          completed = end == End::complete;
+    const EnergyLedger  energy    = dynamics.ledger();
+    const bool          averaged  = average.n_steps() > 0;
+    const PatchMeasures instant   = measure(
+        solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    const PatchMeasures mean     = averaged ? average.measures() : instant;
+    const Row           force    = last_steps > 0 ? (1. / last_steps) * last_force_sum
+                                                  : (1. / dynamics.time_step) * contact.total_impulse();
+    const double        normal   = force[2]; // 0 while the wheel is in the air
+    const double        ripple   = last_steps > 0 && normal > 0.
+                                     ? std::max(last_force_high - normal, normal - last_force_low) / normal
+                                     : 0.;
+    const double        traction = normal > 0. ? force[0] / normal : 0.;
+    const double        creepage =
+      hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
+
+    Summary             summary;
+    const ContactAnswer answer{force, creepage, mean};
+    summarise(summary, scene, "explicit finite elements", answer, completed);
+    summary.set("normal_force_ripple_share", ripple);
+    summary.set("free_rolling_creepage", free_creepage);
+
+    std::string            note;
+    std::vector<PatchNode> reference_patch;
+    if (completed && normal > 0.)
+      try
+        {
+          reference_patch = compare_with_half_space(summary, answer);
+        }
+      catch (const std::exception &error)
+        {
+          note = std::string("no half-space reference: ") + error.what();
+          summary.set("note", note);
+        }
+
+    add_energies(summary, energy);
+    const Rolled rolled = add_size(summary, normal);
+    add_cost(summary);
+    add_recorded(summary, folder);
+    folder.write("summary.json", summary.text());
+    if (averaged)
+      folder.write_patch("patch_averaged.csv", average.nodes());
+    if (!reference_patch.empty())
+      folder.write_patch("reference_patch.csv", reference_patch);
+
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::printf(
+          "\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the "
+          "work\n\n%s\n%s%s",
+          1e-3 * normal, 100. * ripple, traction, energy.residual_share(), summary.table().c_str(),
+          note.c_str(), note.empty() ? "" : "\n");
+        if (completed && !rolled.long_enough())
+          std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
+                      rolled.patch_lengths, torque_released ? "torque acts" : "start",
+                      rolled.lengths_to_be_steady);
+        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s%s\n",
+                    completed                 ? "finished"
+                    : end == End::interrupted ? "INTERRUPTED: stopped"
+                                              : "STOPPED",
+                    wall_seconds, folder.path("").c_str(),
+                    solution_taken
+                      ? (scene.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
+                                            : ", patch.csv; for ParaView: surface.pvd")
+                      : "",
+                    end == End::interrupted ? "; go on with --resume" : "");
+      }
+  }
+} // namespace tread
