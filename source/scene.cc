@@ -360,7 +360,7 @@ namespace tread
       "none: the wheel stands without friction at the start, and the tangential tractions build up as it "
       "rolls. predicted: it starts with what half-space theory gives for steady rolling, so that only what "
       "differs from that must still build up, as where steel yields. On a track the start takes some times "
-      "as many iterations.",
+      "as many iterations, and lateral tractions build up.",
       Selection("none|predicted"));
     prm.add_parameter("Tolerance", start_tolerance,
                       "Of the force balance at the start, share of the largest force.", Double(1e-12, 0.1));

@@ -223,10 +223,13 @@ namespace tread
         {
           measure_free_rolling();
           free_rolling_known = true;
-          contact.give_tractions(
-            [half_space, x = hub.motion.x, y = scene.first_contact().y](const Row place) {
-              return traction_over_pressure(half_space, place[0] - x, place[1] - y);
-            });
+          // On a track those to the side, of spin, are left to build up: an iteration takes long to bend the
+          // rail that way.
+          contact.give_tractions([half_space, to_the_side = !supports, x = hub.motion.x,
+                                  y = scene.first_contact().y](const Row place) {
+            const Row ratio = traction_over_pressure(half_space, place[0] - x, place[1] - y);
+            return Row{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
+          });
         }
       if (progress.due())
         progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
