@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 . contrib/environment.sh
 
 results=results/smooth-rolling
-jobs=${TREAD_JOBS:-$(nproc)}
+jobs=${TREAD_JOBS:-$(env -u OMP_NUM_THREADS nproc)}
 
 install_what_is_missing
 echo "Building into build/ ..."

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . contrib/environment.sh
 
-jobs=${TREAD_JOBS:-$(nproc)}
+jobs=${TREAD_JOBS:-$(env -u OMP_NUM_THREADS nproc)}
 
 configure_release build
 cmake --build build -j "$jobs"

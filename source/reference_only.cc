@@ -114,7 +114,8 @@ namespace tread
               for (std::size_t k = 0; k < points.size(); ++k)
                 {
                   const Stress &s = stresses[k];
-                  table << name << ',' << line << ',' << 1e3 * x << ",0," << 1e3 * points[k][2];
+                  table << name << ',' << line << ',' << 1e3 * x << ',' << 1e3 * scene.first_contact().y
+                        << ',' << 1e3 * points[k][2];
                   for (const double value : {s.von_mises(), s.mean(), s.xx, s.yy, s.zz, s.xy, s.xz, s.yz})
                     table << ',' << 1e-6 * value;
                   table << '\n';
@@ -160,8 +161,9 @@ namespace tread
     scene.print(effective, true);
     folder.remove_results();
     folder.write("parameters.prm", effective.str());
-    folder.write_patch("patch.csv", patch_nodes(half_space));
-    folder.write_surface(patch_nodes(half_space), half_space.element_size);
+    const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
+    folder.write_patch("patch.csv", nodes);
+    folder.write_surface(nodes, half_space.element_size);
     folder.write("subsurface.csv", subsurface);
     folder.write("summary.json", summary.text());
 

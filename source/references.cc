@@ -74,12 +74,12 @@ namespace tread
   }
 
 
-  std::vector<PatchNode> patch_nodes(const reference::RollingResult &half_space)
+  std::vector<PatchNode> patch_nodes(const reference::RollingResult &half_space, const double y_first_contact)
   {
     std::vector<PatchNode> nodes;
     for (std::size_t i = 0; i < half_space.x.size(); ++i)
       if (half_space.state[i] != reference::ElementState::exterior)
-        nodes.push_back({Row{half_space.x[i], half_space.y[i], 0., 0.},
+        nodes.push_back({Row{half_space.x[i], half_space.y[i] + y_first_contact, 0., 0.},
                          half_space.element_size * half_space.element_size,
                          half_space.pressure[i],
                          {half_space.shear_x[i], half_space.shear_y[i]},
@@ -113,7 +113,7 @@ namespace tread
     ContactAnswer answer;
     answer.force = Row{half_space.longitudinal_force, half_space.lateral_force, half_space.normal_force, 0.};
     answer.creepage               = 0. - half_space.creepage;
-    answer.patch                  = measure(patch_nodes(half_space));
+    answer.patch                  = measure(patch_nodes(half_space, 0.));
     answer.patch.frictional_power = half_space.power_balance;
     return answer;
   }
@@ -135,6 +135,7 @@ namespace tread
     summary.set("lateral_force_N", answer.force[1]);
     summary.set("traction_coefficient", normal > 0. ? answer.force[0] / normal : 0.);
     summary.set("friction_coefficient", scene.friction);
+    summary.set("first_contact_y_m", scene.first_contact().y);
 
     // Beside a wheel in the air stands the patch of the static load.
     const reference::HertzEllipse ellipse = hertz(scene, normal > 0. ? normal : scene.static_load());

@@ -60,7 +60,7 @@ namespace tread
     c.creepage                       = -answer.creepage;
     const reference::RollingResult half_space = reference::solve_rolling(c);
     compare(summary, answer, half_space, c.prescribe_force);
-    return patch_nodes(half_space);
+    return patch_nodes(half_space, scene.first_contact().y);
   }
 
 

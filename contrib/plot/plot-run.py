@@ -71,6 +71,7 @@ class Run:
             print("note: summary.json has no Hertz values; drawn without")
         else:
             self.hertz = [value * factor for value, factor in zip(hertz, scale.values())]
+        self.y = 1e3 * self.summary.get("first_contact_y_m", 0.0)
         self.missing = []
         self.friction = self.summary.get("friction_coefficient") or self.patch.friction_coefficient()
 
@@ -99,11 +100,11 @@ def rolling_arrow(axes, y=1.04):
     axes.text(0.83, y, "rolling direction", transform=axes.transAxes, ha="right", va="center", fontsize=9)
 
 
-def axis_profile(patch, values):
-    """(x, values) on the line y = 0, with a zero at both ends: nodes out of contact carry nothing."""
+def axis_profile(patch, values, y):
+    """(x, values) on the line at y, with a zero at both ends: nodes out of contact carry nothing."""
     x, _, _ = patch.grid(values)
-    result = patch.sampled(values, x, np.zeros_like(x))
-    loaded = np.nonzero(patch.sampled(patch.pressure, x, np.zeros_like(x)) > 0)[0]
+    result = patch.sampled(values, x, np.full_like(x, y))
+    loaded = np.nonzero(patch.sampled(patch.pressure, x, np.full_like(x, y)) > 0)[0]
     span = slice(loaded[0] - 1, loaded[-1] + 2) if len(loaded) else slice(0, 0)
     return x[span], result[span]
 
@@ -131,19 +132,19 @@ def draw_axis(run):
                          label=f"friction bound, {run.friction:.2g} x Hertz")
     for row, field in enumerate(("pressure", shear, slip)):
         for label, other, colour, style in run.references:
-            axes[row].plot(*axis_profile(other, getattr(other, field)), color=colour, ls=style, lw=1.4,
+            axes[row].plot(*axis_profile(other, getattr(other, field), run.y), color=colour, ls=style, lw=1.4,
                            label=label)
-        axes[row].plot(*axis_profile(patch, getattr(patch, field)), color=BLUE, label=run.label,
+        axes[row].plot(*axis_profile(patch, getattr(patch, field), run.y), color=BLUE, label=run.label,
                        **({"lw": 1.6} if run.half_space_only else {"marker": "o", "ms": 3.6, "lw": 0.9}))
     if run.averaged is not None:
-        axes[2].plot(*axis_profile(run.averaged, getattr(run.averaged, slip)), color=RED, marker="s",
+        axes[2].plot(*axis_profile(run.averaged, getattr(run.averaged, slip), run.y), color=RED, marker="s",
                      ms=3.0, lw=0.9, label="tread, mean of one cell passage")
     entries = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels())}
 
     axes[0].set_ylabel("pressure [MPa]")
     axes[1].set_ylabel(f"{name} shear stress\non the wheel [MPa]")
     axes[2].set_ylabel(f"{name} micro-slip of wheel\nrelative to rail [m/s]")
-    axes[2].set_xlabel("x from the patch centre, at y = 0 [mm]")
+    axes[2].set_xlabel(f"x from the wheel, at y = {run.y:.3g} mm, where they first touch [mm]")
     axes[0].set_ylim(bottom=0)
     axes[2].legend(entries.values(), entries.keys(), loc="upper center", bbox_to_anchor=(0.47, -0.22), ncol=3)
     for axis in axes:
@@ -159,11 +160,12 @@ def draw_axis(run):
 def patch_axes(axis, run):
     if run.hertz:
         a, b, _ = run.hertz
-        axis.add_patch(Ellipse((0, 0), 2 * a, 2 * b, fill=False, ec="black", lw=1.3, zorder=4))
+        axis.add_patch(Ellipse((0, run.y), 2 * a, 2 * b, fill=False, ec="black", lw=1.3, zorder=4))
     x = 1.12 * max(abs(run.patch.x).max(), run.hertz[0] if run.hertz else 0)
-    y = 1.12 * max(abs(run.patch.y).max(), run.hertz[1] if run.hertz else 0)
+    b = run.hertz[1] if run.hertz else 0
+    low, high = min(run.patch.y.min(), run.y - b), max(run.patch.y.max(), run.y + b)
     axis.set_xlim(-x, x)
-    axis.set_ylim(-y, y)
+    axis.set_ylim(low - 0.06 * (high - low), high + 0.06 * (high - low))
     axis.set_aspect("equal")
     axis.grid(False)
     axis.set_xlabel("x, rolling direction [mm]")

@@ -31,8 +31,10 @@ namespace tread
   /// (Johnson 1985, section 3.2, integrated over the ellipse). Zero for like bodies.
   double half_space_stretch(const Scene &scene);
 
-  /// The elements in contact of a half-space answer, as nodes of a patch table.
-  std::vector<PatchNode> patch_nodes(const reference::RollingResult &half_space);
+  /// The elements in contact of a half-space answer, as nodes of a patch table, whose y begins on the rail's
+  /// middle. @param y_first_contact where that of the answer begins, m.
+  std::vector<PatchNode> patch_nodes(const reference::RollingResult &half_space,
+                                     const double                    y_first_contact);
 
   /// Tangential traction on the wheel over the pressure in a half-space answer [-], at a place relative to
   /// the centre of contact (m); beside the patch what is nearest on the way to the centre.

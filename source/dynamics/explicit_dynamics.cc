@@ -121,7 +121,7 @@ namespace tread
         carried[i] = true;
         hub_reference.push_back(x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.});
       }
-    rank_sums.resize(4 + (supports ? supports->n_points() : 0));
+    rank_sums.resize(n_hub_sums + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
 
     std::vector<double> sums(4, 0.);
@@ -150,7 +150,7 @@ namespace tread
     supports = &s;
     s.set_gravity(parameters.gravity);
     rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
-    rank_sums.resize(4 + s.n_points());
+    rank_sums.resize(n_hub_sums + s.n_points());
     set_node_levels();
   }
 
@@ -382,15 +382,13 @@ namespace tread
         rank_sums[3] += parameters.mass_damping * (loads.moments[0] - loads.moments[2]);
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's motion is summed here.
-        const double work = -time_step * compensation() *
-                            (loads.arms[0] * hub->motion.velocity_x + loads.arms[2] * hub->motion.velocity_z);
-        totals.external_work += work;
-        totals.gross_work += std::abs(work);
+        rank_sums[4] = -time_step * compensation() *
+                       (loads.arms[0] * hub->motion.velocity_x + loads.arms[2] * hub->motion.velocity_z);
       }
     else
       std::fill(rank_sums.begin(), rank_sums.end(), 0.);
     if (supports)
-      supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + 4);
+      supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + n_hub_sums);
     times.nodes += watch.lap();
 
     if (contact)
@@ -412,9 +410,16 @@ namespace tread
     else if (!rank_sums.empty())
       dealii::Utilities::MPI::sum(rank_sums, mesh.comm, rank_sums);
     if (supports)
-      supports->advance(rank_sums.data() + 4, time_step);
+      supports->advance(rank_sums.data() + n_hub_sums, time_step);
     if (hub)
-      hub->advance(Row{rank_sums[0], rank_sums[1], rank_sums[2], 0.}, rank_sums[3], time_step);
+      {
+        hub->advance(Row{rank_sums[0], rank_sums[1], rank_sums[2], 0.}, rank_sums[3], time_step);
+        if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+          {
+            totals.external_work += rank_sums[4];
+            totals.gross_work += std::abs(rank_sums[4]);
+          }
+      }
 
     const double beta = parameters.damping_steps * time_step;
     double       work = 0., gross = 0.;

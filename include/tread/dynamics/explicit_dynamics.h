@@ -327,7 +327,9 @@ namespace tread
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
     double                                             nominal_angular_velocity = 0.;
-    std::vector<double> rank_sums; ///< of a step: force and moment on the hub, then supports
+    /// Of a step, over the ranks: force and moment on the hub, work of the compensation; then of supports.
+    std::vector<double>           rank_sums;
+    static constexpr unsigned int n_hub_sums = 5;
 
     EnergyLedger  totals; ///< accumulated by step()
     double        start_kinetic = 0., start_potential = 0.;

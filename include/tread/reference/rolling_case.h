@@ -90,8 +90,9 @@ namespace tread::reference
     double max_slip       = 0.; ///< [m/s]
     double frictional_power =
       0.; ///< sum of |shear| |slip| over the patch [W], >= 0; first order in the element size
-    double power_balance = 0.; ///< minus shear times rigid slip, -(Fx xi + Fy eta + Mz phi) v without
-                               ///< radius_change [W]; converges faster, the better reference
+    double power_balance = 0.; ///< pressure times slope of the gap less shear times rigid slip, for like
+                               ///< bodies without radius_change -(Fx xi + Fy eta + Mz phi) v [W]; converges
+                               ///< faster, the better reference
 
     unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
     unsigned int tangential_iterations = 0;  ///< Newton steps
