@@ -210,9 +210,11 @@ namespace tread
     prm.add_parameter("Block width (mm)", block_width_mm, "Lateral.", Double(1., 1000.));
     prm.add_parameter("Block height (mm)", block_height_mm, "At the crown; the bottom is held.",
                       Double(1., 1000.));
-    prm.add_parameter("Margin (mm)", rail_margin_mm,
-                      "Rail beyond the rolled distance, at each end. At least three contact semi-axes.",
-                      Double(0., 20000.));
+    prm.add_parameter(
+      "Margin (mm)", rail_margin_mm,
+      "Rail beyond the rolled distance, at each end. At least three contact semi-axes; 150 of a full "
+      "section, whose head gives way near a free end: the normal force would drift by per cents.",
+      Double(0., 20000.));
     declare_material(rail_material);
     prm.leave_subsection();
 
