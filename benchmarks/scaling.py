@@ -4,7 +4,8 @@
 
 Fills the tables of doc/performance.md: strong scaling on one and two ranks, cost and memory of a cell over the number
 of cells, weak scaling, and the differences of 2, 3 and 4 ranks from one. Runs whose times are compared are made in
-turn; the fastest of each counts, and of ratios the median. Runs that have complete results are not repeated; remove RESULTS to measure anew.
+turn; the fastest of each counts, and of ratios the median. Runs that have complete results are not repeated; remove
+RESULTS to measure anew.
 """
 
 import argparse

@@ -20,15 +20,17 @@ namespace tread
     c.wheel           = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
     c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
     c.prescribe_force = true;
-    c.traction_coefficient = traction_coefficient;
-    if (scene.rail_shape != "block" || scene.surfaces().tread_offset)
-      c.gap = [curvature_x = c.curvature_x, surfaces = scene.surfaces(), y_middle = scene.first_contact().y,
-               closed = scene.surfaces().gap(scene.first_contact().y)](const double x, const double y) {
+    c.traction_coefficient          = traction_coefficient;
+    const RunningSurfaces &surfaces = scene.surfaces();
+    const double           y_middle = scene.first_contact().y;
+    if (scene.rail_shape != "block" || surfaces.tread_offset)
+      c.gap = [curvature_x = c.curvature_x, surfaces, y_middle,
+               closed      = surfaces.gap(y_middle)](const double x, const double y) {
         return curvature_x * x * x + surfaces.gap(y_middle + y) - closed;
       };
-    if (const auto offset = scene.surfaces().tread_offset)
-      c.radius_change = [offset, y_middle = scene.first_contact().y,
-                         at_middle = offset(scene.first_contact().y),
+    if (surfaces.tread_offset)
+      c.radius_change = [offset    = surfaces.tread_offset, y_middle,
+                         at_middle = surfaces.tread_offset(y_middle),
                          radius    = scene.rolling_radius()](const double y) {
         return (offset(y_middle + y) - at_middle) / radius;
       };

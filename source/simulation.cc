@@ -312,7 +312,7 @@ namespace tread
     row.position = position();
     row.force    = (1. / interval_steps) * interval_force;
     row.creepage = hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
-    row.patch    = measure(patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
+    row.patch    = measure(patch_now());
     row.energy   = dynamics.ledger();
     row.axle_box_acceleration =
       (hub.motion.velocity_z - interval_start_speed) / (dynamics.time - interval_start_time);
@@ -329,9 +329,15 @@ namespace tread
   }
 
 
+  std::vector<PatchNode> Simulation::patch_now() const
+  {
+    return patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
+  }
+
+
   void Simulation::take_solution(RunFolder &folder)
   {
-    solution_patch = patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
+    solution_patch = patch_now();
     solution_taken = true;
     folder.write_patch("patch.csv", solution_patch);
     if (scene.table_depth_mm > 0.)

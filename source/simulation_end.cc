@@ -11,6 +11,12 @@
 
 namespace tread
 {
+  PatchMeasures Simulation::measures_of_solution() const
+  {
+    return measure(solution_taken ? solution_patch : patch_now());
+  }
+
+
   void Simulation::end_passage(RunFolder &folder)
   {
     using dealii::Utilities::MPI::max;
@@ -38,14 +44,10 @@ namespace tread
         }
     n_nodes                   = std::max(1., sum(n_nodes, comm));
     const EnergyLedger energy = dynamics.ledger();
-    const double       pressure =
-      measure(solution_taken ? solution_patch
-                             : patch_nodes(contact.active_nodes(), position(), dynamics.time_step))
-        .max_pressure;
     passages.push_back({sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes, max(strain, comm),
                         max(residual, comm), energy.plastic, energy.friction,
-                        last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0., pressure,
-                        energy.residual_share()});
+                        last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0.,
+                        measures_of_solution().max_pressure, energy.residual_share()});
     folder.write_passages(passages);
   }
 
@@ -162,16 +164,14 @@ namespace tread
     const bool          completed = end == End::complete;
     const EnergyLedger  energy    = dynamics.ledger();
     const bool          averaged  = average.n_steps() > 0;
-    const PatchMeasures instant   = measure(
-        solution_taken ? solution_patch : patch_nodes(contact.active_nodes(), position(), dynamics.time_step));
-    const PatchMeasures mean     = averaged ? average.measures() : instant;
-    const Row           force    = last_steps > 0 ? (1. / last_steps) * last_force_sum
-                                                  : (1. / dynamics.time_step) * contact.total_impulse();
-    const double        normal   = force[2]; // 0 while the wheel is in the air
-    const double        ripple   = last_steps > 0 && normal > 0.
-                                     ? std::max(last_force_high - normal, normal - last_force_low) / normal
-                                     : 0.;
-    const double        traction = normal > 0. ? force[0] / normal : 0.;
+    const PatchMeasures mean      = averaged ? average.measures() : measures_of_solution();
+    const Row           force     = last_steps > 0 ? (1. / last_steps) * last_force_sum
+                                                   : (1. / dynamics.time_step) * contact.total_impulse();
+    const double        normal    = force[2]; // 0 while the wheel is in the air
+    const double        ripple    = last_steps > 0 && normal > 0.
+                                      ? std::max(last_force_high - normal, normal - last_force_low) / normal
+                                      : 0.;
+    const double        traction  = normal > 0. ? force[0] / normal : 0.;
     const double        creepage =
       hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
 

@@ -158,11 +158,10 @@ def draw_axis(run):
 
 
 def patch_axes(axis, run):
+    a, b = run.hertz[:2] if run.hertz else (0, 0)
     if run.hertz:
-        a, b, _ = run.hertz
         axis.add_patch(Ellipse((0, run.y), 2 * a, 2 * b, fill=False, ec="black", lw=1.3, zorder=4))
-    x = 1.12 * max(abs(run.patch.x).max(), run.hertz[0] if run.hertz else 0)
-    b = run.hertz[1] if run.hertz else 0
+    x = 1.12 * max(abs(run.patch.x).max(), a)
     low, high = min(run.patch.y.min(), run.y - b), max(run.patch.y.max(), run.y + b)
     axis.set_xlim(-x, x)
     axis.set_ylim(low - 0.06 * (high - low), high + 0.06 * (high - low))

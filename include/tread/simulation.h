@@ -42,9 +42,12 @@ namespace tread
     std::vector<SupportRecord> support_records() const;
     void                       add_to_interval();
     void                       end_interval(RunFolder &folder);
-    void                       take_solution(RunFolder &folder);
-    void                       end_passage(RunFolder &folder);
-    void                       next_wheel(Progress &progress);
+    std::vector<PatchNode>     patch_now() const;
+    /// At the solution instant, or now if there was none.
+    PatchMeasures measures_of_solution() const;
+    void          take_solution(RunFolder &folder);
+    void          end_passage(RunFolder &folder);
+    void          next_wheel(Progress &progress);
     /// How a run ends.
     enum class End
     {

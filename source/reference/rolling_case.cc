@@ -40,6 +40,12 @@ namespace tread::reference
       const double              area = grid.element_area();
       std::vector<unsigned int> in_row(grid.n_y, 0), in_column(grid.n_x, 0);
       unsigned int              n_contact = 0, n_adhesion = 0;
+      const auto                slope = [&](const double x, const double y) { // of the gap along x
+        const double h = 0.5 * c.element_size;
+        return c.gap ? (c.gap(x + h, y) - c.gap(x - h, y)) / (2. * h) : 2. * c.curvature_x * x;
+      };
+      double work =
+        result.longitudinal_force * result.creepage + result.lateral_force * result.lateral_creepage;
       for (std::size_t e = 0; e < grid.size(); ++e)
         if (result.state[e] != ElementState::exterior)
           {
@@ -53,26 +59,19 @@ namespace tread::reference
             result.max_shear    = std::max(result.max_shear, shear);
             result.max_slip     = std::max(result.max_slip, slip);
             result.frictional_power += shear * slip * area;
+
+            const double x = grid.x(e % grid.n_x), y = grid.y(e / grid.n_x);
+            const auto   uneven = tangential.uneven_slip(x, y);
+            work += area * (result.shear_x[e] * uneven[0] + result.shear_y[e] * uneven[1]);
+            // The pressure's moment, which unlike bodies have, resists the rolling.
+            work -= area * result.pressure[e] * slope(x, y);
           }
       result.area                 = n_contact * area;
       result.semi_axis_x          = 0.5 * grid.dx * *std::max_element(in_row.begin(), in_row.end());
       result.semi_axis_y          = 0.5 * grid.dy * *std::max_element(in_column.begin(), in_column.end());
       result.adhesion_share       = static_cast<double>(n_adhesion) / n_contact;
       result.traction_coefficient = result.longitudinal_force / result.normal_force;
-      const auto slope            = [&](const double x, const double y) { // of the gap along x
-        const double h = 0.5 * c.element_size;
-        return c.gap ? (c.gap(x + h, y) - c.gap(x - h, y)) / (2. * h) : 2. * c.curvature_x * x;
-      };
-      double work =
-        result.longitudinal_force * result.creepage + result.lateral_force * result.lateral_creepage;
-      for (std::size_t e = 0; e < grid.size(); ++e)
-        {
-          const auto uneven = tangential.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
-          work += area * (result.shear_x[e] * uneven[0] + result.shear_y[e] * uneven[1]);
-          // The pressure's moment, which unlike bodies have, resists the rolling.
-          work -= area * result.pressure[e] * slope(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
-        }
-      result.power_balance = 0. - c.speed * work;
+      result.power_balance        = 0. - c.speed * work;
     }
 
     /// Without friction all of the patch slips, and only its rigid motion and, for unlike bodies, the

@@ -209,6 +209,32 @@ namespace
                    M_PI * r[2].hertz_semi_x * r[2].hertz_semi_y * 1e6, 0.006);
   }
 
+  void power_of_unlike_bodies(tread::tests::Check &check)
+  {
+    std::printf("\n--- power of unlike bodies: dissipation in the limit against the balance\n");
+    for (const bool soft_wheel : {false, true})
+      {
+        RollingCase c;
+        c.curvature_x                         = 1. / 0.92;
+        c.curvature_y                         = 1. / 0.6;
+        c.normal_force                        = 127e3;
+        c.friction                            = 0.5;
+        c.speed                               = 39.;
+        c.traction_coefficient                = 0.3;
+        (soft_wheel ? c.wheel : c.rail).young = 70e9;
+        double power[2], balance[2];
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            c.element_size               = i == 0 ? 0.4e-3 : 0.2e-3;
+            const RollingResult solution = solve_rolling(c);
+            power[i]                     = solution.frictional_power;
+            balance[i]                   = solution.power_balance;
+          }
+        check.relative(soft_wheel ? "soft wheel [W]" : "soft rail [W]", 2. * power[1] - power[0],
+                       2. * balance[1] - balance[0], 0.01);
+      }
+  }
+
   void subsurface(tread::tests::Check &check)
   {
     std::printf("\n--- stresses below the surface, von Mises [MPa]\n");
@@ -303,6 +329,7 @@ int main()
   totals(check);
   fields(check);
   convergence(check);
+  power_of_unlike_bodies(check);
   subsurface(check);
   return check.exit_code();
 }
