@@ -105,12 +105,17 @@ namespace tread
     if (!(block.height > -crown_height(0.5 * block.width, block.crown_radius)))
       throw std::invalid_argument("the block is lower than its crown's rise");
 
-    Body body     = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
-                                  block.coarsest_cell_size, block.contact_half_width, zone);
-    body.name     = "rail block";
-    body.to_space = shape_top(
-      [radius = block.crown_radius, height = block.height](const dealii::Point<3> &p) {
-        return dealii::Point<3>(p[0], p[1], p[2] + crown_height(p[1], radius) * (1. + p[2] / height));
+    Body body = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
+                              block.coarsest_cell_size, block.contact_half_width, zone);
+    body.name = "rail block";
+    // Down to some depth all lines keep the crown's shape, which leaves cells parallelepipeds (the cheapest
+    // ones); below it they go over to the flat bottom.
+    const double rise = -crown_height(0.5 * block.width, block.crown_radius);
+    body.to_space     = shape_top(
+      [radius = block.crown_radius, height = block.height,
+       below = 0.5 * (block.height + rise)](const dealii::Point<3> &p) {
+        return dealii::Point<3>(p[0], p[1],
+                                p[2] + crown_height(p[1], radius) * std::min(1., (p[2] + height) / below));
       },
       block.top, block.height);
     return body;
