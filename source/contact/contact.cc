@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <type_traits>
 #include <utility>
 
@@ -232,7 +233,7 @@ namespace tread
         const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
         involved_of_rank[node.owner].push_back(i);
         if (node.owner == this_rank)
-          own_involved.push_back({static_cast<unsigned int>(node.local), inverse_mass[involved[i]]});
+          own_involved.push_back({i, static_cast<unsigned int>(node.local), inverse_mass[involved[i]]});
       }
     std::vector<int> number(surfaces.nodes.size(), -1);
     for (unsigned int i = 0; i < involved.size(); ++i)
@@ -270,6 +271,18 @@ namespace tread
       if (needed[h.node])
         for (const unsigned int parent : h.parents)
           needed[parent] = true;
+    received_from.assign(n_ranks, {});
+    sent_to.assign(n_ranks, {});
+    std::map<unsigned int, std::vector<unsigned int>> wanted;
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      if (const int owner = surfaces.nodes[involved[i]].owner; (swept[i] || needed[i]) && owner != this_rank)
+        wanted[owner].push_back(i);
+    for (const auto &[rank, nodes] : wanted)
+      received_from[rank] = nodes;
+    if (n_ranks > 1)
+      for (const auto &[rank, nodes] : dealii::Utilities::MPI::some_to_some(comm, wanted))
+        sent_to[rank] = nodes;
+
     swept_nodes.clear();
     node_terms.clear();
     std::vector<int> number_of_terms(involved.size(), -1);
@@ -325,59 +338,66 @@ namespace tread
 
   void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
   {
-    const unsigned int n_ranks = involved_of_rank.size(), n_extra = extra.size();
+    const unsigned int n_ranks = involved_of_rank.size();
     // As seldom as the normals: speeds change little in between.
-    const bool measures = steps_since_normals == 0;
-    const auto speeds   = measures ? largest_speeds(v) : std::array<double, 2>{{0., 0.}};
-    send_buffer.assign(speeds.begin(), speeds.end());
-    send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
-    for (std::size_t i = 0; i < own_involved.size(); ++i)
+    const bool            measures = steps_since_normals == 0;
+    std::array<double, 2> largest  = measures ? largest_speeds(v) : std::array<double, 2>{{0., 0.}};
+    for (std::size_t k = 0; k < own_involved.size(); ++k)
       {
         // Surface nodes lie far apart among those of the body.
         constexpr std::size_t ahead = 8;
-        if (i + ahead < own_involved.size())
+        if (k + ahead < own_involved.size())
           {
-            __builtin_prefetch(v + own_involved[i + ahead].local);
-            __builtin_prefetch(force + own_involved[i + ahead].local);
+            __builtin_prefetch(v + own_involved[k + ahead].local);
+            __builtin_prefetch(force + own_involved[k + ahead].local);
           }
-        const auto [local, inverse_mass] = own_involved[i];
-        const Row before                 = v[local];
-        const Row after                  = before + time_step * inverse_mass * force[local];
-        for (unsigned int d = 0; d < 3; ++d)
-          send_buffer.push_back(before[d]);
-        for (unsigned int d = 0; d < 3; ++d)
-          send_buffer.push_back(after[d]);
+        const auto [node, local, inverse_mass] = own_involved[k];
+        velocity_before[node]                  = v[local];
+        predicted[node]                        = v[local] + time_step * inverse_mass * force[local];
       }
-    std::vector<int> counts(n_ranks), offsets(n_ranks);
-    unsigned int     total = 0;
-    for (unsigned int rank = 0; rank < n_ranks; ++rank)
-      {
-        counts[rank]  = 2 + n_extra + 6 * involved_of_rank[rank].size();
-        offsets[rank] = total;
-        total += counts[rank];
-      }
-    const double *received = send_buffer.data();
+
     if (n_ranks > 1)
       {
-        receive_buffer.resize(total);
-        MPI_Allgatherv(send_buffer.data(), send_buffer.size(), MPI_DOUBLE, receive_buffer.data(),
-                       counts.data(), offsets.data(), MPI_DOUBLE, comm);
-        received = receive_buffer.data();
-      }
-    std::fill(extra.begin(), extra.end(), 0.);
-    double largest[2] = {0., 0.};
-    for (unsigned int rank = 0; rank < n_ranks; ++rank)
-      {
-        for (const unsigned int side : {0u, 1u})
-          largest[side] = std::max(largest[side], *received++);
-        for (unsigned int i = 0; i < n_extra; ++i)
-          extra[i] += *received++;
-        for (const unsigned int i : involved_of_rank[rank])
+        const unsigned int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+        std::vector<int>   send_counts(n_ranks, 0), send_offsets(n_ranks, 0), counts(n_ranks, 0),
+          offsets(n_ranks, 0);
+        unsigned int total = 0;
+        send_buffer.clear();
+        for (unsigned int rank = 0; rank < n_ranks; ++rank)
           {
-            velocity_before[i] = Row{received[0], received[1], received[2], 0.};
-            predicted[i]       = Row{received[3], received[4], received[5], 0.};
-            received += 6;
+            offsets[rank]      = total;
+            send_offsets[rank] = send_buffer.size();
+            if (rank == this_rank)
+              continue;
+            send_buffer.insert(send_buffer.end(), largest.begin(), largest.end());
+            send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
+            for (const unsigned int i : sent_to[rank])
+              for (const Row &row : {velocity_before[i], predicted[i]})
+                send_buffer.insert(send_buffer.end(), {row[0], row[1], row[2]});
+            send_counts[rank] = send_buffer.size() - send_offsets[rank];
+            counts[rank]      = largest.size() + extra.size() + 6 * received_from[rank].size();
+            total += counts[rank];
           }
+        receive_buffer.resize(total);
+        MPI_Alltoallv(send_buffer.data(), send_counts.data(), send_offsets.data(), MPI_DOUBLE,
+                      receive_buffer.data(), counts.data(), offsets.data(), MPI_DOUBLE, comm);
+        std::vector<double> sums(extra.size(), 0.);
+        for (unsigned int rank = 0; rank < n_ranks; ++rank)
+          {
+            const double *received = receive_buffer.data() + offsets[rank];
+            if (rank != this_rank)
+              for (double &speed : largest)
+                speed = std::max(speed, *received++);
+            for (unsigned int i = 0; i < extra.size(); ++i)
+              sums[i] += rank == this_rank ? extra[i] : *received++;
+            for (const unsigned int i : received_from[rank])
+              {
+                velocity_before[i] = Row{received[0], received[1], received[2], 0.};
+                predicted[i]       = Row{received[3], received[4], received[5], 0.};
+                received += 6;
+              }
+          }
+        extra = sums;
       }
     if (measures)
       closing_speed = largest[0] + largest[1];

@@ -68,8 +68,8 @@ namespace tread
         strips.receive(strips.upper, velocity);
         sweep(strips.begin_upper, strips.end);
         strips.send(strips.upper, velocity);
-        strips.receive(strips.lower, velocity);
         strips.largest(largest);
+        strips.receive(strips.lower, velocity);
         result.change = largest[1] > 0. ? std::sqrt(largest[0]) / largest[1] : 0.;
         if (result.change <= parameters.tolerance)
           {

@@ -41,9 +41,8 @@ namespace tread
 
   /// Contact between two surfaces: search, mortar coupling and impulses of each step.
   ///
-  /// All ranks know the same small problem: predicted velocities of the nodes that may touch are gathered,
-  /// each rank finds the impulses of its strip, these are gathered, and each rank applies those on its own
-  /// nodes.
+  /// All ranks know the same small problem: each is sent the predicted velocities that its strip needs and
+  /// finds the strip's impulses, these are gathered, and each rank applies those on its own nodes.
   class Contact
   {
   public:
@@ -84,8 +83,8 @@ namespace tread
       return time_since_refresh >= time_to_refresh || travelled >= allowed_travel;
     }
 
-    /// Sum extra (n numbers) over the ranks in their order, and gather the predicted velocities of the nodes
-    /// that may touch: v + time_step * force / m. Collective; the only one of a step.
+    /// Sum extra (n numbers) over the ranks in their order, and give each rank the predicted velocities of
+    /// its strip's nodes: v + time_step * force / m. Collective.
     void predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra);
 
     /// Solve for the impulses and add them, divided by time_step, to the forces on this rank's nodes.
@@ -156,13 +155,15 @@ namespace tread
     /// What a prediction needs of the involved nodes of this rank, in their order.
     struct Predicted
     {
-      unsigned int local;
+      unsigned int node, local; ///< compact number, number on this rank
       double       inverse_mass;
     };
-    std::vector<Predicted>                    own_involved;
+    std::vector<Predicted> own_involved;
+    /// Compact numbers of the nodes whose prediction goes to or comes from each rank.
+    std::vector<std::vector<unsigned int>>    sent_to, received_from;
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
-    /// By compact number; positions and velocities at the end of a step are those of the nodes of this rank's
-    /// strip and of the mesh's nodes that it has.
+    /// By compact number; positions and velocities at the end of a step are known of the nodes of this
+    /// rank's strip, of those that its normals follow, and of its own.
     std::vector<Row>          position, predicted, velocity, velocity_before;
     std::vector<Row>          impulse;          ///< by constraint
     std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
