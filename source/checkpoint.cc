@@ -25,7 +25,7 @@ namespace tread
     struct StoredNode
     {
       std::array<long long, 4> key;
-      double                   x[3], v[3];
+      double                   x_damped[3], v[3];
     };
 
     /// Work that a rank has summed for its own cells and nodes, J, and power, W.
@@ -62,7 +62,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-7";
+        std::string text = "tread-checkpoint-8";
         for (const std::size_t n :
              {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
               sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
@@ -269,7 +269,7 @@ namespace tread
       if (mesh.shared_nodes.is_owned(i))
         {
           const StoredNode node{mesh.node_key(i),
-                                {d.x[i][0], d.x[i][1], d.x[i][2]},
+                                {d.x_damped[i][0], d.x_damped[i][1], d.x_damped[i][2]},
                                 {d.v[i][0], d.v[i][1], d.v[i][2]}};
           nodes.append(reinterpret_cast<const char *>(&node), sizeof node);
         }
@@ -378,12 +378,14 @@ namespace tread
         std::memcpy(&node, nodes.data() + i, sizeof node);
         by_key[node.key] = node;
       }
-    bool missing = false;
+    bool missing   = false;
+    d.damping_time = d.parameters.damping_steps * d.time_step;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (const auto entry = by_key.find(mesh.node_key(i)); entry != by_key.end())
         {
-          d.x[i] = Row{entry->second.x[0], entry->second.x[1], entry->second.x[2], 0.};
-          d.v[i] = Row{entry->second.v[0], entry->second.v[1], entry->second.v[2], 0.};
+          const StoredNode &node = entry->second;
+          d.x_damped[i]          = Row{node.x_damped[0], node.x_damped[1], node.x_damped[2], 0.};
+          d.v[i]                 = Row{node.v[0], node.v[1], node.v[2], 0.};
         }
       else
         missing = true;

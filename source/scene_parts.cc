@@ -197,6 +197,24 @@ namespace tread
   }
 
 
+  Mesh::CellCost cell_cost(const Scene &scene)
+  {
+    const double wave_speed = scene.rail_material.si().pressure_wave_speed() / std::sqrt(scene.density_scale);
+    const double steps      = scene.rolled_mm / scene.speed() * wave_speed / scene.finest_mm;
+    return [steps, type = solid_parameters(scene).element_type, zones = plastic_zones(scene)](
+             const unsigned int body, const auto &corners, const unsigned int level) {
+      dealii::Point<3> centre;
+      for (const dealii::Point<3> &corner : corners)
+        centre += corner / 8.;
+      const bool   is_plastic = std::any_of(zones.begin(), zones.end(), [&](const PlasticZone &zone) {
+        return zone.body == body && zone.contains(centre);
+      });
+      const double of_a_step  = Solid::step_seconds(corners, type, is_plastic);
+      return steps * std::ldexp(of_a_step, is_plastic ? 0 : -static_cast<int>(level));
+    };
+  }
+
+
   StripExtent strip_extent(const Scene &scene)
   {
     const double patch = hertz(scene, scene.static_load()).semi_axis_x;

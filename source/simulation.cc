@@ -44,7 +44,7 @@ namespace tread
   Simulation::Simulation(const Scene &scene, const MPI_Comm comm)
     : scene(scene)
     , comm(comm)
-    , mesh(comm, make_bodies(scene), scene.time_levels - 1)
+    , mesh(comm, make_bodies(scene), scene.time_levels - 1, cell_cost(scene))
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
@@ -125,11 +125,12 @@ namespace tread
     const double        step  = scene.courant_number * dynamics.critical_time_step();
     const std::uint64_t steps = remaining_steps();
     // A few force evaluations tell this machine's pace.
-    NodalField   force(mesh.nodes.size(), Row{});
-    const auto   start = MPI_Wtime();
-    unsigned int n     = 0;
+    NodalField       force(mesh.nodes.size(), Row{});
+    const NodalField x     = dynamics.positions();
+    const auto       start = MPI_Wtime();
+    unsigned int     n     = 0;
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
-      solid.add_internal_forces(dynamics.x.data(), dynamics.v.data(), force.data());
+      solid.add_internal_forces(x.data(), dynamics.v.data(), force.data());
     const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
     const double           memory = memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
     constexpr unsigned int n_choices = 4; // of levels
@@ -206,7 +207,7 @@ namespace tread
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
-      free_creepage = contact.free_rolling_creepage(dynamics.x.data()) - half_space_stretch(scene);
+      free_creepage = contact.free_rolling_creepage(dynamics.positions().data()) - half_space_stretch(scene);
     };
     bool         free_rolling_known = false;
     unsigned int unloaded           = 0; // measurements in a row
@@ -352,7 +353,7 @@ namespace tread
   {
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == wheel_body)
-        dynamics.x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+        dynamics.set_position(i, Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
     solid.plastic().forget(wheel_body, dynamics.history);
     hub.motion = WheelHub::Motion();
     hub.place(scene.path_begin(), scene.axle_height());

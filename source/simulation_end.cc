@@ -28,12 +28,12 @@ namespace tread
           mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
           std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
         {
-          settled += p[2] - dynamics.x[i][2];
-          shifted += dynamics.x[i][0] - p[0];
+          settled += p[2] - dynamics.position(i)[2];
+          shifted += dynamics.position(i)[0] - p[0];
           n_nodes += 1.;
         }
     const std::vector<std::array<double, 6>> stress =
-      solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+      solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
     const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&

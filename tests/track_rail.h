@@ -171,7 +171,7 @@ namespace tread::tests
       double sum = 0.;
       for (const auto &[node, share] : patch)
         if (mesh->shared_nodes.is_owned(node))
-          sum += share * (mesh->nodes[node][2] - dynamics->x[node][2]);
+          sum += share * (mesh->nodes[node][2] - dynamics->position(node)[2]);
       return dealii::Utilities::MPI::sum(sum, mesh->comm);
     }
 

@@ -25,6 +25,8 @@ namespace tread
   SolidParameters              solid_parameters(const Scene &scene);
   /// Cells under the contact path that may yield, on both bodies.
   std::vector<PlasticZone> plastic_zones(const Scene &scene);
+  /// By the work of the element asked for, the time step that a cell needs and the distance rolled.
+  Mesh::CellCost cell_cost(const Scene &scene);
   /// Cells of the rail whose largest stress is kept, down to where shear stress has passed its largest value.
   StripExtent        strip_extent(const Scene &scene);
   WheelHubParameters hub_parameters(const Scene &scene);

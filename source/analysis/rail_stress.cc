@@ -76,7 +76,7 @@ namespace tread
 
   void StressStrip::sample(const ExplicitDynamics &dynamics, const double wheel_x)
   {
-    const auto stress = dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history, wanted);
+    const auto stress = dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history, wanted);
     for (Member &member : members)
       if (const double value = von_mises(stress[member.cell]); value > member.peak.stress)
         member.peak = {value, dynamics.time, wheel_x};
@@ -204,8 +204,8 @@ namespace tread
 
   std::vector<CellRecord> CellProbes::record(const ExplicitDynamics &dynamics) const
   {
-    const auto          stress = dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history, wanted);
-    const auto          strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+    const auto stress = dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history, wanted);
+    const auto strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
     std::vector<double> values(2 * cells.size(), 0.);
     for (unsigned int i = 0; i < cells.size(); ++i)
       if (cells[i] != elsewhere)

@@ -15,8 +15,8 @@ namespace tread
 
   NodalField ExplicitDynamics::cell_forces() const
   {
-    NodalField forces(x.size(), Row{});
-    solid.add_internal_forces(x.data(), v.data(), forces.data(), history);
+    NodalField forces(v.size(), Row{});
+    solid.add_internal_forces(positions().data(), v.data(), forces.data(), history);
     return forces;
   }
 
@@ -27,16 +27,16 @@ namespace tread
     double power = 0.;
     if (parameters.damping_steps > 0. || solid.needs_velocity())
       {
-        NodalField with(x.size(), Row{}), without;
+        NodalField with(v.size(), Row{}), without;
         solid.add_internal_forces(x_damped.data(), v.data(), with.data(), history);
         if (solid.needs_velocity())
           {
-            const NodalField no_velocity(x.size(), Row{});
-            without.assign(x.size(), Row{});
-            solid.add_internal_forces(x.data(), no_velocity.data(), without.data(), history);
+            const NodalField no_velocity(v.size(), Row{});
+            without.assign(v.size(), Row{});
+            solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
           }
         const NodalField &elastic = solid.needs_velocity() ? without : forces;
-        for (unsigned int i = 0; i < x.size(); ++i)
+        for (unsigned int i = 0; i < v.size(); ++i)
           power += dot(v[i], elastic[i] - with[i]);
       }
     return power;
@@ -66,7 +66,7 @@ namespace tread
     if (supports)
       supports->add_spring_forces(forces.data());
     double energy = 0.;
-    for (unsigned int i = 0; i < x.size(); ++i)
+    for (unsigned int i = 0; i < v.size(); ++i)
       {
         energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(forces[i], v[i]);
         if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
@@ -81,7 +81,7 @@ namespace tread
 
   StrainEnergy ExplicitDynamics::strain_energy() const
   {
-    StrainEnergy energy = solid.strain_energy(x.data(), history);
+    StrainEnergy energy = solid.strain_energy(positions().data(), history);
     energy.strain       = dealii::Utilities::MPI::sum(energy.strain, mesh.comm);
     energy.hourglass    = dealii::Utilities::MPI::sum(energy.hourglass, mesh.comm);
     return energy;
@@ -93,16 +93,16 @@ namespace tread
     // At the instant of the velocities, half a step back: so far work is counted.
     const double compensation = this->compensation();
     double       potential    = 0.;
-    for (unsigned int i = 0; i < x.size(); ++i)
+    for (unsigned int i = 0; i < v.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          const double back     = 0.5 * std::ldexp(time_step, level_of_node[i]);
-          const Row    position = x[i] - back * v[i];
-          potential += true_mass[i] * parameters.gravity * position[2];
+          const double back   = 0.5 * std::ldexp(time_step, level_of_node[i]);
+          const Row    before = position(i) - back * v[i];
+          potential += true_mass[i] * parameters.gravity * before[2];
           if (on_wheel[i])
             {
-              const double rx = position[0] - hub->motion.x + back * hub->motion.velocity_x,
-                           rz = position[2] - hub->motion.z + back * hub->motion.velocity_z;
+              const double rx = before[0] - hub->motion.x + back * hub->motion.velocity_x,
+                           rz = before[2] - hub->motion.z + back * hub->motion.velocity_z;
               potential += 0.5 * compensation * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
             }
         }

@@ -36,8 +36,7 @@ namespace tread
   ExplicitDynamics::ExplicitDynamics(const Mesh               &mesh,
                                      const Solid              &solid,
                                      const DynamicsParameters &parameters)
-    : x(mesh.nodes.size())
-    , v(mesh.nodes.size(), Row{})
+    : v(mesh.nodes.size(), Row{})
     , history(solid.virgin())
     , mesh(mesh)
     , solid(solid)
@@ -51,7 +50,7 @@ namespace tread
     , on_wheel(mesh.nodes.size(), false)
   {
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+      x_damped[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     NodalField mass(mesh.nodes.size(), Row{});
     const auto cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -119,16 +118,17 @@ namespace tread
     for (const unsigned int i : hub_nodes)
       {
         carried[i] = true;
-        hub_reference.push_back(x[i] - Row{hub->motion.x, 0., hub->motion.z, 0.});
+        hub_reference.push_back(position(i) - Row{hub->motion.x, 0., hub->motion.z, 0.});
       }
     rank_sums.resize(n_hub_sums + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
 
     std::vector<double> sums(4, 0.);
-    for (unsigned int i = 0; i < x.size(); ++i)
+    for (unsigned int i = 0; i < v.size(); ++i)
       if (on_wheel[i] && !carried[i] && mesh.shared_nodes.is_owned(i))
         {
-          const double rx = x[i][0] - hub->motion.x, rz = x[i][2] - hub->motion.z;
+          const Row    x  = position(i);
+          const double rx = x[0] - hub->motion.x, rz = x[2] - hub->motion.z;
           sums[0] += true_mass[i];
           sums[1] += true_mass[i] * (rx * rx + rz * rz);
           sums[2] += true_mass[i] * rx;
@@ -170,11 +170,12 @@ namespace tread
     // Half a step back, as velocities are: the centripetal acceleration in that time is no small thing.
     const Row    of_axle = hub->velocity_at(Row{hub->motion.x, 0., hub->motion.z, 0.});
     const double step    = parameters.courant_number * critical_time_step();
-    for (unsigned int i = 0; i < x.size(); ++i)
+    for (unsigned int i = 0; i < v.size(); ++i)
       if (on_wheel[i])
         {
           const double back = 0.5 * std::ldexp(step, level_of_node[i]);
-          v[i]              = hub->velocity_at(x[i] - back * (hub->velocity_at(x[i]) - of_axle));
+          const Row    x    = position(i);
+          v[i]              = hub->velocity_at(x - back * (hub->velocity_at(x) - of_axle));
         }
   }
 
@@ -223,7 +224,7 @@ namespace tread
           inward = -compensation() * Row{1., 0., 1., 0.};
         loop([&](const unsigned int i) {
           const double mass     = free_mass(i, scaled);
-          const Row    arm      = x[i] - axle;
+          const Row    arm      = position(i) - axle;
           const Row    swapped  = __builtin_shufflevector(arm, arm, 2, 1, 0, 3);
           const Row    relative = v[i] - velocity - spin * swapped;
           const Row    momentum = mass * relative;
@@ -267,17 +268,32 @@ namespace tread
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
-        contact->refresh(x.data(), v.data(), time_step);
+        contact->refresh(positions().data(), v.data(), time_step);
       }
     hold_guided_nodes(v);
   }
 
 
+  NodalField ExplicitDynamics::positions() const
+  {
+    NodalField x(v.size());
+    for (unsigned int i = 0; i < v.size(); ++i)
+      x[i] = position(i);
+    return x;
+  }
+
+
+  void ExplicitDynamics::set_damping_time(const double beta)
+  {
+    for (unsigned int i = 0; i < v.size(); ++i)
+      x_damped[i] += (beta - damping_time) * v[i];
+    damping_time = beta;
+  }
+
+
   void ExplicitDynamics::prepare_step()
   {
-    const double beta = parameters.damping_steps * time_step;
-    for (unsigned int i = 0; i < x.size(); ++i)
-      x_damped[i] = x[i] + beta * v[i];
+    set_damping_time(parameters.damping_steps * time_step);
     mesh.distribute_hanging_nodes(x_damped.data());
     next_loads = BodyLoads();
     std::fill(force.begin(), force.end(), Row{});
@@ -320,7 +336,8 @@ namespace tread
     for (const unsigned int i : hub_nodes)
       if (mesh.shared_nodes.is_owned(i))
         {
-          const double rx = x[i][0] - hub->motion.x, rz = x[i][2] - hub->motion.z;
+          const Row    x  = position(i);
+          const double rx = x[0] - hub->motion.x, rz = x[2] - hub->motion.z;
           for (unsigned int d = 0; d < 3; ++d)
             sums[d] += force[i][d];
           sums[3] += rz * force[i][0] - rx * force[i][2];
@@ -333,8 +350,9 @@ namespace tread
     for (unsigned int k = 0; k < hub_nodes.size(); ++k)
       {
         const unsigned int i = hub_nodes[k];
-        x[i]                 = hub->position_of(hub_reference[k]);
-        v[i]                 = hub->velocity_at(x[i]);
+        const Row          x = hub->position_of(hub_reference[k]);
+        v[i]                 = hub->velocity_at(x);
+        set_position(i, x);
       }
   }
 
@@ -396,7 +414,7 @@ namespace tread
         if (contact->refresh_due())
           {
             check_stability(); // a search among nodes that fly apart fills the memory
-            contact->refresh(x.data(), v.data(), time_step);
+            contact->refresh(positions().data(), v.data(), time_step);
             times.search += watch.lap();
           }
         contact->predict(v.data(), force.data(), time_step, rank_sums);
@@ -421,12 +439,11 @@ namespace tread
           }
       }
 
-    const double beta = parameters.damping_steps * time_step;
-    double       work = 0., gross = 0.;
+    double work = 0., gross = 0.;
     next_loads = BodyLoads();
     for (unsigned int level = 0; level <= due; ++level)
       {
-        const double factor = std::ldexp(1., level);
+        const double factor = std::ldexp(1., level), way = factor * time_step + damping_time;
         for (const Run &run : nodes_of_level[level])
           {
             const auto advance = [&](const unsigned int i) {
@@ -437,9 +454,8 @@ namespace tread
                   work += w;
                   gross += std::abs(w);
                 }
+              x_damped[i] += way * velocity - damping_time * v[i];
               v[i] = velocity;
-              x[i] += factor * time_step * velocity;
-              x_damped[i] = x[i] + beta * velocity;
             };
             with_body_loads(level == 0 && has_body_loads(run), run, factor, next_loads,
                             [&](const auto &load) {
@@ -455,11 +471,7 @@ namespace tread
     totals.external_work += work;
     totals.gross_work += gross;
     if (hub)
-      {
-        move_hub_nodes();
-        for (const unsigned int i : hub_nodes)
-          x_damped[i] = x[i] + beta * v[i];
-      }
+      move_hub_nodes();
     time += time_step;
     ++n_steps;
     place_hanging_nodes();

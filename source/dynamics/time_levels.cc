@@ -24,11 +24,11 @@ namespace tread
     for (const unsigned int level : solid.cell_levels())
       max_level = std::max(max_level, level);
     max_level = dealii::Utilities::MPI::max(max_level, mesh.comm);
-    level_of_node.assign(x.size(), max_level);
+    level_of_node.assign(v.size(), max_level);
     for (unsigned int level = max_level; level-- > 0;)
       {
         // A node moves with its fastest cell on any rank, a parent with those of its hanging nodes, too.
-        NodalField marks(x.size(), Row{});
+        NodalField marks(v.size(), Row{});
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
@@ -52,7 +52,7 @@ namespace tread
             level_of_node[i] = level;
       }
     // Forces on hanging nodes are their parents'.
-    std::vector<const Mesh::HangingNode *> hangs(x.size(), nullptr);
+    std::vector<const Mesh::HangingNode *> hangs(v.size(), nullptr);
     for (const Mesh::HangingNode &h : mesh.hanging_nodes)
       hangs[h.node] = &h;
     hanging.assign(max_level + 1, {});
@@ -61,10 +61,10 @@ namespace tread
       for (const unsigned int i : boundary_nodes(body, Boundary::contact))
         if (hangs[i])
           hanging_at_contact.push_back(*hangs[i]);
-    std::vector<char> is_placed(x.size(), false);
+    std::vector<char> is_placed(v.size(), false);
     for (unsigned int level = 0; level <= max_level; ++level)
       {
-        std::vector<char> is_loaded(x.size(), false);
+        std::vector<char> is_loaded(v.size(), false);
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
@@ -80,7 +80,7 @@ namespace tread
     slow_shares.assign(max_level + 1, {});
     for (unsigned int level = 1; level <= max_level; ++level)
       {
-        std::vector<char> is_shared(x.size(), false);
+        std::vector<char> is_shared(v.size(), false);
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
@@ -94,7 +94,7 @@ namespace tread
         SlowShares &shares = slow_shares[level];
         for (unsigned int own = 0; own < level; ++own)
           {
-            for (unsigned int i = 0; i < x.size(); ++i)
+            for (unsigned int i = 0; i < v.size(); ++i)
               if (is_shared[i] && level_of_node[i] == own)
                 shares.nodes.push_back(i);
             shares.end_of_level.push_back(shares.nodes.size());
@@ -108,9 +108,9 @@ namespace tread
                              hangs[i] != nullptr);
     };
     nodes_of_level.assign(max_level + 1, Runs());
-    for (unsigned int begin = 0, end = 0; begin < x.size(); begin = end)
+    for (unsigned int begin = 0, end = 0; begin < v.size(); begin = end)
       {
-        while (end < x.size() && kind(end) == kind(begin))
+        while (end < v.size() && kind(end) == kind(begin))
           ++end;
         if (!hangs[begin])
           nodes_of_level[level_of_node[begin]].push_back(
@@ -147,7 +147,7 @@ namespace tread
     if (supports)
       {
         const std::vector<double> inverse = free_inverse_masses();
-        NodalField                rows(x.size(), Row{});
+        NodalField                rows(v.size(), Row{});
         supports->add_row_sums(rows.data());
         mesh.shared_nodes.sum(rows.data());
         double of_springs, of_dampers;
@@ -182,15 +182,15 @@ namespace tread
     const std::vector<double> inverse    = free_inverse_masses();
     const auto                product    = [&](const NodalField &a, const NodalField &b) {
       double of_rank = 0.;
-      for (unsigned int i = 0; i < x.size(); ++i)
+      for (unsigned int i = 0; i < v.size(); ++i)
         if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
           of_rank += dot(a[i], b[i]) / inverse[i];
       return sum(of_rank, mesh.comm);
     };
-    NodalField mode(x.size(), Row{}), mode_before(x.size(), Row{}), reference(x.size()), moved(x.size()),
-      at_rest(x.size(), Row{}), f(x.size());
+    NodalField mode(v.size(), Row{}), mode_before(v.size(), Row{}), reference(v.size()), moved(v.size()),
+      at_rest(v.size(), Row{}), f(v.size());
     // Not where the nodes are now, so that a run that resumes has the same step.
-    for (unsigned int i = 0; i < x.size(); ++i)
+    for (unsigned int i = 0; i < v.size(); ++i)
       reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     for (unsigned int i = 0; i < mode.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
@@ -213,7 +213,7 @@ namespace tread
         for (const Row &row : mode)
           largest = std::max(largest, dot(row, row));
         const double scale = 1e-9 / std::sqrt(max(largest, mesh.comm)); // m: small against any cell
-        for (unsigned int i = 0; i < x.size(); ++i)
+        for (unsigned int i = 0; i < v.size(); ++i)
           {
             moved[i] = reference[i] + scale * mode[i];
             f[i]     = Row{};
@@ -221,10 +221,10 @@ namespace tread
         solid.add_internal_forces(moved.data(), at_rest.data(), f.data(), Levels{first_level});
         mesh.condense_hanging_nodes(f.data());
         mesh.shared_nodes.sum(f.data());
-        for (unsigned int i = 0; i < x.size(); ++i)
+        for (unsigned int i = 0; i < v.size(); ++i)
           f[i] *= -inverse[i] / scale; // the reference is free of stress
         tridiagonal(k, k) = product(f, mode);
-        for (unsigned int i = 0; i < x.size(); ++i)
+        for (unsigned int i = 0; i < v.size(); ++i)
           mode_before[i] = f[i] - tridiagonal(k, k) * mode[i] - size * mode_before[i];
         mode.swap(mode_before);
         size = std::sqrt(product(mode, mode));
@@ -287,7 +287,7 @@ namespace tread
   {
     if (synchronised())
       {
-        for (Row *field : {v.data(), x.data(), x_damped.data()})
+        for (Row *field : {v.data(), x_damped.data()})
           mesh.distribute_hanging_nodes(field);
         return;
       }
@@ -297,7 +297,7 @@ namespace tread
         if (solid.needs_velocity())
           Mesh::distribute(hanging[level].placed, v.data());
       }
-    Mesh::distribute(hanging_at_contact, x.data());
+    Mesh::distribute(hanging_at_contact, x_damped.data());
     Mesh::distribute(hanging_at_contact, v.data());
   }
 } // namespace tread

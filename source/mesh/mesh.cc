@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -127,27 +126,64 @@ namespace tread
       double       smallest; ///< edge of a cell, m
     };
 
-    /// Ranks get equal shares of work.
-    void balance(Triangulation &triangulation, const LikelyLevels &likely_level)
+    template <typename Cell>
+    dealii::Point<3> vertex_in_space(const Cell &cell, const unsigned int v, const std::vector<Body> &bodies)
     {
-      triangulation.signals.weight.connect(
-        [=](const Triangulation::cell_iterator &cell, const Triangulation::CellStatus) -> unsigned int {
-          return 1000u >> likely_level(cell);
+      const Body &body = bodies[cell->material_id()];
+      return body.to_space ? body.to_space(cell->vertex(v)) : cell->vertex(v);
+    }
+
+    /// Ranks get equal shares of what the cells cost, if that saves more time than it takes.
+    void balance(Triangulation           &triangulation,
+                 const std::vector<Body> &bodies,
+                 const LikelyLevels      &likely_level,
+                 const Mesh::CellCost    &cost)
+    {
+      // To cut a body anew takes deal.II so long, s, and so much longer for each cell of a rank.
+      constexpr double to_cut = 0.4, to_cut_at_a_cell = 2e-6;
+      const auto       cost_of = [&](const auto &cell) {
+        std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
+        for (unsigned int v = 0; v < corners.size(); ++v)
+          corners[v] = vertex_in_space(cell, v, bodies);
+        return cost(cell->material_id(), corners, likely_level(cell));
+      };
+      double of_rank = 0., largest = 0.;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const double of_cell = cost_of(cell);
+            of_rank += of_cell;
+            largest = std::max(largest, of_cell);
+          }
+      const MPI_Comm comm       = triangulation.get_communicator();
+      const auto     over_ranks = dealii::Utilities::MPI::min_max_avg(of_rank, comm);
+      const double   n_cells    = triangulation.n_global_active_cells();
+      if (over_ranks.max - over_ranks.avg <
+          to_cut + to_cut_at_a_cell * n_cells / dealii::Utilities::MPI::n_mpi_processes(comm))
+        return;
+      const double unit       = dealii::Utilities::MPI::max(largest, comm) / 1000.;
+      const auto   connection = triangulation.signals.weight.connect(
+        [&](const Triangulation::cell_iterator &cell, const Triangulation::CellStatus) -> unsigned int {
+          return std::lround(cost_of(cell) / unit);
         });
       triangulation.repartition();
+      connection.disconnect();
     }
   } // namespace
 
 
-  Mesh::Mesh(const MPI_Comm comm, const std::vector<Body> &bodies, const unsigned int max_level)
+  Mesh::Mesh(const MPI_Comm           comm,
+             const std::vector<Body> &bodies,
+             const unsigned int       max_level,
+             const CellCost          &cost)
     : comm(comm)
   {
     Triangulation triangulation(comm);
     make_coarse_mesh(triangulation, bodies);
     refine(triangulation, bodies);
     const LikelyLevels likely_level(triangulation, max_level);
-    if (max_level > 0)
-      balance(triangulation, likely_level);
+    if (cost && dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+      balance(triangulation, bodies, likely_level, cost);
 
     const dealii::FE_Q<3> fe(1);
     dealii::DoFHandler<3> dof_handler(triangulation);
@@ -161,31 +197,38 @@ namespace tread
     for (const Body &body : bodies)
       body_names.push_back(body.name);
 
-    // Positions of all nodes that this rank can see, ghost cells included: parents of
-    // hanging nodes may belong to those only.
-    std::map<std::uint64_t, dealii::Point<3>>    position;
+    // Of all nodes that this rank can see, ghost cells included: parents of hanging nodes may belong to those
+    // only. By their places in the set of relevant ones.
+    constexpr unsigned int                       unknown = std::numeric_limits<unsigned int>::max();
+    std::vector<dealii::Point<3>>                position(relevant.n_elements());
+    std::vector<char>                            has_position(position.size(), false);
+    std::vector<unsigned int>                    number_of(position.size(), unknown);
+    std::vector<unsigned int>                    level_of_node; // the last of all for hanging nodes
+    std::vector<std::uint64_t>                   global_ids;
     std::vector<dealii::types::global_dof_index> dofs(nodes_per_cell);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
-          const Body &body = bodies[cell->material_id()];
           cell->get_dof_indices(dofs);
           for (const unsigned int v : cell->vertex_indices())
-            if (position.find(dofs[v]) == position.end())
-              position[dofs[v]] = body.to_space ? body.to_space(cell->vertex(v)) : cell->vertex(v);
+            if (const auto place = relevant.index_within_set(dofs[v]); !has_position[place])
+              {
+                position[place]     = vertex_in_space(cell, v, bodies);
+                has_position[place] = true;
+              }
         }
 
-    std::vector<unsigned int>             level_of_node; // the last of all for hanging nodes
-    std::map<std::uint64_t, unsigned int> local;
-    const auto                            local_number = [&](const std::uint64_t id) {
-      const auto [entry, is_new] = local.emplace(id, nodes.size());
-      if (is_new)
+    const auto local_number = [&](const std::uint64_t id) {
+      const auto    place  = relevant.index_within_set(id);
+      unsigned int &number = number_of[place];
+      if (number == unknown)
         {
-          nodes.push_back(position.at(id));
+          number = nodes.size();
+          nodes.push_back(position[place]);
           global_ids.push_back(id);
           level_of_node.push_back(max_level);
         }
-      return entry->second;
+      return number;
     };
 
     // Counter-clockwise from outside, for deal.II's faces 0 to 5.
@@ -237,7 +280,7 @@ namespace tread
           hanging_nodes.push_back(h);
           level_of_node[i] = max_level + 1;
         }
-    renumber(level_of_node);
+    renumber(level_of_node, global_ids);
     // Parents follow from the constraint itself, so every rank places a hanging node alike:
     // on the chord, where every linear displacement field leaves it.
     for (const HangingNode &h : hanging_nodes)
@@ -266,7 +309,7 @@ namespace tread
   }
 
 
-  void Mesh::renumber(const std::vector<unsigned int> &level_of_node)
+  void Mesh::renumber(const std::vector<unsigned int> &level_of_node, std::vector<std::uint64_t> &global_ids)
   {
     std::vector<unsigned int> order(nodes.size()), number(nodes.size());
     std::iota(order.begin(), order.end(), 0u);

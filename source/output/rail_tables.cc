@@ -18,7 +18,7 @@ namespace tread
   {
     const Mesh                              &mesh = dynamics.mesh;
     const std::vector<std::array<double, 6>> stress =
-      dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+      dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
     const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
     std::vector<std::array<double, 11>> cells;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -41,7 +41,7 @@ namespace tread
           if (mesh.shared_nodes.is_owned(i) && std::abs(mesh.nodes[i][1]) <= depth)
             {
               const dealii::Point<3> &p = mesh.nodes[i];
-              const Row               u = dynamics.x[i] - Row{p[0], p[1], p[2], 0.};
+              const Row               u = dynamics.position(i) - Row{p[0], p[1], p[2], 0.};
               own[mesh.node_key(i)]     = {
                     {1e3 * p[0], 1e3 * p[1], 1e3 * p[2], 1e6 * u[0], 1e6 * u[1], 1e6 * u[2]}};
             }

@@ -133,7 +133,7 @@ namespace tread
     for (const char *name : {"von_mises_MPa", "mean_stress_MPa", "body"})
       output.names.emplace_back(name);
     const std::vector<std::array<double, 6>> stress =
-      dynamics.solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+      dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
     // What remains of the stress behind the wheel is the residual stress.
     const bool plastic = !dynamics.history.values.empty();
     const bool yields  = dealii::Utilities::MPI::logical_or(plastic, comm); // the same data on all ranks
@@ -153,7 +153,7 @@ namespace tread
         for (unsigned int v = 0; v < 8; ++v)
           {
             const unsigned int i = mesh.cells[c].nodes[v];
-            const Row          x = dynamics.x[i];
+            const Row          x = dynamics.position(i);
             const Row          reference{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
             const Row          rigid =
               mesh.cells[c].body == wheel_body ? hub.position_of(reference - axle_at_start) : reference;
@@ -181,7 +181,7 @@ namespace tread
                                 const unsigned int      body)
   {
     std::vector<Row> positions;
-    contact.surfaces.replicate(dynamics.x.data(), positions);
+    contact.surfaces.replicate(dynamics.positions().data(), positions);
     const std::vector<ContactNodeState> states = contact.active_nodes();
     if (!writes_tables) // all ranks know all of the surface
       return;

@@ -70,6 +70,16 @@ namespace tread
                 gram[i][j] += volume * scaled[i][d] * scaled[j][d] / mass[a];
         }
     }
+
+    std::array<std::array<double, 3>, 4> hourglass_moments(const std::array<dealii::Point<3>, 8> &nodes)
+    {
+      std::array<std::array<double, 3>, 4> moments{};
+      for (unsigned int m = 0; m < 4; ++m)
+        for (unsigned int a = 0; a < 8; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            moments[m][i] += hourglass_pattern(m, a) * nodes[a][i];
+      return moments;
+    }
   } // namespace
 
 
@@ -123,26 +133,21 @@ namespace tread
       for (double &component : g)
         component /= volume;
 
+    moment = hourglass_moments(nodes);
     for (unsigned int m = 0; m < 4; ++m)
-      {
-        moment[m].fill(0.);
-        for (unsigned int a = 0; a < 8; ++a)
-          for (unsigned int i = 0; i < 3; ++i)
-            moment[m][i] += hourglass_pattern(m, a) * nodes[a][i];
-        for (unsigned int a = 0; a < 8; ++a)
-          hourglass[m][a] = hourglass_pattern(m, a) - moment[m][0] * gradient[a][0] -
-                            moment[m][1] * gradient[a][1] - moment[m][2] * gradient[a][2];
-      }
+      for (unsigned int a = 0; a < 8; ++a)
+        hourglass[m][a] = hourglass_pattern(m, a) - moment[m][0] * gradient[a][0] -
+                          moment[m][1] * gradient[a][1] - moment[m][2] * gradient[a][2];
   }
 
 
-  bool HexahedronIntegrals::is_parallelepiped() const
+  bool is_parallelepiped(const std::array<dealii::Point<3>, 8> &corners)
   {
     double largest = 0.;
-    for (const auto &vector : moment)
+    for (const auto &vector : hourglass_moments(corners))
       for (const double component : vector)
         largest = std::max(largest, std::abs(component));
-    return largest < 1e-10 * std::cbrt(volume);
+    return largest < 1e-10 * corners[0].distance(corners[7]) / std::sqrt(3.);
   }
 
 

@@ -60,8 +60,12 @@ namespace
 
   void take(ExplicitDynamics &dynamics, const Field &field, const double time)
   {
-    for (unsigned int i = 0; i < dynamics.x.size(); ++i)
-      dynamics.x[i][0] = dynamics.mesh.nodes[i][0] + field.displacement(dynamics.mesh.nodes[i]);
+    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+      {
+        Row x = dynamics.position(i);
+        x[0]  = dynamics.mesh.nodes[i][0] + field.displacement(dynamics.mesh.nodes[i]);
+        dynamics.set_position(i, x);
+      }
     dynamics.time = time;
   }
 

@@ -96,9 +96,9 @@ namespace
 
     for (unsigned int n = 0; n < test.steps_before; ++n)
       dynamics.step();
-    const double v0 = mean(dynamics.v), x0 = mean(dynamics.x), t0 = dynamics.time,
+    const double v0 = mean(dynamics.v), x0 = mean(dynamics.positions()), t0 = dynamics.time,
                  loss0      = dynamics.ledger().friction;
-    const NodalField before = dynamics.x;
+    const NodalField before = dynamics.positions();
     for (unsigned int n = 0; n < test.steps; ++n)
       {
         dynamics.step();
@@ -106,12 +106,12 @@ namespace
         result.normal_impulse += std::abs(p[2] * std::cos(slope) + p[0] * std::sin(slope));
       }
     result.seconds       = dynamics.time - t0;
-    result.slide         = mean(dynamics.x) - x0;
+    result.slide         = mean(dynamics.positions()) - x0;
     result.acceleration  = (mean(dynamics.v) - v0) / result.seconds;
     result.friction_loss = dynamics.ledger().friction - loss0;
     result.n_steps       = dynamics.n_steps;
     for (const unsigned int i : touching)
-      result.drift = std::max(result.drift, std::abs(dot(dynamics.x[i] - before[i], down)));
+      result.drift = std::max(result.drift, std::abs(dot(dynamics.position(i) - before[i], down)));
     return result;
   }
 } // namespace

@@ -53,12 +53,12 @@ namespace
   Momentum momentum(const ExplicitDynamics &dynamics, const std::vector<unsigned int> &body_of)
   {
     Momentum m;
-    for (unsigned int i = 0; i < dynamics.x.size(); ++i)
+    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
       if (dynamics.mesh.shared_nodes.is_owned(i))
         {
           const double mass = dynamics.true_masses()[i];
           m.of_body[body_of[i]] += mass * dynamics.v[i];
-          m.angular += mass * cross(dynamics.x[i], dynamics.v[i]);
+          m.angular += mass * cross(dynamics.position(i), dynamics.v[i]);
           m.kinetic += 0.5 * mass * dot(dynamics.v[i], dynamics.v[i]);
         }
     const MPI_Comm comm = dynamics.mesh.comm;

@@ -111,14 +111,14 @@ namespace
     // The forces that contact exerts in equilibrium, by difference.
     NodalField       without(mesh.nodes.size(), Row{});
     const NodalField at_rest(mesh.nodes.size(), Row{});
-    solid.add_internal_forces(dynamics.x.data(), at_rest.data(), without.data());
+    solid.add_internal_forces(dynamics.positions().data(), at_rest.data(), without.data());
     mesh.condense_hanging_nodes(without.data());
     mesh.shared_nodes.sum(without.data());
     for (unsigned int i = 0; i < without.size(); ++i)
       without[i] += dynamics.external_force[i];
     NodalField          with = without;
     std::vector<double> nothing;
-    contact.refresh(dynamics.x.data(), at_rest.data(), 1.);
+    contact.refresh(dynamics.positions().data(), at_rest.data(), 1.);
     contact.predict(at_rest.data(), without.data(), 1., nothing);
     contact.solve(1., with.data());
 
@@ -131,7 +131,7 @@ namespace
       if (mesh.shared_nodes.is_owned(i))
         {
           force[body_of[i]] += with[i] - without[i];
-          moment[body_of[i]] += cross(dynamics.x[i], with[i] - without[i]);
+          moment[body_of[i]] += cross(dynamics.position(i), with[i] - without[i]);
         }
     for (unsigned int b = 0; b < 2; ++b)
       {
@@ -141,7 +141,7 @@ namespace
     const double load = pressure * edge * edge;
 
     double stress_error = 0.;
-    for (const std::array<double, 6> &s : solid.cauchy_stress(dynamics.x.data()))
+    for (const std::array<double, 6> &s : solid.cauchy_stress(dynamics.positions().data()))
       {
         const double tensor[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
         for (unsigned int i = 0; i < 3; ++i)

@@ -66,16 +66,16 @@ namespace
     const auto mean_x = [&] {
       double sum  = 0.;
       result.mass = 0.;
-      for (unsigned int i = 0; i < dynamics.x.size(); ++i)
+      for (unsigned int i = 0; i < dynamics.v.size(); ++i)
         if (in_block[i])
           {
-            sum += dynamics.true_masses()[i] * dynamics.x[i][0];
+            sum += dynamics.true_masses()[i] * dynamics.position(i)[0];
             result.mass += dynamics.true_masses()[i];
           }
       return sum / result.mass;
     };
     const auto push = [&](const double factor) { // on every node by its mass, so that the block hardly tips
-      for (unsigned int i = 0; i < dynamics.x.size(); ++i)
+      for (unsigned int i = 0; i < dynamics.v.size(); ++i)
         if (in_block[i])
           dynamics.external_force[i] =
             Row{factor * share * friction * gravity * dynamics.true_masses()[i], 0., 0., 0.};

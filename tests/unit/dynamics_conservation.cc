@@ -29,10 +29,10 @@ namespace
     Sums        sums;
     // Energy at the instant of the velocities, half a step back: there central differences keep it to second
     // order.
-    NodalField middle(dynamics.x.size());
+    NodalField middle(dynamics.v.size());
     for (unsigned int i = 0; i < middle.size(); ++i)
       {
-        const Row    x = dynamics.x[i], v = dynamics.v[i];
+        const Row    x = dynamics.position(i), v = dynamics.v[i];
         const double m = dynamics.true_masses()[i];
         middle[i]      = x - 0.5 * dynamics.time_step * v;
         if (!mesh.shared_nodes.is_owned(i))
@@ -137,7 +137,7 @@ int main(int argc, char **argv)
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
           {
             // A turn of 300 rad/s about a skew axis, a translation and 2 m/s of noise.
-            const Row r = dynamics.x[i] - Row{.02, .015, .015, 0.};
+            const Row r = dynamics.position(i) - Row{.02, .015, .015, 0.};
             dynamics.v[i] =
               2. * random_at(mesh.nodes[i]) + Row{5., -3., 2., 0.} +
               300. * Row{-.6 * r[1] + .5 * r[2], .6 * r[0] - .6 * r[2], -.5 * r[0] + .6 * r[1], 0.};
@@ -157,7 +157,7 @@ int main(int argc, char **argv)
     const Solid      solid(mesh, {steel}, SolidParameters());
     ExplicitDynamics dynamics(mesh, solid, parameters);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      dynamics.v[i] = 400. * Row{dynamics.x[i][2], 0., -dynamics.x[i][0], 0.};
+      dynamics.v[i] = 400. * Row{dynamics.position(i)[2], 0., -dynamics.position(i)[0], 0.};
     dynamics.start();
     const unsigned int n_steps = std::ceil(2. * 3.14159 / 400. / dynamics.time_step);
     // Mostly the breathing mode is excited, omega dt = 0.04: energy swings by some 1e-4 of the strain energy,

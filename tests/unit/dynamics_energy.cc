@@ -49,7 +49,7 @@ namespace
     hub.drive_torque            = 20000.;
     dynamics.attach_hub(hub, 0, 60.);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      dynamics.v[i] = hub.velocity_at(dynamics.x[i]);
+      dynamics.v[i] = hub.velocity_at(dynamics.position(i));
     std::vector<char> hanging(mesh.nodes.size(), false);
     for (const Mesh::HangingNode &h : mesh.hanging_nodes)
       hanging[h.node] = true;

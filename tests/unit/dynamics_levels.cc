@@ -84,7 +84,7 @@ namespace
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         if (mesh.nodes[i][0] > .08 - 1e-9 && mesh.shared_nodes.is_owned(i))
           {
-            sum += dynamics->x[i][2] - mesh.nodes[i][2];
+            sum += dynamics->position(i)[2] - mesh.nodes[i][2];
             n += 1.;
           }
       return dealii::Utilities::MPI::sum(sum, mesh.comm) / dealii::Utilities::MPI::sum(n, mesh.comm);
@@ -98,7 +98,8 @@ namespace
     ExplicitDynamics                &dynamics = *block.dynamics;
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
       {
-        random.seed(block.mesh.global_ids[i]); // the same on all ranks
+        const auto key = block.mesh.node_key(i); // the same on all ranks
+        random.seed(key[1] + 1000003 * key[2] + 998244353 * key[3]);
         dynamics.v[i] = Row{component(random), component(random), component(random), 0.};
       }
     block.mesh.distribute_hanging_nodes(dynamics.v.data());

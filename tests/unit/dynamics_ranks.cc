@@ -28,6 +28,7 @@ namespace
     std::vector<double>                                       tip; ///< kinetic + strain energy (J) on the way
     WheelHub::Motion                                          hub;
     unsigned int                                              n_cells = 0, n_hanging = 0;
+    double largest_share = 0.; ///< of what the cells cost, over the mean of the ranks
   };
 
   History run(const MPI_Comm comm, const bool with_hub, const ElementType type, const unsigned int n_steps)
@@ -45,7 +46,15 @@ namespace
                                  Boundary::free, Boundary::free}});
         tests::refine_near(body, Point<3>(.06, .03, .03), .012, .005);
       }
-    const Mesh      mesh(comm, {body});
+    // One end of the body costs four times as much as the rest.
+    const auto cost = [](const unsigned int, const auto &corners, const unsigned int) {
+      return corners[0][0] > .03 ? 4. : 1.;
+    };
+    const Mesh mesh(comm, {body}, 0, cost);
+    double     share = 0.;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      share += cost(0, mesh.corners(c), 0);
+    const auto      shares = dealii::Utilities::MPI::min_max_avg(share, comm);
     SolidParameters solid_parameters;
     solid_parameters.element_type = type;
     if (type == ElementType::one_point)
@@ -73,7 +82,7 @@ namespace
         hub.drive_torque            = 5000.;
         dynamics.attach_hub(hub, 0, 60.);
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-          dynamics.v[i] = hub.velocity_at(dynamics.x[i]);
+          dynamics.v[i] = hub.velocity_at(dynamics.position(i));
       }
     else
       dynamics.fix_nodes(dynamics.support_nodes(0));
@@ -102,11 +111,14 @@ namespace
       }
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       history.nodes[place(mesh.nodes[i])] = {
-        {dynamics.x[i][0] - mesh.nodes[i][0], dynamics.x[i][1] - mesh.nodes[i][1],
-         dynamics.x[i][2] - mesh.nodes[i][2], dynamics.v[i][0], dynamics.v[i][1], dynamics.v[i][2]}};
+        {dynamics.position(i)[0] - mesh.nodes[i][0], dynamics.position(i)[1] - mesh.nodes[i][1],
+         dynamics.position(i)[2] - mesh.nodes[i][2], dynamics.v[i][0], dynamics.v[i][1], dynamics.v[i][2]}};
     history.hub       = hub.motion;
     history.n_cells   = mesh.n_global_cells;
     history.n_hanging = mesh.n_global_hanging_nodes;
+
+    history.largest_share = shares.max / shares.avg;
+    std::printf("shares of the ranks: %g to %g\n", shares.min, shares.max);
     return history;
   }
 } // namespace
@@ -156,6 +168,8 @@ int main(int argc, char **argv)
       const std::string name = std::string(c.name) + ": ";
       std::printf("%s%u cells, %u hanging nodes, largest displacement %.4g um, velocity %.4g m/s\n",
                   name.c_str(), alone.n_cells, alone.n_hanging, 1e6 * scale[0], scale[1]);
+      // Eight siblings stay together.
+      check.below(name + "largest share of the cells' cost over the mean", together.largest_share, 1.15);
       check.that(name + "has hanging nodes", alone.n_hanging > 0);
       check.absolute(name + "cells", together.n_cells, alone.n_cells, 0.);
       check.absolute(name + "hanging nodes", together.n_hanging, alone.n_hanging, 0.);

@@ -48,11 +48,11 @@ namespace
   /// Kinetic and strain energy (J) at the instant of the velocities.
   double energy_of(const ExplicitDynamics &dynamics)
   {
-    NodalField middle(dynamics.x.size());
+    NodalField middle(dynamics.v.size());
     double     energy = 0.;
     for (unsigned int i = 0; i < middle.size(); ++i)
       {
-        middle[i] = dynamics.x[i] - 0.5 * dynamics.time_step * dynamics.v[i];
+        middle[i] = dynamics.position(i) - 0.5 * dynamics.time_step * dynamics.v[i];
         energy += 0.5 * dynamics.true_masses()[i] * dot(dynamics.v[i], dynamics.v[i]);
       }
     const StrainEnergy strain = dynamics.solid.strain_energy(middle.data());

@@ -66,7 +66,7 @@ namespace
     void evaluate_internal_forces()
     {
       internal.assign(mesh->nodes.size(), Row{});
-      solid->add_internal_forces(dynamics->x.data(), dynamics->v.data(), internal.data());
+      solid->add_internal_forces(dynamics->positions().data(), dynamics->v.data(), internal.data());
     }
 
     double mean_velocity(const std::vector<unsigned int> &nodes, const unsigned int direction) const
@@ -148,7 +148,8 @@ namespace
             far_velocity.add(t, dt, bar.mean_velocity(far, 0));
             front.add(t, bar.mean_velocity(middle, 0));
             front_end.add(t, bar.mean_velocity(far, 0));
-            far_stress.add(dynamics.time, dt, bar.solid->cauchy_stress(dynamics.x.data())[last_cell][0]);
+            far_stress.add(dynamics.time, dt,
+                           bar.solid->cauchy_stress(dynamics.positions().data())[last_cell][0]);
           }
         const std::string name = far_end_fixed ? "bar, fixed end: " : "bar, free end: ";
         // 200 cells: ripples behind the front average out to some 1e-3.
@@ -228,14 +229,16 @@ namespace
         for (unsigned int i = 0; i < all.size(); ++i)
           {
             all[i] = i;
-            dynamics.x[i][direction] += 1e-6 / k * std::cos(k * column.mesh->nodes[i][0]);
+            Row x  = dynamics.position(i);
+            x[direction] += 1e-6 / k * std::cos(k * column.mesh->nodes[i][0]);
+            dynamics.set_position(i, x);
           }
         const auto amplitude = [&]() {
           double sum = 0., norm = 0.;
           for (unsigned int i = 0; i < all.size(); ++i)
             {
               const double shape = std::cos(k * column.mesh->nodes[i][0]) * dynamics.true_masses()[i];
-              sum += shape * (dynamics.x[i][direction] - column.mesh->nodes[i][direction]);
+              sum += shape * (dynamics.position(i)[direction] - column.mesh->nodes[i][direction]);
               norm += shape * std::cos(k * column.mesh->nodes[i][0]);
             }
           return sum / norm;
@@ -281,7 +284,7 @@ namespace
         shape[i] = Row{(-k * std::exp(-q * depth) + s * b * std::exp(-s * depth)) * std::sin(k * x), 0.,
                        (q * std::exp(-q * depth) - k * b * std::exp(-s * depth)) * std::cos(k * x), 0.} /
                    k;
-        dynamics.x[i] += amplitude * shape[i];
+        dynamics.set_position(i, dynamics.position(i) + amplitude * shape[i]);
       }
     dynamics.start();
     std::vector<unsigned int> all(shape.size());
@@ -301,8 +304,8 @@ namespace
         double now = 0.;
         for (unsigned int i = 0; i < all.size(); ++i)
           now += dynamics.true_masses()[i] *
-                 dot(shape[i], dynamics.x[i] - Row{block.mesh->nodes[i][0], block.mesh->nodes[i][1],
-                                                   block.mesh->nodes[i][2], 0.});
+                 dot(shape[i], dynamics.position(i) - Row{block.mesh->nodes[i][0], block.mesh->nodes[i][1],
+                                                          block.mesh->nodes[i][2], 0.});
         if (dynamics.n_steps > 1 && now * last < 0.)
           crossings.push_back(last_time + last / (last - now) * (dynamics.time - last_time));
         last      = now;

@@ -70,7 +70,7 @@ namespace
     Yielding result;
     result.force                     = std::abs(contact.total_impulse()[2]);
     const std::vector<double> strain = solid.plastic().equivalent_plastic_strain(dynamics.history);
-    const auto                stress = solid.cauchy_stress(dynamics.x.data(), dynamics.history);
+    const auto                stress = solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.plastic().contains(c))
         {

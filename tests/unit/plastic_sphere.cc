@@ -130,7 +130,7 @@ namespace
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         if (mesh.nodes[i].norm() > outer - 1e-6)
           {
-            sum += std::sqrt(dot(dynamics.x[i], dynamics.x[i])) - outer;
+            sum += std::sqrt(dot(dynamics.position(i), dynamics.position(i))) - outer;
             ++n;
           }
       return sum / n;
@@ -191,8 +191,9 @@ int main(int argc, char **argv)
       // of the elastic wall (Lame).
       const double p = pressure_at(0.08);
       shell.load(0.);
-      const auto stress = shell.solid.cauchy_stress(shell.dynamics.x.data(), shell.dynamics.history);
-      double     error = 0., scale = 0.;
+      const auto stress =
+        shell.solid.cauchy_stress(shell.dynamics.positions().data(), shell.dynamics.history);
+      double error = 0., scale = 0.;
       for (unsigned int cell = 0; cell < shell.mesh.cells.size(); ++cell)
         {
           Point<3> q;

@@ -130,7 +130,7 @@ namespace
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 0)
         {
-          const Row x = dynamics.x[i];
+          const Row x = dynamics.position(i);
           low         = std::min(low, x[2]);
           high        = std::max(high, x[2]);
           if (std::hypot(mesh.nodes[i][0], mesh.nodes[i][1]) > 0.99 * radius && mesh.nodes[i][2] < 1e-6)

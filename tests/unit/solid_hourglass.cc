@@ -184,7 +184,7 @@ namespace
     dynamics.relax(1e-6, 200000, {});
     double work = 0.; // deflection at the load = work over load
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      work += dynamics.external_force[i][2] * (dynamics.x[i][2] - mesh.nodes[i][2]);
+      work += dynamics.external_force[i][2] * (dynamics.position(i)[2] - mesh.nodes[i][2]);
     const double area = width * height, inertia = width * height * height * height / 12.;
     const double theory = load * length * length * length / (3. * material.young_modulus * inertia) +
                           load * length / (5. / 6. * material.shear_modulus() * area);

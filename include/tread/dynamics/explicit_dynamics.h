@@ -148,7 +148,18 @@ namespace tread
     /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
     void check_stability() const;
 
-    NodalField x, v;           ///< positions, m, and velocities (half a step back), m/s
+    /// Where a node is, m.
+    Row position(const unsigned int node) const
+    {
+      return x_damped[node] - damping_time * v[node];
+    }
+    NodalField positions() const;
+    void       set_position(const unsigned int node, const Row place)
+    {
+      x_damped[node] = place + damping_time * v[node];
+    }
+
+    NodalField v;              ///< velocities, half a step back, m/s
     NodalField external_force; ///< N, by node; empty if none
     /// Of the cells of plastic zones, at x + beta v of the last step.
     PlasticHistory history;
@@ -159,7 +170,7 @@ namespace tread
     /// Bytes that the nodes of this rank hold here.
     std::size_t memory_consumption() const
     {
-      std::size_t bytes = x.size() * (4 * sizeof(Row) + 2 * sizeof(double) + 3 + sizeof(level_of_node[0]));
+      std::size_t bytes = v.size() * (3 * sizeof(Row) + 2 * sizeof(double) + 3 + sizeof(level_of_node[0]));
       for (const SlowShares &shares : slow_shares)
         bytes += shares.nodes.size() * (sizeof(unsigned int) + sizeof(Row));
       for (const HangingNodesOfLevel &of_level : hanging)
@@ -185,8 +196,9 @@ namespace tread
   private:
     /// Time step, inverse masses and the pairs in contact.
     void                set_inertia();
-    void                prepare_step();              ///< what step() leaves behind for the next one
-    std::vector<double> free_inverse_masses() const; ///< 0 where motion is prescribed
+    void                prepare_step();                      ///< what step() leaves behind for the next one
+    void                set_damping_time(const double beta); ///< positions stay
+    std::vector<double> free_inverse_masses() const;         ///< 0 where motion is prescribed
     double              highest_frequency(const unsigned int first_level) const;
     void                set_node_levels();
     unsigned int        level_due() const; ///< the highest level whose cells are evaluated in this step
@@ -313,7 +325,9 @@ namespace tread
     std::vector<SlowShares>          slow_shares; ///< by level
     bool                             slow_shares_known = false;
     NodalField                       force_before; ///< of the cells of a level, on nodes that share them
-    NodalField                       force, x_damped;
+    NodalField                       force;
+    NodalField                       x_damped;          ///< x + beta v: all that a step needs of positions
+    double                           damping_time = 0.; ///< beta, s: set by start(), 0 at rest
     std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
     std::vector<LoadOfShared>                          loads_of_shared;
     BodyLoads                                          next_loads; ///< of level 0 in its next step

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tread
@@ -48,8 +49,7 @@ namespace tread
 
     MPI_Comm                      comm;
     std::vector<std::string>      body_names;
-    std::vector<dealii::Point<3>> nodes; ///< reference positions, m
-    std::vector<std::uint64_t>    global_ids;
+    std::vector<dealii::Point<3>> nodes;       ///< reference positions, m
     std::vector<unsigned int>     node_bodies; ///< body of each node
     std::vector<Cell>             cells;
     std::vector<Face>             faces;
@@ -72,15 +72,24 @@ namespace tread
     /// Bytes that the cells and nodes of this rank hold.
     std::size_t memory_consumption() const
     {
-      return cells.size() * sizeof(Cell) +
-             nodes.size() * (sizeof(nodes[0]) + sizeof(global_ids[0]) + sizeof(node_bodies[0]) + 1) +
+      return cells.size() * sizeof(Cell) + nodes.size() * (sizeof(nodes[0]) + sizeof(node_bodies[0]) + 1) +
              hanging_nodes.size() * sizeof(HangingNode);
     }
 
+    /// About how long a cell of a body with these corners (reference positions, m) will take in all, s.
+    /// @param level of time steps that its size gives it.
+    using CellCost = std::function<double(unsigned int                                        body,
+                                          const std::array<dealii::Point<3>, nodes_per_cell> &corners,
+                                          unsigned int                                        level)>;
+
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
-    /// @param max_level of time steps that the cells will be run with: what ranks share fairly.
+    /// @param max_level of time steps that the cells will be run with.
+    /// @param cost what ranks get equal shares of where that pays; none: cells.
     /// @throws std::runtime_error when a body has a cell that is turned inside out.
-    Mesh(const MPI_Comm comm, const std::vector<Body> &bodies, const unsigned int max_level = 0);
+    Mesh(const MPI_Comm           comm,
+         const std::vector<Body> &bodies,
+         const unsigned int       max_level = 0,
+         const CellCost          &cost      = {});
 
     /// Parents receive the forces (or masses) of their hanging nodes.
     void condense_hanging_nodes(Row *field) const
@@ -113,7 +122,7 @@ namespace tread
     }
 
   private:
-    void renumber(const std::vector<unsigned int> &level_of_node);
+    void renumber(const std::vector<unsigned int> &level_of_node, std::vector<std::uint64_t> &global_ids);
   };
 } // namespace tread
 

@@ -26,11 +26,11 @@ namespace tread
 
     /// @throws std::runtime_error if the Jacobian is not positive at a Gauss point.
     explicit HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes);
-
-    /// Whether the cell is a box, sheared or turned: its moments are below 1e-10 of its size, which is
-    /// round-off of positions.
-    bool is_parallelepiped() const;
   };
+
+  /// Whether a cell with these corners is a box, sheared or turned: the sums of the positions times the
+  /// hourglass patterns are below 1e-10 of its size, which is round-off of positions.
+  bool is_parallelepiped(const std::array<dealii::Point<3>, 8> &corners);
 
   /// Linear mode xi, eta or zeta at a node of a cell in lexicographic order: 1 or -1.
   constexpr double linear_pattern(const unsigned int direction, const unsigned int node)

@@ -140,6 +140,11 @@ namespace tread
     /// What cell_levels() would say of a cell with another largest level.
     unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
 
+    /// About how long a cell and its nodes take in a step, s: for fair shares of the ranks.
+    static double step_seconds(const std::array<dealii::Point<3>, 8> &corners,
+                               const ElementType                      type,
+                               const bool                             is_plastic);
+
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
     /// Computed anew: nothing of it is kept.
     std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
