@@ -204,7 +204,7 @@ namespace tread
               v[hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
             }
         mesh.distribute_hanging_nodes(x.data());
-        mesh.distribute_hanging_nodes(v.data());
+        Mesh::distribute(hanging_at_contact, v.data()); // all that is asked for
 
         if (measure)
           {

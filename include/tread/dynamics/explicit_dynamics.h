@@ -159,7 +159,9 @@ namespace tread
       x_damped[node] = place + damping_time * v[node];
     }
 
-    NodalField v;              ///< velocities, half a step back, m/s
+    /// Velocities, half a step back, m/s. To be set from outside between relax() and start() alone, where
+    /// positions do not depend on them.
+    NodalField v;
     NodalField external_force; ///< N, by node; empty if none
     /// Of the cells of plastic zones, at x + beta v of the last step.
     PlasticHistory history;
