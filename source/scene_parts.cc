@@ -200,7 +200,8 @@ namespace tread
   Mesh::CellCost cell_cost(const Scene &scene)
   {
     const double wave_speed = scene.rail_material.si().pressure_wave_speed() / std::sqrt(scene.density_scale);
-    const double steps      = scene.rolled_mm / scene.speed() * wave_speed / scene.finest_mm;
+    // Of the smallest cells' waves, with what damping and Courant number take.
+    const double steps = 1.2 * scene.rolled_mm / scene.speed() * wave_speed / scene.finest_mm;
     return [steps, type = solid_parameters(scene).element_type, zones = plastic_zones(scene)](
              const unsigned int body, const auto &corners, const unsigned int level) {
       dealii::Point<3> centre;

@@ -139,8 +139,8 @@ namespace tread
                  const LikelyLevels      &likely_level,
                  const Mesh::CellCost    &cost)
     {
-      // To cut a body anew takes deal.II so long, s, and so much longer for each cell of a rank.
-      constexpr double to_cut = 0.4, to_cut_at_a_cell = 2e-6;
+      // Seconds that deal.II takes to cut the mesh anew, for each cell of a rank.
+      constexpr double to_cut  = 12e-6;
       const auto       cost_of = [&](const auto &cell) {
         std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
         for (unsigned int v = 0; v < corners.size(); ++v)
@@ -158,8 +158,7 @@ namespace tread
       const MPI_Comm comm       = triangulation.get_communicator();
       const auto     over_ranks = dealii::Utilities::MPI::min_max_avg(of_rank, comm);
       const double   n_cells    = triangulation.n_global_active_cells();
-      if (over_ranks.max - over_ranks.avg <
-          to_cut + to_cut_at_a_cell * n_cells / dealii::Utilities::MPI::n_mpi_processes(comm))
+      if (over_ranks.max - over_ranks.avg < to_cut * n_cells / dealii::Utilities::MPI::n_mpi_processes(comm))
         return;
       const double unit       = dealii::Utilities::MPI::max(largest, comm) / 1000.;
       const auto   connection = triangulation.signals.weight.connect(

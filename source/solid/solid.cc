@@ -184,7 +184,7 @@ namespace tread
     // As measured (benchmarks/kernel_benchmark, plastic_benchmark).
     return type == ElementType::fully_integrated ? 250e-9
            : is_plastic                          ? 60e-9
-           : is_parallelepiped(corners)          ? 32e-9
+           : is_parallelepiped(corners)          ? 30e-9
                                                  : 40e-9;
   }
 
