@@ -27,10 +27,11 @@ SIZES = ({"Mesh/Fine layers": 1, "Mesh/Cells per level": 1}, {"Mesh/Fine layers"
 LARGE = {"Mesh/Fine layers": 64, "Mesh/Fine half width (mm)": 80}
 WEAK = ((2, 3), (4, 5))  # which of the sizes on one rank is compared with which on two
 
-# Whole runs: (scene, changes).
+# name: (scene, changes); the first two are whole runs.
 STRONG = {"smooth-rolling, 0.63 mm": ("smooth-rolling.prm", {}),
-          "half-space, 0.33 mm": (SIZE_SCENE, {}),
-          "half-space, fine to a greater depth": (SIZE_SCENE, SIZES[3])}
+          "half-space, 0.33 mm": ("verification/half-space-0.33-mu0.30.prm", {}),
+          "fine to a greater depth, 1 mm rolled": (SIZE_SCENE, {**SIZE_CHANGES, **SIZES[3]}),
+          "fine all over, 1 mm rolled": (SIZE_SCENE, {**SIZE_CHANGES, **SIZES[5]})}
 
 # What all ranks must agree on, with a tight contact tolerance.
 RANKS = {"Mesh/Finest cell (mm)": 1.3, "Mesh/Fine half width (mm)": 9, "Motion/Rolled distance (mm)": 12,

@@ -140,7 +140,7 @@ namespace tread
                  const Mesh::CellCost    &cost)
     {
       // Seconds that deal.II takes to cut the mesh anew, for each cell of a rank.
-      constexpr double to_cut  = 12e-6;
+      constexpr double to_cut  = 20e-6;
       const auto       cost_of = [&](const auto &cell) {
         std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
         for (unsigned int v = 0; v < corners.size(); ++v)
