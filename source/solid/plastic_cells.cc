@@ -17,6 +17,15 @@ namespace tread
   } // namespace
 
 
+  int zone_at(const std::vector<PlasticZone> &zones, const unsigned int body, const dealii::Point<3> &centre)
+  {
+    for (unsigned int z = zones.size(); z-- > 0;)
+      if (zones[z].body == body && zones[z].contains(centre))
+        return zones[z].material.yield_stress > 0. ? z : -1;
+    return -1;
+  }
+
+
   PlasticCells::PlasticCells(const Mesh                         &mesh,
                              const std::vector<ElasticMaterial> &materials,
                              const std::vector<PlasticZone>     &zones,
@@ -30,9 +39,7 @@ namespace tread
       {
         for (const unsigned int i : mesh.cells[c].nodes)
           centers[c] += mesh.nodes[i] / 8.;
-        for (unsigned int z = 0; z < zones.size(); ++z)
-          if (zones[z].body == mesh.cells[c].body && zones[z].contains(centers[c]))
-            zone_of_cell[c] = zones[z].material.yield_stress > 0. ? z : -1;
+        zone_of_cell[c] = zone_at(zones, mesh.cells[c].body, centers[c]);
       }
 
     std::size_t size = 0;

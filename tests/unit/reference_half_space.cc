@@ -214,21 +214,14 @@ namespace
     std::printf("\n--- power of unlike bodies: dissipation in the limit against the balance\n");
     for (const bool soft_wheel : {false, true})
       {
-        RollingCase c;
-        c.curvature_x                         = 1. / 0.92;
-        c.curvature_y                         = 1. / 0.6;
-        c.normal_force                        = 127e3;
-        c.friction                            = 0.5;
-        c.speed                               = 39.;
-        c.traction_coefficient                = 0.3;
-        (soft_wheel ? c.wheel : c.rail).young = 70e9;
         double power[2], balance[2];
         for (unsigned int i = 0; i < 2; ++i)
           {
-            c.element_size               = i == 0 ? 0.4e-3 : 0.2e-3;
-            const RollingResult solution = solve_rolling(c);
-            power[i]                     = solution.frictional_power;
-            balance[i]                   = solution.power_balance;
+            RollingCase c                         = thesis_case(0.3, i == 0 ? 0.4 : 0.2);
+            (soft_wheel ? c.wheel : c.rail).young = 70e9;
+            const RollingResult solution          = solve_rolling(c);
+            power[i]                              = solution.frictional_power;
+            balance[i]                            = solution.power_balance;
           }
         check.relative(soft_wheel ? "soft wheel [W]" : "soft rail [W]", 2. * power[1] - power[0],
                        2. * balance[1] - balance[0], 0.01);

@@ -20,6 +20,10 @@ namespace tread
     std::function<bool(const dealii::Point<3> &)> contains;
   };
 
+  /// The zone in which a cell of a body with this centre (reference position, m) may yield: the last that
+  /// contains it; -1 if there is none or that one is elastic.
+  int zone_at(const std::vector<PlasticZone> &zones, const unsigned int body, const dealii::Point<3> &centre);
+
   /// What the cells of all plastic zones of a rank remember. Part of the state of a run, as positions are.
   struct PlasticHistory
   {
