@@ -18,8 +18,10 @@ A study is a text file in the format of the scenes:
       set Motion/Speed (km per h) = 70 | 100 | 140
     end
 
-Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv; and, with
-a smooth twin, dynamic(...) and frequency(...) of a force: the peak of what the defect adds, and its strongest vibration.
+Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv, or of another
+table, as in max(strip.csv:von_mises_MPa); at(strip.csv:von_mises_MPa:x_mm), which is x_mm in the row where von_mises_MPa is
+largest; and, with a smooth twin, dynamic(...) and frequency(...) of a force: the peak of what the defect adds, and its
+strongest vibration.
 
 Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
 interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. Ctrl-C ends the runs with a
@@ -79,8 +81,10 @@ class Study:
         self.figures = values_of(entries["Figures"])
         for figure in self.figures:
             kind = re.match(r"(\w+)\(", figure)
-            if kind and kind[1] not in ("max", "min", "last", "dynamic", "frequency"):
-                raise DataError(f"{path}: 'Figures': no '{kind[1]}(...)'; there are max, min, last, dynamic, frequency")
+            if kind and kind[1] not in ("max", "min", "last", "at", "dynamic", "frequency"):
+                raise DataError(f"{path}: 'Figures': no '{kind[1]}(...)'; there are max, min, last, at, dynamic, frequency")
+            if kind and kind[1] == "at" and figure.count(":") != 2:
+                raise DataError(f"{path}: 'Figures': {figure} must be at(TABLE.csv:COLUMN:OTHER COLUMN)")
             if kind and kind[1] in ("dynamic", "frequency") and not self.without_defect:
                 raise DataError(f"{path}: 'Figures': {figure} needs a 'Smooth twin'")
         self.directory = entries["Directory"] or os.path.join(
@@ -275,9 +279,13 @@ def figure_of(run, figure):
         if not isinstance(summary.get(figure), (int, float)):
             raise DataError(f"{run.name}: summary.json has no figure '{figure}'")
         return float(summary[figure])
-    if kind[1] in ("max", "min", "last"):
-        column = read_table(run.path("history.csv"), (kind[2],))[kind[2]]
-        return float({"max": column.max, "min": column.min, "last": lambda: column[-1]}[kind[1]]())
+    if kind[1] in ("max", "min", "last", "at"):
+        names = kind[2].split(":")
+        table = names.pop(0) if len(names) > 1 else "history.csv"
+        columns = read_table(run.path(table), tuple(names))
+        column = columns[names[0]]
+        return float({"max": column.max, "min": column.min, "last": lambda: column[-1],
+                      "at": lambda: columns[names[1]][column.argmax()]}[kind[1]]())
     with open(run.path("dynamic.json"), encoding="utf-8") as stream:
         force = json.load(stream)["forces"].get(kind[2])
     if force is None:

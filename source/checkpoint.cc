@@ -32,7 +32,7 @@ namespace tread
     struct RankWork
     {
       double damping = 0., external_work = 0., gross_work = 0., plastic = 0., friction = 0., contact = 0.,
-             last_damping_power = 0.;
+             contact_on_nodes = 0., last_damping_power = 0.;
     };
 
     template <typename Archive, typename T>
@@ -62,7 +62,7 @@ namespace tread
       /// themselves.
       static std::string own_layout()
       {
-        std::string text = "tread-checkpoint-8";
+        std::string text = "tread-checkpoint-9";
         for (const std::size_t n :
              {sizeof(StoredNode), sizeof(EnergyLedger), sizeof(StrainEnergy), sizeof(StepTimes),
               sizeof(WheelHub), sizeof(PatchNode), sizeof(PatchMeasures), sizeof(CellHistory),
@@ -118,6 +118,8 @@ namespace tread
   void Checkpoint::state(Archive &archive, Simulation &s)
   {
     ExplicitDynamics &d = s.dynamics;
+    bytes(archive, d.highest_of_step);
+    bytes(archive, d.bound_found_stable);
     bytes(archive, d.time);
     bytes(archive, d.n_steps);
     bytes(archive, d.totals);
@@ -129,6 +131,7 @@ namespace tread
     bytes(archive, d.start_hub_gross);
     bytes(archive, d.last_damping_power);
     bytes(archive, d.last_damping_step);
+    bytes(archive, d.damping_is_sampled);
     bytes(archive, d.start_springs);
     bytes(archive, d.start_dissipated);
     if (s.supports)
@@ -195,8 +198,9 @@ namespace tread
 
   std::string Checkpoint::own_part(const ExplicitDynamics &d)
   {
-    const RankWork work{d.totals.damping,  d.totals.external_work, d.totals.gross_work, d.totals.plastic,
-                        d.totals.friction, d.totals.contact,       d.last_damping_power};
+    const RankWork work{d.totals.damping,          d.totals.external_work, d.totals.gross_work,
+                        d.totals.plastic,          d.totals.friction,      d.totals.contact,
+                        d.totals.contact_on_nodes, d.last_damping_power};
     std::string    part(reinterpret_cast<const char *>(&work), sizeof work);
     for (const ExplicitDynamics::SlowShares &shares : d.slow_shares)
       part.append(reinterpret_cast<const char *>(shares.steady.data()), shares.steady.size() * sizeof(Row));
@@ -217,9 +221,9 @@ namespace tread
         i += sizeof size;
         RankWork work;
         std::memcpy(&work, &parts[i], sizeof work);
-        for (double RankWork::*value :
-             {&RankWork::damping, &RankWork::external_work, &RankWork::gross_work, &RankWork::plastic,
-              &RankWork::friction, &RankWork::contact, &RankWork::last_damping_power})
+        for (double RankWork::*value : {&RankWork::damping, &RankWork::external_work, &RankWork::gross_work,
+                                        &RankWork::plastic, &RankWork::friction, &RankWork::contact,
+                                        &RankWork::contact_on_nodes, &RankWork::last_damping_power})
           sum.*value += work.*value;
         if (n_parts == rank)
           {
@@ -234,16 +238,17 @@ namespace tread
     const bool same_ranks = !dealii::Utilities::MPI::logical_or(
       n_parts != dealii::Utilities::MPI::n_mpi_processes(comm) || own_size != n_shares * sizeof(Row), comm);
     // On other ranks the steady shares of slow cells' forces begin anew, and the first has all work.
-    const RankWork work     = same_ranks ? own : rank == 0 ? sum : RankWork();
-    d.totals.damping        = work.damping;
-    d.totals.external_work  = work.external_work;
-    d.totals.gross_work     = work.gross_work;
-    d.totals.plastic        = work.plastic;
-    d.totals.friction       = work.friction;
-    d.totals.contact        = work.contact;
-    d.last_damping_power    = work.last_damping_power;
-    d.slow_shares_known     = same_ranks;
-    const char *next_steady = own_steady;
+    const RankWork work       = same_ranks ? own : rank == 0 ? sum : RankWork();
+    d.totals.damping          = work.damping;
+    d.totals.external_work    = work.external_work;
+    d.totals.gross_work       = work.gross_work;
+    d.totals.plastic          = work.plastic;
+    d.totals.friction         = work.friction;
+    d.totals.contact          = work.contact;
+    d.totals.contact_on_nodes = work.contact_on_nodes;
+    d.last_damping_power      = work.last_damping_power;
+    d.slow_shares_known       = same_ranks;
+    const char *next_steady   = own_steady;
     if (same_ranks)
       for (ExplicitDynamics::SlowShares &shares : d.slow_shares)
         {
@@ -295,6 +300,7 @@ namespace tread
             boost::archive::binary_oarchive archive(content);
             std::string                     text = fingerprint(simulation);
             archive << text;
+            bytes(archive, d.critical_step);
             state(archive, simulation);
             archive << nodes << cells << parts << peaks;
           }
@@ -365,6 +371,7 @@ namespace tread
                          "', now '" +
                          new_line.substr(std::min(new_line.size(), new_line.find_first_not_of(' '))) + "'");
       }
+    bytes(archive, d.critical_step);
     d.set_inertia(); // first, as it looks for the pairs in contact, which are read
     state(archive, simulation);
     std::string nodes, cells, parts, peaks;

@@ -3,6 +3,7 @@
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
 #include <tread/reference/subsurface.h>
+#include <tread/reference/transient.h>
 #include <tread/reference_only.h>
 #include <tread/references.h>
 
@@ -79,13 +80,11 @@ namespace tread
     };
 
     /// Stresses down to three times the smaller semi-axis, under the patch centre and at the x of the
-    /// largest von Mises stress, in both bodies; the largest go into the summary. They are those of elements
-    /// twice as large: four times faster, and within 0.4 % from a twentieth of the smaller semi-axis on.
+    /// largest von Mises stress, in both bodies; the largest go into the summary. They are those of the
+    /// tractions of first order, within 0.4 % from a twentieth of the smaller semi-axis on.
     std::string depth_lines(const Scene &scene, Summary &summary)
     {
-      reference::RollingCase coarse = half_space_case(scene);
-      coarse.element_size *= 2.;
-      const reference::RollingResult answer = reference::solve_rolling(coarse);
+      const reference::RollingResult answer = reference::solve_rolling(half_space_case(scene));
       const double                   a = answer.hertz_semi_x, smaller = std::min(a, answer.hertz_semi_y);
       std::ostringstream             table;
       table
@@ -127,13 +126,43 @@ namespace tread
   } // namespace
 
 
+  namespace
+  {
+    /// How the traction builds up over the distance that a scene rolls at its creepage from a start without
+    /// tractions; empty where that is not what the scene asks for, or the half-space knows no answer.
+    std::string transient_table(const Scene &scene, const reference::RollingEstimate &steady)
+    {
+      reference::TransientCase transient;
+      transient.rolling = half_space_case(scene);
+      const bool like   = reference::combine(transient.rolling.wheel, transient.rolling.rail).coupling == 0.;
+      if (scene.start_tractions != "none" || scene.drive != "creepage" || !like || !(scene.friction > 0.))
+        return "";
+      // Elements half as large again: some seconds of rolling, 0.1 % of the steady traction.
+      transient.rolling.element_size *= 1.5;
+      transient.rolling.prescribe_force       = false;
+      transient.rolling.creepage              = steady.creepage.value;
+      transient.distance                      = scene.path_end() - scene.path_begin();
+      const reference::TransientResult result = reference::solve_transient(transient);
+      std::ostringstream               table;
+      table << "rolled_mm,traction_coefficient,lateral_coefficient,longitudinal_force_N,creepage\n"
+            << std::setprecision(7);
+      for (std::size_t k = 0; k < result.distance.size(); ++k)
+        table << 1e3 * result.distance[k] << ',' << result.traction_coefficient[k] << ','
+              << result.lateral_coefficient[k] << ','
+              << result.traction_coefficient[k] * transient.rolling.normal_force << ','
+              << 0. - result.creepage[k] << '\n';
+      return table.str();
+    }
+  } // namespace
+
+
   void run_reference_only(const Scene &scene, const std::string &path, const MPI_Comm comm)
   {
-    Progress                 progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    reference::RollingResult half_space;
+    Progress                   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    reference::RollingEstimate estimate;
     try
       {
-        half_space = reference::solve_rolling(half_space_case(scene));
+        estimate = reference::estimate_rolling(half_space_case(scene));
       }
     catch (const std::exception &error)
       {
@@ -141,7 +170,17 @@ namespace tread
       }
 
     Summary summary;
-    summarise(summary, scene, "half-space solver", contact_answer(half_space), true);
+    summarise(summary, scene, "half-space solver", contact_answer(estimate), true);
+    const reference::RollingResult &half_space = estimate.fields;
+    for (const auto &[name, value] :
+         {std::pair<const char *, const reference::Estimate &>{"creepage", estimate.creepage},
+          {"traction_coefficient", estimate.traction_coefficient},
+          {"max_pressure_Pa", estimate.max_pressure},
+          {"adhesion_share", estimate.adhesion_share},
+          {"max_shear_Pa", estimate.max_shear},
+          {"max_slip_m_per_s", estimate.max_slip},
+          {"frictional_power_W", estimate.frictional_power}})
+      summary.set(std::string(name) + "_half_space_uncertainty", value.uncertainty);
     const std::string subsurface = depth_lines(scene, summary);
     summary.set("approach_m", half_space.approach);
     summary.set("element_size_m", half_space.element_size);
@@ -165,6 +204,9 @@ namespace tread
     folder.write_patch("patch.csv", nodes);
     folder.write_surface(nodes, half_space.element_size);
     folder.write("subsurface.csv", subsurface);
+    const std::string transient = transient_table(scene, estimate);
+    if (!transient.empty())
+      folder.write("transient.csv", transient);
     folder.write("summary.json", summary.text());
 
     progress.say("tread " + version() + (scene.title.empty() ? "" : ": " + scene.title));
@@ -177,7 +219,7 @@ namespace tread
     progress.say(text);
     progress.say(summary.table());
     std::snprintf(text, sizeof text, "finished in %.2f s. Results in ", progress.seconds());
-    progress.say(text + folder.path("") +
-                 ": summary.json, patch.csv, subsurface.csv; for ParaView: surface.pvd");
+    progress.say(text + folder.path("") + ": summary.json, patch.csv, subsurface.csv" +
+                 (transient.empty() ? "" : ", transient.csv") + "; for ParaView: surface.pvd");
   }
 } // namespace tread

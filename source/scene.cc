@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/reference/hertz.h>
-#include <tread/reference/rolling_case.h>
 #include <tread/scene.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
 
 namespace tread
 {
@@ -17,13 +11,6 @@ namespace tread
     using dealii::Patterns::Selection;
 
     constexpr double tiny = 1e-12; // for "above 0"
-
-    std::string number(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
   } // namespace
 
 
@@ -215,6 +202,16 @@ namespace tread
       "Rail beyond the rolled distance, at each end. At least three contact semi-axes; 150 of a full "
       "section, whose head gives way near a free end: the normal force would drift by per cents.",
       Double(0., 20000.));
+    prm.add_parameter(
+      "Ends", rail_ends,
+      "Of a rail on supports ('Track/Foundation'). symmetric: planes of symmetry, which reflect waves. "
+      "absorbing: the same planes behind a length of rail in which damping grows towards the end and takes "
+      "up most of the waves, as if the rail went on.",
+      Selection("symmetric|absorbing"));
+    prm.add_parameter("Absorbing length (m)", absorbing_length_m,
+                      "Of the part at each absorbing end; the wheel's path stays a sleeper spacing clear of "
+                      "it. Longer ones absorb lower frequencies: from 0.6 m on it helps.",
+                      Double(0.05, 100.));
     declare_material(rail_material);
     prm.leave_subsection();
 
@@ -226,14 +223,25 @@ namespace tread
       "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
       "pressure's error shrinks like its square.",
       Double(0.02, 20.));
-    prm.add_parameter("Fine half width (mm)", fine_half_width_mm,
-                      "Finest cells reach from the middle of the patch to here; contact must stay inside.",
-                      Double(0.1, 500.));
+    prm.add_parameter(
+      "Fine half width (mm)", fine_half_width_mm,
+      "Finest cells reach from the middle of the patch to here; contact must stay inside. 0: as far "
+      "as the patch under the static load needs, and 1.35 times as far in a scene that is not "
+      "quasi-static, whose load may double.",
+      Double(0., 500.));
     prm.add_parameter("Fine layers", fine_layers,
                       "Layers of finest cells under the surface; even numbers fit the octree.",
                       Integer(1, 64));
     prm.add_parameter("Cells per level", cells_per_level,
-                      "How many cells of each larger size follow before the next doubling.", Double(1., 32.));
+                      "How many cells of each larger size follow before the next doubling, at least.",
+                      Double(1., 32.));
+    prm.add_parameter(
+      "Level depth (semi-axes)", level_depth,
+      "Least thickness of the layers of larger cells below the finest ones, over Hertz's mean "
+      "semi-axis: of cells of twice the size, four times the size, and so on. So the error of the "
+      "graded mesh shrinks with the finest cell; with 0, where 'Cells per level' alone counts, "
+      "bodies are about 1 % too stiff at any finest cell, and cells below 0.7 mm are fewer.",
+      Double(0., 10.));
     prm.add_parameter(
       "Coarsest cell (mm)", coarsest_mm,
       "Upper bound of the coarse blocks' edges, not below the finest cell; a rail head, being curved, "
@@ -406,190 +414,5 @@ namespace tread
                       "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.",
                       Double(0.));
     prm.leave_subsection();
-  }
-
-
-  void Scene::check() const
-  {
-    const auto require = [](const bool holds, const std::string &line) {
-      if (!holds)
-        throw SceneError(line);
-    };
-    require(
-      density_scale == 1. || quasi_static,
-      "'Scene/Density scale' must be 1 when 'Scene/Quasi-static' is false: inertia is part of the answer");
-    require(mass_damping == 0. || quasi_static,
-            "'Solid/Mass damping (1 per s)' must be 0 when 'Scene/Quasi-static' is false: it slows waves "
-            "that are part of the answer");
-    require(inertia_error_estimate() <= 0.02 || !quasi_static,
-            "'Scene/Density scale' " + number(density_scale) + " at " + number(speed_kmh) +
-              " km/h makes an inertia error of about " + number(100. * inertia_error_estimate()) +
-              " %; at most 2 % is allowed");
-    require(speed_kmh >= 0.1,
-            "'Motion/Speed (km per h)' must be at least 0.1: a wheel that stands does not roll" +
-              std::string(drive == "torque" ? ", and a torque would only spin it" : ""));
-    require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
-    require(std::abs(traction_coefficient) < friction || (traction_coefficient == 0.) ||
-              (drive == "creepage" && !predicts_creepage()),
-            "'Motion/Traction coefficient' " + number(traction_coefficient) +
-              " must be below 'Contact/Friction coefficient' " + number(friction) + " in size");
-    if (!predicts_creepage())
-      {
-        double      value = 0.;
-        std::size_t used  = 0;
-        try
-          {
-            value = std::stod(creepage, &used);
-          }
-        catch (const std::exception &)
-          {
-          }
-        require(used == creepage.size() && used > 0 && std::abs(value) <= 0.2,
-                "'Motion/Creepage' cannot be '" + creepage +
-                  "'; allowed: 'predicted' or a number from -0.2 to 0.2");
-      }
-    require(drive != "torque" || hold_mm < rolled_mm,
-            "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " + number(rolled_mm));
-
-    check_surfaces();
-    const ElasticMaterial wheel = wheel_material.si(), rail = rail_material.si();
-    const auto            pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
-                                                    {rail.young_modulus, rail.poisson_ratio});
-    const auto            hertz =
-      reference::hertz_ellipse(500. / radius_mm, 0.5 / lateral_radius(), pair.hertz_modulus(), static_load());
-    const double a_mm = 1e3 * hertz.semi_axis_x, b_mm = 1e3 * hertz.semi_axis_y;
-    require(finest_mm <= 0.45 * std::min(a_mm, b_mm),
-            "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
-              number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.45 * std::min(a_mm, b_mm)));
-    const double patch_half_width_mm =
-      1e3 * std::max(patch_extent().end - path_y(), path_y() - patch_extent().begin);
-    require(fine_half_width_mm >= 1.1 * patch_half_width_mm + finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) + " must hold the patch from y = " +
-              number(1e3 * patch_extent().begin) + " to " + number(1e3 * patch_extent().end) +
-              " mm; at least " + number(1.1 * patch_half_width_mm + finest_mm));
-    require(rail_margin_mm >= 3. * a_mm, "'Rail/Margin (mm)' " + number(rail_margin_mm) +
-                                           " lets the wheel leave the rail; at least three semi-axes, " +
-                                           number(3. * a_mm));
-    require(wheel_shape == "full" || sector_margin_mm >= 3. * a_mm,
-            "'Wheel/Sector margin (mm)' " + number(sector_margin_mm) +
-              " lets the contact leave the sector; at least three semi-axes, " + number(3. * a_mm));
-    require(wheel_shape == "full" ||
-              rolled_mm + 2. * sector_margin_mm <= 0.95 * 2. * dealii::numbers::PI * radius_mm,
-            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
-            "wheel's "
-            "circumference, " +
-              number(0.95 * 2. * dealii::numbers::PI * radius_mm));
-    require(wheel_shape == "full" || sector_thickness_mm < radius_mm,
-            "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + number(radius_mm));
-    require(wheel_shape == "sector" ||
-              (bore_radius_mm < hub_outer_radius_mm && hub_outer_radius_mm < rim_inner_radius_mm &&
-               rim_inner_radius_mm < radius_mm),
-            "a full wheel needs 'Wheel/Bore radius (mm)' < 'Hub outer radius (mm)' < 'Rim inner radius (mm)' "
-            "< 'Radius (mm)'");
-    require(wheel_shape == "sector" || web_thickness_mm < std::min(rim_width_mm, hub_length_mm),
-            "'Wheel/Web thickness (mm)' " + number(web_thickness_mm) +
-              " must be below 'Wheel/Rim width (mm)' " + number(rim_width_mm) +
-              " and 'Wheel/Hub length (mm)' " + number(hub_length_mm));
-    require(rail_shape != "block" || crown_radius_mm > 0.5 * block_width_mm,
-            "'Rail/Crown radius (mm)' " + number(crown_radius_mm) +
-              " must be above half of 'Rail/Block width (mm)', " + number(0.5 * block_width_mm));
-    require(rail_shape != "block" ||
-              block_height_mm > -1e3 * crown_height(5e-4 * block_width_mm, 1e-3 * crown_radius_mm),
-            "'Rail/Block height (mm)' " + number(block_height_mm) + " must be above the rise of the crown, " +
-              number(-1e3 * crown_height(5e-4 * block_width_mm, 1e-3 * crown_radius_mm)));
-
-    check_track();
-
-    // Around the finest cells there is room for at least one more.
-    require(coarsest_mm >= finest_mm, "'Mesh/Coarsest cell (mm)' " + number(coarsest_mm) +
-                                        " must be at least 'Mesh/Finest cell (mm)' " + number(finest_mm));
-    const double rail_half_width_mm =
-      rail_shape == "block" ? 0.5 * block_width_mm : 1e3 * rail_profile().shoulder_length();
-    const double beside_mm = 1e3 * std::abs(path_y());
-    require(beside_mm + fine_half_width_mm <= rail_half_width_mm - finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              (beside_mm > 0. ? " about y = " + number(1e3 * path_y()) + " mm" : "") +
-              " must be below the half width of the rail; at most " +
-              number(rail_half_width_mm - finest_mm - beside_mm));
-    const double wheel_half_width_mm = 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm);
-    require(beside_mm + fine_half_width_mm <= wheel_half_width_mm - finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_half_width_mm) +
-              " must be below half of the wheel's width; at most " +
-              number(wheel_half_width_mm - finest_mm - beside_mm));
-    const double thickness_mm =
-      std::min(rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-               wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm);
-    require((fine_layers + 1) * finest_mm <= thickness_mm * (1. + 1e-9),
-            "'Mesh/Fine layers' " + std::to_string(fine_layers) + " of 'Mesh/Finest cell (mm)' " +
-              number(finest_mm) + " do not fit into rail and wheel; at most " +
-              std::to_string(std::max(0, static_cast<int>(thickness_mm / finest_mm * (1. + 1e-9)) - 1)));
-    require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
-            "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
-            "'Solid/Element' fully-integrated");
-    check_plasticity("Wheel", wheel_material,
-                     wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm,
-                     wheel_half_width_mm - beside_mm, -sector_margin_mm, rolled_mm + sector_margin_mm);
-    check_plasticity("Rail", rail_material,
-                     rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-                     rail_half_width_mm - beside_mm, 1e3 * rail_begin(), 1e3 * rail_end());
-  }
-
-
-  void Scene::check_plasticity(const std::string &section,
-                               const Material    &material,
-                               const double       thickness_mm,
-                               const double       half_width_mm,
-                               const double       begin_mm,
-                               const double       end_mm) const
-  {
-    const auto require = [&](const bool holds, const std::string &name, const std::string &rest) {
-      if (!holds)
-        throw SceneError("'" + section + "/" + name + "' " + rest);
-    };
-    if (material.plastic_zones.empty() && material.yield_stress_MPa == 0.)
-      return;
-    const bool bilinear = material.hardening != "Armstrong-Frederick";
-    const auto below    = [&](const double tangent_GPa) {
-      return !bilinear || (tangent_GPa >= 0. && tangent_GPa < material.young_modulus_GPa);
-    };
-    require(element == "one-point" && linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.,
-            "Yield stress (MPa)", "needs 'Solid/Element' one-point and no bulk viscosity");
-    require(below(material.tangent_modulus_GPa), "Tangent modulus (GPa)",
-            number(material.tangent_modulus_GPa) + " must be below Young's modulus, " +
-              number(material.young_modulus_GPa));
-    require(bilinear || dealii::Utilities::split_string_list(material.backstress_moduli_GPa).size() ==
-                          dealii::Utilities::split_string_list(material.backstress_recoveries).size(),
-            "Backstress moduli (GPa)", "has not as many entries as '" + section + "/Backstress recoveries'");
-    require(material.plastic_depth_mm <= thickness_mm, "Plastic depth (mm)",
-            number(material.plastic_depth_mm) + " leaves the mesh; at most " + number(thickness_mm));
-    require(material.plastic_half_width_mm <= half_width_mm, "Plastic half width (mm)",
-            number(material.plastic_half_width_mm) + " leaves the mesh; at most " + number(half_width_mm));
-    for (const Material::Zone &zone : material.zones())
-      {
-        const std::string name = "Plastic zones";
-        require(begin_mm <= zone.begin_mm && zone.begin_mm < zone.end_mm && zone.end_mm <= end_mm, name,
-                "from " + number(zone.begin_mm) + " to " + number(zone.end_mm) +
-                  " mm leaves the mesh, which is from " + number(begin_mm) + " to " + number(end_mm) + " mm");
-        require(zone.depth_mm > 0. && zone.depth_mm <= thickness_mm, name,
-                "of depth " + number(zone.depth_mm) + " mm leaves the mesh; above 0 and at most " +
-                  number(thickness_mm));
-        require(zone.yield_stress_MPa > 0., name,
-                "with yield stress " + number(zone.yield_stress_MPa) + " MPa: must be above 0");
-        require(below(zone.tangent_modulus_GPa), name,
-                "with tangent modulus " + number(zone.tangent_modulus_GPa) +
-                  " GPa: must be below Young's modulus, " + number(material.young_modulus_GPa));
-      }
-  }
-
-
-  double Scene::inertia_error_estimate() const
-  {
-    // Speed of Rayleigh waves (Viktorov 1967), the slower body's.
-    const auto rayleigh = [](const ElasticMaterial &material) {
-      const double nu = material.poisson_ratio;
-      return material.shear_wave_speed() * (0.87 + 1.12 * nu) / (1. + nu);
-    };
-    const double slower = std::min(rayleigh(rail_material.si()), rayleigh(wheel_material.si()));
-    return density_scale * speed() * speed() / (slower * slower);
   }
 } // namespace tread

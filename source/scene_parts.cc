@@ -21,15 +21,17 @@ namespace tread
   std::vector<Body> make_bodies(const Scene &scene)
   {
     const double rolled = 1e-3 * scene.rolled_mm, begin = scene.path_begin(), end = scene.path_end();
-    const double patch = 1.4 * hertz(scene, scene.static_load()).semi_axis_x + 2e-3 * scene.finest_mm;
+    const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+    const double                  patch   = 1.25 * ellipse.semi_axis_x + 2e-3 * scene.finest_mm;
 
     FineZone on_rail;
     on_rail.finest_cell_size = 1e-3 * scene.finest_mm;
     on_rail.x_begin          = begin - patch;
     on_rail.x_end            = end + patch;
-    on_rail.half_width       = 1e-3 * scene.fine_half_width_mm;
+    on_rail.half_width       = scene.fine_half_width();
     on_rail.depth            = scene.fine_layers * on_rail.finest_cell_size;
     on_rail.cells_per_level  = scene.cells_per_level;
+    on_rail.level_depth      = scene.level_depth * std::sqrt(ellipse.semi_axis_x * ellipse.semi_axis_y);
     on_rail.y_middle         = scene.path_y();
     if (scene.fine_from_mm < scene.fine_to_mm && scene.path_cell_mm > scene.finest_mm)
       {

@@ -236,6 +236,21 @@ namespace tread
   }
 
 
+  double Scene::needed_half_width() const
+  {
+    return 1.1 * std::max(patch_extent().end - path_y(), path_y() - patch_extent().begin) + 1e-3 * finest_mm;
+  }
+
+
+  double Scene::fine_half_width() const
+  {
+    // A load that doubles or triples makes the patch wider by its cube root.
+    constexpr double room_for_dynamic_load = 1.35;
+    return fine_half_width_mm > 0. ? 1e-3 * fine_half_width_mm
+                                   : (quasi_static ? 1. : room_for_dynamic_load) * needed_half_width();
+  }
+
+
   double Scene::path_y() const
   {
     const double cell = 1e-3 * finest_mm, y = first_contact().y;

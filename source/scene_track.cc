@@ -90,6 +90,9 @@ namespace tread
 
   void Scene::check_track() const
   {
+    if (!has_supports() && rail_ends != "symmetric")
+      throw SceneError("'Rail/Ends' " + rail_ends +
+                       " needs a rail on supports: 'Track/Foundation' cannot be rigid");
     if (!has_supports())
       return;
     const auto require = [](const bool holds, const std::string &line) {
@@ -136,6 +139,15 @@ namespace tread
     };
     check_overhang(1e3 * positions.front() - begin_mm, "begins", "before its first support");
     check_overhang(end_mm - 1e3 * positions.back(), "ends", "behind its last support");
+    if (const auto ends = absorbing_ends(); ends.length > 0.)
+      {
+        const double clear_m = std::min(path_begin() - ends.begin, ends.end - path_end()) - sleeper_spacing_m;
+        require(ends.length <= clear_m + 1e-3 * round_off_mm,
+                "'Rail/Absorbing length (m)' " + text_of(ends.length) +
+                  " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
+                  "most " +
+                  text_of(std::max(0., clear_m)) + " fits this rail");
+      }
     if (has_solid_sleepers())
       {
         require(pad_length_mm <= sleeper_width_mm && sleeper_width_mm < 1e3 * sleeper_spacing_m,
@@ -209,6 +221,13 @@ namespace tread
     p.ballast_stiffness = 1e6 * ballast_stiffness_MN_m;
     p.ballast_damping   = 1e3 * ballast_damping_kN_s_m;
     return p;
+  }
+
+
+  AbsorbingEnds Scene::absorbing_ends() const
+  {
+    return {rail_begin(), rail_end(), rail_ends == "absorbing" ? absorbing_length_m : 0.,
+            rail_material.si().shear_wave_speed()};
   }
 
 

@@ -62,6 +62,8 @@ namespace tread
           supports->add_probe(mid_span_beside(scene, number));
         dynamics.attach_supports(*supports, scene.rail_material.si());
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
+        if (const AbsorbingEnds ends = scene.absorbing_ends(); ends.length > 0.)
+          dynamics.damp_nodes(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
         dynamics.guide_nodes(supports->guided_nodes(1), 1);
         for (const SolidSleeper &sleeper : supports->solid_sleepers)
           dynamics.guide_nodes(dynamics.boundary_nodes(sleeper.body, Boundary::end), 1);
@@ -186,8 +188,9 @@ namespace tread
     bool                     predicts_tractions = scene.start_tractions == "predicted";
     if (scene.predicts_creepage())
       {
-        half_space      = reference::solve_rolling(half_space_case(scene));
-        target_creepage = -half_space.creepage;
+        const reference::RollingEstimate estimate = reference::estimate_rolling(half_space_case(scene));
+        half_space                                = estimate.fields;
+        target_creepage                           = -estimate.creepage.value;
       }
     else
       target_creepage = std::stod(scene.creepage);
@@ -197,7 +200,7 @@ namespace tread
           reference::RollingCase c = half_space_case(scene);
           c.prescribe_force        = false;
           c.creepage               = -target_creepage;
-          half_space               = reference::solve_rolling(c);
+          half_space               = reference::estimate_rolling(c).fields;
         }
       catch (const std::exception &error)
         {
@@ -241,6 +244,9 @@ namespace tread
       measure_free_rolling();
     relaxation_seconds = progress.seconds() - began;
     check_rim();
+    // What wheels before this one have deformed may be slower or faster than it was.
+    if (!passages.empty())
+      dynamics.renew_critical_time_step();
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
@@ -396,9 +402,8 @@ namespace tread
                         (unsigned long long)mesh.n_global_cells,
                         3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes),
                         dealii::Utilities::MPI::n_mpi_processes(comm), n_lanes));
-    if (scene.density_scale > 1.)
-      progress.say(format("quasi-static: density x %g, error of rolling inertia about (v/c)^2 = %.2g %%",
-                          scene.density_scale, 100. * scene.inertia_error_estimate()));
+    for (const std::string &assumption : scene.assumptions())
+      progress.say("assumed: " + assumption);
     const double gain = dynamics.ideal_gain_of_levels(), updates_of_step = mesh.n_global_cells / gain;
     if (gain > 1.)
       progress.say(
@@ -432,9 +437,10 @@ namespace tread
     const double loop_began   = progress.seconds();
     double       last_written = loop_began;
     // mpirun gives its ranks a second to end after Ctrl-C.
-    constexpr unsigned int steps_between_checks = 100, steps_between_signals = 10;
-    std::uint64_t next_check = dynamics.n_steps + steps_between_checks, next_signal = dynamics.n_steps;
-    End           end = End::complete;
+    constexpr unsigned int steps_between_checks = 100, steps_between_signals = 10, steps_between_looks = 200;
+    std::uint64_t next_check = dynamics.n_steps + steps_between_checks, next_signal = dynamics.n_steps,
+                  next_look = dynamics.n_steps + steps_between_looks; // at the cells
+    End end                 = End::complete;
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
@@ -458,6 +464,12 @@ namespace tread
         if (scene.write_volume && interval_ended(scene.volume_mm))
           folder.write_volume(dynamics, hub, wheel_body);
         checked_position = position();
+
+        if (dynamics.n_steps >= next_look || dynamics.n_steps == n_steps)
+          {
+            next_look = dynamics.n_steps + steps_between_looks;
+            dynamics.check_cells();
+          }
 
         // Before any checkpoint, so that none is made of a wheel at its end.
         if (dynamics.n_steps == n_steps && passages.size() + 1 < scene.passages)

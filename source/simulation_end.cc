@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a simulation says at the end of a passage and of the run.
 #include <tread/base/version.h>
+#include <tread/output/quality.h>
 #include <tread/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -47,7 +48,8 @@ namespace tread
     passages.push_back({sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes, max(strain, comm),
                         max(residual, comm), energy.plastic, energy.friction,
                         last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0.,
-                        measures_of_solution().max_pressure, energy.residual_share()});
+                        measures_of_solution().max_pressure, energy.residual_share(),
+                        energy.of_dissipated(energy.residual())});
     folder.write_passages(passages);
   }
 
@@ -60,24 +62,9 @@ namespace tread
     reference::RollingCase c         = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
     c.prescribe_force                = !all_slips;
     c.creepage                       = -answer.creepage;
-    const reference::RollingResult half_space = reference::solve_rolling(c);
+    const reference::RollingEstimate half_space = reference::estimate_rolling(c);
     compare(summary, answer, half_space, c.prescribe_force);
-    return patch_nodes(half_space, scene.first_contact().y);
-  }
-
-
-  void Simulation::add_energies(Summary &summary, const EnergyLedger &energy) const
-  {
-    summary.set("energy_residual_share", energy.residual_share());
-    for (const auto &[name, value] :
-         std::vector<std::pair<const char *, double>>{{"external_work_J", energy.external_work},
-                                                      {"gross_work_J", energy.gross_work},
-                                                      {"frictional_work_J", energy.friction},
-                                                      {"damping_work_J", energy.damping},
-                                                      {"plastic_work_J", energy.plastic},
-                                                      {"contact_loss_J", energy.contact},
-                                                      {"energy_residual_J", energy.residual()}})
-      summary.set(name, value);
+    return patch_nodes(half_space.fields, scene.first_contact().y);
   }
 
 
@@ -179,7 +166,8 @@ namespace tread
     const ContactAnswer answer{force, creepage, mean};
     summarise(summary, scene, "explicit finite elements", answer, completed);
     summary.set("normal_force_ripple_share", ripple);
-    summary.set("free_rolling_creepage", free_creepage);
+    summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, free_creepage,
+                 "creepage, 1e-3");
 
     std::string            note;
     std::vector<PatchNode> reference_patch;
@@ -194,7 +182,14 @@ namespace tread
           summary.set("note", note);
         }
 
-    add_energies(summary, energy);
+    summary.set("assumptions", scene.assumptions());
+    Quality quality;
+    quality.energy = energy;
+    if (averaged)
+      quality.slip_chatter = average.slip_chatter();
+    quality.contact_unconverged =
+      dynamics.n_steps > 0 ? double(contact.n_unconverged_steps()) / dynamics.n_steps : 0.;
+    quality.add_to(summary);
     const Rolled rolled = add_size(summary, normal);
     add_cost(summary);
     add_recorded(summary, folder);
@@ -206,11 +201,11 @@ namespace tread
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::printf(
-          "\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f, energy residual %.1e of the "
-          "work\n\n%s\n%s%s",
-          1e-3 * normal, 100. * ripple, traction, energy.residual_share(), summary.table().c_str(),
-          note.c_str(), note.empty() ? "" : "\n");
+        std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s\n%s%s%s",
+                    1e-3 * normal, 100. * ripple, traction, summary.table().c_str(), quality.lines().c_str(),
+                    note.c_str(), note.empty() ? "" : "\n");
+        for (const std::string &warning : quality.warnings())
+          std::printf("WARNING: %s\n", warning.c_str());
         if (completed && !rolled.long_enough())
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
                       rolled.patch_lengths, torque_released ? "torque acts" : "start",

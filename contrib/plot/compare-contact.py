@@ -7,7 +7,8 @@ the nodes of the run. Root mean squares (RMS) are taken over all nodes that are 
 or in CONTACT, and related to CONTACT's largest value. Micro-slip is compared inside 0.9 of the Hertz
 ellipse only, because it jumps at the trailing edge; patch_averaged.csv (mean over the passage of one
 cell) is used for it if the run wrote one. A node of adhesion is isolated if it has neighbours in
-contact (at most 8) and all of them slip.
+contact (at most 8) and all of them slip. --scale takes CONTACT's answer to bodies with larger radii and the same
+patch: with radii 1/S as large and a load S as large its pressure, shear stress, slip and creepage are S as large.
 """
 
 import argparse
@@ -59,10 +60,12 @@ def hertz_axes(summary, contact):
     return [0.5 * np.ptp(contact.x), 0.5 * np.ptp(contact.y)]
 
 
-def compare(run, contact_file):
+def compare(run, contact_file, scale=1.0):
     summary = read_summary(run)
     patch = read_patch(os.path.join(run, "patch.csv"))
     contact = read_contact(contact_file)
+    for field in contact.fields:
+        setattr(contact, field, scale * getattr(contact, field))
     shift = [own - other for own, other in zip(patch.centroid(), contact.centroid())]
     at_nodes = Shifted(contact, patch, shift)
 
@@ -103,12 +106,12 @@ def compare(run, contact_file):
     if abs(at_nodes.own["shear_x"].sum() + at_nodes.reference["shear_x"].sum()) \
             < 0.5 * abs(at_nodes.own["shear_x"].sum() - at_nodes.reference["shear_x"].sum()):
         print("note: the shear of the run and of CONTACT have opposite signs")
-    result.update(compare_forces(summary, contact_file))
+    result.update(compare_forces(summary, contact_file, scale))
     result.update(steadiness(run))
     return {key: value.item() if isinstance(value, np.generic) else value for key, value in result.items()}
 
 
-def compare_forces(summary, contact_file):
+def compare_forces(summary, contact_file, scale):
     """Force and creepage against contact_summary.csv beside the surface file, if it lists that file."""
     table_file = os.path.join(os.path.dirname(contact_file), "contact_summary.csv")
     if not os.path.exists(table_file):
@@ -120,6 +123,8 @@ def compare_forces(summary, contact_file):
         return {}
     reference = {key: values[row[0]] for key, values in table.items()}
     result = {}
+    reference["normal_force_N"] *= scale
+    reference["creepage"] *= scale
     if "normal_force_N" in summary:
         result["normal_force_relative_difference"] = summary["normal_force_N"] / reference["normal_force_N"] - 1
     if "traction_coefficient" in summary:
@@ -179,10 +184,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", metavar="RUN_DIR")
     parser.add_argument("contact", metavar="CONTACT.csv", help="surface file of CONTACT, also .csv.gz")
+    parser.add_argument("--scale", metavar="S", type=float, default=1.0, help="of CONTACT's load; the default is 1")
     parser.add_argument("--json", metavar="FILE", help="write the measures to this file too")
     arguments = parser.parse_args()
     try:
-        result = compare(arguments.run, arguments.contact)
+        result = compare(arguments.run, arguments.contact, arguments.scale)
         print(f"{arguments.run} against {os.path.basename(arguments.contact)}: {result['nodes_in_contact']} nodes in "
               f"contact, {result['node_distance_mm']:.3g} mm apart, shifted by "
               f"({result['shift_x_mm']:.3f}, {result['shift_y_mm']:.3f}) mm")

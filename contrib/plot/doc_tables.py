@@ -105,12 +105,13 @@ def dry_run(scene, settings, ranks=1):
     return found
 
 
-def contact_measures(run, traction):
-    """The measures of compare-contact.py against CONTACT at a traction coefficient, as doc/ states them."""
+def contact_measures(run, traction, scale=1.0):
+    """The measures of compare-contact.py against CONTACT at a traction coefficient, as doc/ states them; scale: of
+    CONTACT's load."""
     contact = os.path.join(ROOT, f"contrib/reference/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")
     measures = os.path.join(run, "contact.json")
     subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/compare-contact.py"), run, contact,
-                    "--json", measures], check=True, stdout=subprocess.DEVNULL)
+                    "--scale", str(scale), "--json", measures], check=True, stdout=subprocess.DEVNULL)
     summary = read_summary(run)
     with open(measures, encoding="utf-8") as stream:
         found = json.load(stream)

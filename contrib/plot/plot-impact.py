@@ -39,7 +39,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from doc_tables import PROGRAM, environment
-from run_data import DataError, read_table
+from run_data import DataError, read_parameters, read_table
 
 BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, "black")
@@ -93,24 +93,6 @@ class Run:
     def most_loaded(self, layer):
         """The support whose dynamic force is largest."""
         return max(self.supports(layer), key=lambda n: abs(self.figures["forces"][f"support_{n}_{layer}_N"]["peak_N"]))
-
-
-def read_parameters(path):
-    """{"Section/Name": value} of a parameter file, empty if there is none."""
-    result, section = {}, []
-    if not os.path.exists(path):
-        return result
-    with open(path, encoding="utf-8") as stream:
-        for line in stream:
-            line = line.split("#")[0].strip()
-            if line.startswith("subsection "):
-                section.append(line[len("subsection "):].strip())
-            elif line == "end" and section:
-                section.pop()
-            elif line.startswith("set "):
-                name, _, value = line[len("set "):].partition("=")
-                result["/".join(section + [name.strip()])] = value.strip()
-    return result
 
 
 def peaks(x, force, least):

@@ -63,6 +63,24 @@ def read_summary(run):
     return summary
 
 
+def read_parameters(path):
+    """{"Section/Name": value} of a parameter file, empty if there is none."""
+    result, section = {}, []
+    if not os.path.exists(path):
+        return result
+    with open(path, encoding="utf-8") as stream:
+        for line in stream:
+            line = line.split("#")[0].strip()
+            if line.startswith("subsection "):
+                section.append(line[len("subsection "):].strip())
+            elif line == "end" and section:
+                section.pop()
+            elif line.startswith("set "):
+                name, _, value = line[len("set "):].partition("=")
+                result["/".join(section + [name.strip()])] = value.strip()
+    return result
+
+
 def reference_value(summary, key, source=""):
     """The number that the summary compares `key` with, or None; `source` picks one of several."""
     entries = summary.get("reference", {}).get(key)

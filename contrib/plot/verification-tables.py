@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Fill the tables of doc/verification.md from the results of the shipped scenes.
 
-With --run, scenes without results are run first (prm/verification/half-space-*.prm and prm/thesis/3.1-*.prm;
-results go to RESULTS/<name of the parameter file>). Tables whose results are missing keep their text.
+With --run, scenes without results are run first (prm/verification/half-space-*.prm, low-strain-*.prm and
+prm/thesis/3.1-*.prm; results go to RESULTS/<name of the parameter file>). Tables whose results are missing keep their
+text; --tables chooses some.
 """
 
 import argparse
 import glob
+import math
 import os
 
-from doc_tables import ROOT, contact_measures, fill, markdown, number, run_scene, run_script
+from doc_tables import ROOT, contact_measures, fill, is_complete, markdown, number, run_scene, run_script
 from run_data import read_patch, read_summary, reference_value
 
 # Errors allowed by cell size: (key of compare-contact.py, row, factor, unit, 0.63 mm, 0.33 mm).
@@ -38,7 +40,159 @@ SIZES = (0.33, 0.63, 1.3)
 FROM_NONE = "-from-none"  # what rolls 80 mm from a start without tractions
 
 
-def run_missing(results):
+# Measures beside Hertz (the first three) and the half-space solver, as a run's summary has them.
+SUMMARY_MEASURES = (("largest pressure", "max_pressure_Pa", "Hertz"),
+                    ("semi-axis a, by moments", "pressure_semi_axis_x_m", "Hertz"),
+                    ("semi-axis b, by moments", "pressure_semi_axis_y_m", "Hertz"),
+                    ("adhesion share", "adhesion_share", "half-space"),
+                    ("creepage at this traction", "creepage", "half-space"),
+                    ("largest shear stress", "max_shear_Pa", "half-space"),
+                    ("largest micro-slip", "max_slip_m_per_s", "half-space"))
+LOW_STRAIN = (1.3, 0.63, 0.33, 0.2)
+LOW_STRAIN_LOAD = 29232. / 127100.  # over that of CONTACT's solution: radii are as many times larger
+
+# Loads and radii of the strain study: radii times S, load over S, so the patch stays what it is.
+STRAIN_SCALES = (1., 1.5, 2.5, 4.347826)
+
+# One change at a time of half-space-0.63-mu0.30: (what, settings).
+BLOCKS = {f"{name} (mm)": value for name, value in
+          (("Wheel/Sector thickness", 160), ("Wheel/Sector width", 320), ("Wheel/Sector margin", 160),
+           ("Rail/Block width", 320), ("Rail/Block height", 160), ("Rail/Margin", 160))}
+SENSITIVITY = (("hourglass coefficient 0.5", {"Solid/Hourglass coefficient": 0.5}),
+               ("hourglass coefficient 2", {"Solid/Hourglass coefficient": 2}),
+               ("element: fully integrated", {"Solid/Element": "fully-integrated"}),
+               ("grading: two cells per level", {"Mesh/Level depth (semi-axes)": 0}),
+               ("grading: layers twice as thick", {"Mesh/Level depth (semi-axes)": 1.5, "Mesh/Cells per level": 4}),
+               ("four fine layers", {"Mesh/Fine layers": 4}),
+               ("blocks of 160 mm", BLOCKS),
+               ("density 1", {"Scene/Density scale": 1}),
+               ("mass damping 0", {"Solid/Mass damping (1 per s)": 0}),
+               ("mass damping doubled", {"Solid/Mass damping (1 per s)": 10000}),
+               ("stiffness damping doubled", {"Solid/Stiffness damping (time steps)": 0.2}),
+               ("one level of time steps", {"Time stepping/Levels": 1}),
+               ("Courant number 0.5", {"Time stepping/Courant number": 0.5}),
+               ("contact tolerance 1e-4", {"Contact/Tolerance": 1e-4}),
+               ("contact tolerance 1e-8", {"Contact/Tolerance": 1e-8}),
+               ("start tolerance 1e-6", {"Start/Tolerance": 1e-6}),
+               ("80 mm from a start without tractions",
+                {"Start/Tractions": "none", "Motion/Rolled distance (mm)": 80}))
+
+
+def difference(summary, key, source):
+    """Of a measure from its reference, %; points of an adhesion share."""
+    value, reference = summary.get(key), reference_value(summary, key, source)
+    if value is None or reference is None:
+        return None
+    return 100 * (value - reference) if key == "adhesion_share" else 100 * (value / reference - 1)
+
+
+def signed(value):
+    return "-" if value is None else f"{value:+.3f}" if abs(value) < 0.1 else f"{value:+.2f}"
+
+
+def order(coarse, fine, ratio):
+    """With which power of the cell size an error falls; none where it is as small as what decides the last digits."""
+    if coarse is None or fine is None or abs(coarse) < 0.05 or fine == 0.:
+        return "-"
+    return f"{math.log(abs(coarse / fine)) / math.log(ratio):.1f}"
+
+
+def low_strain_table(results):
+    found = {}
+    for size in LOW_STRAIN:
+        run = os.path.join(results, f"low-strain-{size:g}")
+        if is_complete(run):
+            summary = read_summary(run)
+            values = {label: difference(summary, key, source) for label, key, source in SUMMARY_MEASURES}
+            fields = contact_measures(run, 0.30, LOW_STRAIN_LOAD)
+            for label, key in (("pressure, RMS", "pressure_rms_over_max"), ("shear stress, RMS", "shear_rms_over_max"),
+                               ("micro-slip, RMS", "micro_slip_rms_over_max")):
+                values[label] = 100 * fields[key]
+            found[size] = values, summary
+    if len(found) < 2:
+        print(f"note: too few results in {results}/low-strain-*")
+        return None
+    sizes = sorted(found, reverse=True)
+    coarse, fine = sizes[0], sizes[-1]
+    rows = []
+    for label in found[fine][0]:
+        unit = "points" if label == "adhesion share" else "%"
+        rows.append([f"{label} [{unit}]"] + [signed(found[size][0][label]) for size in sizes]
+                    + [order(found[coarse][0][label], found[fine][0][label], coarse / fine)])
+    for label, key, factor in (("cells", "cells", 1), ("cell updates [million]", "element_updates", 1e-6),
+                               ("wall time [s]", "wall_s", 1)):
+        rows.append([label] + [number(factor * found[size][1][key]) for size in sizes] + [""])
+    return markdown(["difference"] + [f"{size:g} mm" for size in sizes]
+                    + [f"order, {coarse:g} to {fine:g} mm"], rows)
+
+
+def strain_run(scale):
+    load = 127100. / scale
+    return f"strain-{scale:g}", {"Wheel/Radius (mm)": 460 * scale, "Rail/Crown radius (mm)": 300 * scale,
+                                 "Vehicle/Sprung mass (kg)": load / 9.81 - 900}
+
+
+def strain_table(results):
+    rows, points = [], []
+    for scale in STRAIN_SCALES:
+        run = os.path.join(results, strain_run(scale)[0])
+        if not is_complete(run):
+            print(f"note: no results in {run}")
+            return None
+        summary = read_summary(run)
+        strain = 100 * reference_value(summary, "max_pressure_Pa", "Hertz") / 210e9
+        values = [difference(summary, key, source) for _, key, source in SUMMARY_MEASURES[:5]]
+        points.append((strain, values))
+        rows.append([f"{460 * scale:.0f}", number(1e-3 * summary["normal_force_N"]), f"{strain:.3f}"]
+                    + [signed(value) for value in values])
+    # Least squares: what is left at no strain, and the slope.
+    mean = sum(strain for strain, _ in points) / len(points)
+    square = sum((strain - mean) ** 2 for strain, _ in points)
+    limit, slope = [], []
+    for k in range(5):
+        middle = sum(values[k] for _, values in points) / len(points)
+        of_strain = sum((strain - mean) * (values[k] - middle) for strain, values in points) / square
+        limit.append(middle - of_strain * mean)
+        slope.append(of_strain)
+    rows.append(["line at no strain", "", "0"] + [signed(value) for value in limit])
+    rows.append(["slope per % of p0/E", "", ""] + [signed(value) for value in slope])
+    return markdown(["wheel radius [mm]", "load [kN]", "p0/E [%]"]
+                    + [f"{label} [{'points' if key == 'adhesion_share' else '%'}]"
+                       for label, key, _ in SUMMARY_MEASURES[:5]], rows)
+
+
+def sensitivity_table(results):
+    base = os.path.join(results, "half-space-0.63-mu0.30")
+    if not is_complete(base):
+        print(f"note: no results in {base}")
+        return None
+    # b has no place: it moves with a.
+    measures = [measure for measure in SUMMARY_MEASURES if measure[1] != "pressure_semi_axis_y_m"]
+    own = [difference(read_summary(base), key, source) for _, key, source in measures]
+    rows = [["**as shipped: difference from the reference**"] + [f"**{signed(value)}**" for value in own]]
+    for number_of, (what, _) in enumerate(SENSITIVITY):
+        run = os.path.join(results, f"sensitivity-{number_of + 1}")
+        if is_complete(run):
+            values = [difference(read_summary(run), key, source) for _, key, source in measures]
+            rows.append([what] + [signed(value - before) for value, before in zip(values, own)])
+    return markdown(["change"] + [f"{label} [{'points' if key == 'adhesion_share' else '%'}]"
+                                  for label, key, _ in measures], rows)
+
+
+def run_missing(results, tables):
+    if "low-strain" in tables:
+        for size in LOW_STRAIN:
+            run_scene(f"verification/low-strain-{size:g}.prm", os.path.join(results, f"low-strain-{size:g}"))
+    if "strain" in tables:
+        for scale in STRAIN_SCALES:
+            name, settings = strain_run(scale)
+            run_scene("verification/low-strain-0.63.prm", os.path.join(results, name), settings)
+    if "sensitivity" in tables:
+        for number_of, (_, settings) in enumerate(SENSITIVITY):
+            run_scene("verification/half-space-0.63-mu0.30.prm",
+                      os.path.join(results, f"sensitivity-{number_of + 1}"), settings)
+    if not {"half-space", "published", "sensitivity"} & set(tables):
+        return
     for pattern in ("verification/half-space-*.prm", "thesis/3.1-*.prm"):
         for scene in sorted(glob.glob(pattern, root_dir=os.path.join(ROOT, "prm"))):
             run_scene(scene, os.path.join(results, os.path.basename(scene)[:-len(".prm")]))
@@ -109,15 +263,21 @@ def published_table(results):
         "|" + "---|" * len(header), "|" + "---|" * (1 + 3 * len(runs)))
 
 
+TABLES = {"half-space": half_space_table, "low-strain": low_strain_table, "strain": strain_table,
+          "sensitivity": sensitivity_table, "published": published_table}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no results yet")
+    parser.add_argument("--tables", metavar="NAME", nargs="+", choices=TABLES, default=list(TABLES),
+                        help=f"of {', '.join(TABLES)}")
     arguments = parser.parse_args()
     if arguments.run:
-        run_missing(arguments.results)
-    for name, make in (("half-space", half_space_table), ("published", published_table)):
-        table = make(arguments.results)
+        run_missing(arguments.results, arguments.tables)
+    for name in arguments.tables:
+        table = TABLES[name](arguments.results)
         if table is not None:
             fill("verification.md", name, table)
 

@@ -5,7 +5,7 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/output/summary.h>
 #include <tread/reference/hertz.h>
-#include <tread/reference/rolling_case.h>
+#include <tread/reference/rolling_estimate.h>
 #include <tread/scene.h>
 
 #include <vector>
@@ -49,9 +49,9 @@ namespace tread
     PatchMeasures patch;
   };
 
-  /// The half-space answer in these terms. Its frictional power is that of the balance of forces and
-  /// creepages, which is nearer to the limit than the sum over the elements.
-  ContactAnswer contact_answer(const reference::RollingResult &half_space);
+  /// The half-space answer in these terms, in the limit of small elements. Its frictional power is that of
+  /// the balance of forces and creepages.
+  ContactAnswer contact_answer(const reference::RollingEstimate &half_space);
 
   /// What each summary begins with: forces, patch, creepage, and Hertz's values beside them.
   /// @param method that found the answer
@@ -64,10 +64,10 @@ namespace tread
   /// The half-space values beside a computed answer.
   /// @param forces_given true: at the computed forces, so that the creepages can be compared; false: at the
   /// computed creepage, so that the traction coefficients can
-  void compare(Summary                        &summary,
-               const ContactAnswer            &answer,
-               const reference::RollingResult &half_space,
-               bool                            forces_given);
+  void compare(Summary                          &summary,
+               const ContactAnswer              &answer,
+               const reference::RollingEstimate &half_space,
+               bool                              forces_given);
 } // namespace tread
 
 #endif

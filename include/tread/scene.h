@@ -7,6 +7,7 @@
 #include <tread/geometry/running_surfaces.h>
 #include <tread/material/elastic.h>
 #include <tread/material/plastic.h>
+#include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -76,6 +77,8 @@ namespace tread
     std::string rail_begins_at  = "automatic";
     double      rail_length_mm  = 0.;
     double      crown_radius_mm = 300., block_width_mm = 120., block_height_mm = 60., rail_margin_mm = 60.;
+    std::string rail_ends          = "symmetric";
+    double      absorbing_length_m = 0.6;
     Material    rail_material;
     // Defect
     std::string defect_shape       = "none", defect_file;
@@ -84,7 +87,8 @@ namespace tread
     std::string defect_lateral_law = "parabola";
     bool        defect_reversed    = false;
     // Mesh
-    double       finest_mm = 0.63, fine_half_width_mm = 8., cells_per_level = 2., coarsest_mm = 22.;
+    double finest_mm = 0.63, fine_half_width_mm = 0., cells_per_level = 2., level_depth = 1.,
+           coarsest_mm        = 22.;
     unsigned int fine_layers  = 2;
     double       fine_from_mm = 0., fine_to_mm = 0., path_cell_mm = 0., longest_row_mm = 40.;
     // Solid
@@ -153,6 +157,10 @@ namespace tread
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
 
+    /// What the answer rests on that is not in the physics of the scene: scaled density, mass damping,
+    /// predicted start; one line each.
+    std::vector<std::string> assumptions() const;
+
     bool predicts_creepage() const
     {
       return creepage == "predicted";
@@ -166,6 +174,8 @@ namespace tread
       return foundation == "two-layer" && sleepers == "solid";
     }
     TrackParameters track() const;
+    /// Of length 0 if the ends are symmetric.
+    AbsorbingEnds absorbing_ends() const;
     /// x of the supports on the rail, m, and the number of the first; support 0 is where the scene says.
     std::vector<double> support_positions() const;
     int                 first_support() const;
@@ -230,6 +240,10 @@ namespace tread
     {
       return shapes->patch;
     }
+    /// Of the finest cells from the middle of the path: as given, or what the patch needs, m.
+    double fine_half_width() const;
+    /// The least that it may be, m.
+    double needed_half_width() const;
     /// Middle of the finely meshed path: first contact, moved in whole cells towards the patch's middle, m.
     double path_y() const;
     /// Below the running surface, of a point in the reference position, m.
@@ -263,6 +277,8 @@ namespace tread
     void set(const std::string &setting);
     void check() const;
     void check_track() const;
+    /// Scaled density, mass damping and levels of time steps only where they do no harm.
+    void check_numerics() const;
     /// A file that a parameter names: as it is, or from the folder of the parameter file.
     std::string located(const std::string &file) const;
     /// @throws SceneError

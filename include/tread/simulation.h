@@ -59,7 +59,6 @@ namespace tread
     /// Of the answer: Kalker's for the forces that act; where (nearly) all slips and they say little about
     /// the creepage, at the creepage. @returns his patch.
     std::vector<PatchNode> compare_with_half_space(Summary &summary, const ContactAnswer &answer) const;
-    void                   add_energies(Summary &summary, const EnergyLedger &energy) const;
     /// How far the wheel rolled since the start or since a torque acts, in lengths of the patch.
     struct Rolled
     {

@@ -101,6 +101,14 @@ namespace tread
             sum.values.shear[d] += patch[i].shear[d];
             sum.values.slip[d] += patch[i].slip[d];
           }
+        const double x = patch[i].position[0] - centre_x;
+        sum.x += x;
+        sum.xx += x * x;
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            sum.sx[d] += patch[i].slip[d] * x;
+            sum.ss += patch[i].slip[d] * patch[i].slip[d];
+          }
       }
     const PatchMeasures m = measure(patch);
     for (double PatchMeasures::*member :
@@ -132,6 +140,31 @@ namespace tread
         patch.push_back(node);
       }
     return patch;
+  }
+
+
+  double PatchAverage::slip_chatter() const
+  {
+    double squares = 0., n = 0., largest = 0.;
+    for (const PatchNode &node : nodes())
+      largest = std::max(largest, node.slip_speed());
+    for (const auto &[number, sum] : sums)
+      {
+        // A line through two points says nothing.
+        if (sum.in_contact < 3)
+          continue;
+        const double spread = sum.xx - sum.x * sum.x / sum.in_contact;
+        double       rest   = sum.ss;
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const double together = sum.sx[d] - sum.values.slip[d] * sum.x / sum.in_contact;
+            rest -= sum.values.slip[d] * sum.values.slip[d] / sum.in_contact +
+                    (spread > 0. ? together * together / spread : 0.);
+          }
+        squares += std::max(0., rest);
+        n += sum.in_contact;
+      }
+    return n > 0. && largest > 0. ? std::sqrt(squares / n) / largest : 0.;
   }
 
 

@@ -247,6 +247,7 @@ namespace tread
     velocity.assign(involved.size(), Row{});
     predicted.assign(involved.size(), Row{});
     velocity_before.assign(involved.size(), Row{});
+    mean_velocity.assign(involved.size(), Row{});
     gap_rate.resize(problem.constraints.size());
     const unsigned int n_ranks = involved_of_rank.size();
     strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
@@ -444,8 +445,6 @@ namespace tread
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;
 
-    // Nodal impulses give forces and the whole work; only pairs that slip lose work by friction.
-    work             = ContactWork();
     bool slid_enough = false;
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
@@ -455,15 +454,13 @@ namespace tread
         if (normal <= 0. || adheres(p, normal, constraint.normal))
           continue;
         const Row after = problem.combine(constraint, velocity);
-        const Row u     = 0.5 * (after + problem.combine(constraint, velocity_before));
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
         slid_enough = slid_enough || slid[j] > parameters.sliding_share * face_size;
-        work.friction -= dot(p - normal * constraint.normal, u);
       }
     if (strips.gather(impulse, slid_enough) > 0.)
       time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
 
-    work.normal = -work.friction;
+    work = ContactWork();
     for (const NodeTerms &of_node : node_terms)
       {
         Row          sum[2] = {}; // each addition waits for the one before it
@@ -477,15 +474,41 @@ namespace tread
         Row      &after = velocity[of_node.node];
         after           = predicted[of_node.node] + of_node.inverse_mass * p;
         position[of_node.node] += time_step * after;
-        if (of_node.local >= 0)
-          force[of_node.local] += (1. / time_step) * p;
+        mean_velocity[of_node.node] = 0.5 * (after + velocity_before[of_node.node]);
+        if (of_node.local < 0)
+          continue;
+        const Row before = force[of_node.local];
+        force[of_node.local] += (1. / time_step) * p;
         if (of_node.owned)
-          work.normal -= 0.5 * dot(p, after + velocity_before[of_node.node]);
+          {
+            // Of the force that the node was given, not of the impulse that it was meant to be given.
+            const Row given = time_step * (force[of_node.local] - before);
+            work.on_nodes -= 0.5 * dot(given, velocity_before[of_node.node] + predicted[of_node.node] +
+                                                of_node.inverse_mass * given);
+          }
       }
+    add_work_of_pairs();
     for (const ContactSurfaces::HangingNode &h : involved_hanging)
       position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
     time_since_refresh += time_step;
     return result;
+  }
+
+
+  void Contact::add_work_of_pairs()
+  {
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        const double                      normal     = dot(impulse[j], constraint.normal);
+        if (normal <= 0.)
+          continue;
+        const Row    u          = problem.combine(constraint, mean_velocity);
+        const Row    tangential = impulse[j] - normal * constraint.normal;
+        const double lost       = -dot(tangential, u);
+        work.normal -= normal * dot(u, constraint.normal);
+        (adheres(impulse[j], normal, constraint.normal) ? work.adhesion : work.friction) += lost;
+      }
   }
 
 

@@ -21,23 +21,26 @@ namespace tread
   }
 
 
-  double ExplicitDynamics::damping_power(const NodalField &forces) const
+  double ExplicitDynamics::damping_forces(const NodalField &forces, NodalField &damping) const
   {
-    // v . (f(x) - f(x + beta v))
-    double power = 0.;
-    if (parameters.damping_steps > 0. || solid.needs_velocity())
+    // f(x + beta v) - f(x), and how much power it takes with the velocities of half a step back.
+    damping.assign(v.size(), Row{});
+    if (!(parameters.damping_steps > 0. || solid.needs_velocity()))
+      return 0.;
+    NodalField without;
+    solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history);
+    if (solid.needs_velocity())
       {
-        NodalField with(v.size(), Row{}), without;
-        solid.add_internal_forces(x_damped.data(), v.data(), with.data(), history);
-        if (solid.needs_velocity())
-          {
-            const NodalField no_velocity(v.size(), Row{});
-            without.assign(v.size(), Row{});
-            solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
-          }
-        const NodalField &elastic = solid.needs_velocity() ? without : forces;
-        for (unsigned int i = 0; i < v.size(); ++i)
-          power += dot(v[i], elastic[i] - with[i]);
+        const NodalField no_velocity(v.size(), Row{});
+        without.assign(v.size(), Row{});
+        solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
+      }
+    const NodalField &elastic = solid.needs_velocity() ? without : forces;
+    double            power   = 0.;
+    for (unsigned int i = 0; i < v.size(); ++i)
+      {
+        damping[i] -= elastic[i];
+        power -= dot(v[i], damping[i]);
       }
     return power;
   }
@@ -45,16 +48,34 @@ namespace tread
 
   double ExplicitDynamics::damping_since_sample(const double power) const
   {
-    return 0.5 * (power + last_damping_power) * time_step * (n_steps - last_damping_step);
+    // The sum over the steps from the last sample on, this one left out, when power changes in a straight
+    // line.
+    const double n = n_steps - last_damping_step;
+    return n > 0. ? time_step * (n * last_damping_power + 0.5 * (n - 1.) * (power - last_damping_power)) : 0.;
   }
 
 
-  void ExplicitDynamics::sample_damping()
+  void ExplicitDynamics::begin_damping_sample()
   {
-    const double power = damping_power(cell_forces());
+    damping_power_before = damping_forces(cell_forces(), sampled_damping);
+    mesh.condense_hanging_nodes(sampled_damping.data()); // whose velocities may wait for other levels
+  }
+
+
+  void ExplicitDynamics::end_damping_sample()
+  {
+    // What a force does in a step of central differences it does with the mean of the velocities before and
+    // after it. The step is already counted.
+    double after = 0.;
+    for (unsigned int i = 0; i < v.size(); ++i)
+      after -= dot(v[i], sampled_damping[i]);
+    const double power = 0.5 * (damping_power_before + after);
+    --n_steps;
     totals.damping += damping_since_sample(power);
+    last_damping_step  = n_steps++;
     last_damping_power = power;
-    last_damping_step  = n_steps;
+    sampled_damping.clear();
+    damping_is_sampled = true;
   }
 
 
@@ -115,14 +136,16 @@ namespace tread
   {
     using dealii::Utilities::MPI::sum;
     const NodalField forces = cell_forces();
-    EnergyLedger     now    = totals;
-    now.damping             = sum(totals.damping + damping_since_sample(damping_power(forces)), mesh.comm);
-    now.plastic             = sum(totals.plastic, mesh.comm);
-    now.friction            = sum(totals.friction, mesh.comm);
-    now.contact             = sum(totals.contact, mesh.comm);
-    now.external_work       = sum(totals.external_work, mesh.comm);
-    now.gross_work          = sum(totals.gross_work, mesh.comm);
-    const double fall       = start_potential - body_potential();
+    NodalField       unused;
+    EnergyLedger     now = totals;
+    now.damping  = sum(totals.damping + damping_since_sample(damping_forces(forces, unused)), mesh.comm);
+    now.plastic  = sum(totals.plastic, mesh.comm);
+    now.friction = sum(totals.friction, mesh.comm);
+    now.contact  = sum(totals.contact, mesh.comm);
+    now.contact_on_nodes = sum(totals.contact_on_nodes, mesh.comm);
+    now.external_work    = sum(totals.external_work, mesh.comm);
+    now.gross_work       = sum(totals.gross_work, mesh.comm);
+    const double fall    = start_potential - body_potential();
     now.external_work += fall;
     now.gross_work += std::abs(fall);
     if (hub)
@@ -133,12 +156,15 @@ namespace tread
     if (supports)
       {
         now.springs = supports->spring_energy() - start_springs;
-        now.damping += supports->dissipated() - start_dissipated;
+        now.dampers = supports->dissipated() - start_dissipated;
+        now.damping += now.dampers;
       }
     now.kinetic               = kinetic_energy(forces) - start_kinetic;
     const StrainEnergy energy = strain_energy();
     now.strain                = energy.strain - start_strain.strain;
     now.hourglass             = energy.hourglass - start_strain.hourglass;
+    now.stored_strain         = energy.strain;
+    now.stored_hourglass      = energy.hourglass;
     return now;
   }
 } // namespace tread

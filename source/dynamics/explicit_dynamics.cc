@@ -12,10 +12,6 @@ namespace tread
 {
   namespace
   {
-    /// Damping power is sampled every so many steps: two force evaluations more each time. A prime, as a
-    /// vibration whose period divides it would be met in the same phase each time.
-    constexpr std::uint64_t steps_between_damping_samples = 47;
-
     class Stopwatch
     {
     public:
@@ -152,6 +148,37 @@ namespace tread
     rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
     rank_sums.resize(n_hub_sums + s.n_points());
     set_node_levels();
+  }
+
+
+  void ExplicitDynamics::damp_nodes(const unsigned int                                     body,
+                                    const std::function<double(const dealii::Point<3> &)> &rate)
+  {
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (mesh.node_bodies[i] == body && true_mass[i] > 0.) // hanging nodes have none
+        if (const double r = rate(mesh.nodes[i]); r > 0.)
+          damped_nodes.push_back({i, r, Row{}});
+  }
+
+
+  void ExplicitDynamics::add_local_damping(const unsigned int due)
+  {
+    for (DampedNode &damped : damped_nodes)
+      if (const unsigned int i = damped.node; level_of_node[i] <= due)
+        {
+          damped.load =
+            -damped.rate * free_mass(i, std::ldexp(parameters.density_scale, level_of_node[i])) * v[i];
+          force[i] += damped.load;
+        }
+  }
+
+
+  void ExplicitDynamics::count_local_damping(const unsigned int due)
+  {
+    // With the mean of the velocities before and after the step, as the work of all prescribed forces.
+    for (const DampedNode &damped : damped_nodes)
+      if (const unsigned int i = damped.node; level_of_node[i] <= due && mesh.shared_nodes.is_owned(i))
+        totals.damping -= time_step * dot(damped.load, v[i] + (0.5 * time_step * inverse_mass[i]) * force[i]);
   }
 
 
@@ -326,7 +353,7 @@ namespace tread
     start_dissipated   = supports ? supports->dissipated() : 0.;
     last_damping_step  = n_steps;
     last_damping_power = 0.;
-    sample_damping();
+    damping_is_sampled = false;
   }
 
 
@@ -359,9 +386,12 @@ namespace tread
 
   void ExplicitDynamics::step()
   {
-    Stopwatch watch;
-    if (n_steps >= last_damping_step + steps_between_damping_samples && synchronised())
-      sample_damping();
+    Stopwatch  watch;
+    const bool samples_damping =
+      synchronised() &&
+      (!damping_is_sampled || n_steps >= last_damping_step + parameters.steps_between_damping_samples);
+    if (samples_damping)
+      begin_damping_sample();
     const unsigned int due = level_due();
     add_forces_due(due);
     if (supports)
@@ -390,6 +420,7 @@ namespace tread
               force[i] += load(i);
           });
     totals.damping += time_step * parameters.mass_damping * dot(loads.squares, Row{1., 1., 1., 0.});
+    add_local_damping(due);
     hold_guided_nodes(force);
 
     if (hub)
@@ -398,10 +429,8 @@ namespace tread
         for (unsigned int d = 0; d < 3; ++d)
           rank_sums[d] += parameters.mass_damping * loads.momentum[d];
         rank_sums[3] += parameters.mass_damping * (loads.moments[0] - loads.moments[2]);
-        // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
-        // motion about the axle is a potential, that with the axle's motion is summed here.
-        rank_sums[4] = -time_step * compensation() *
-                       (loads.arms[0] * hub->motion.velocity_x + loads.arms[2] * hub->motion.velocity_z);
+        rank_sums[4] = loads.arms[0];
+        rank_sums[5] = loads.arms[2];
       }
     else
       std::fill(rank_sums.begin(), rank_sums.end(), 0.);
@@ -422,7 +451,8 @@ namespace tread
         contact->solve(time_step, force.data());
         const ContactWork work = contact->last_work();
         totals.friction += work.friction;
-        totals.contact += work.normal;
+        totals.contact += work.normal + work.adhesion;
+        totals.contact_on_nodes += work.on_nodes;
         times.contact += watch.lap();
       }
     else if (!rank_sums.empty())
@@ -431,14 +461,21 @@ namespace tread
       supports->advance(rank_sums.data() + n_hub_sums, time_step);
     if (hub)
       {
+        const WheelHub::Motion before = hub->motion;
         hub->advance(Row{rank_sums[0], rank_sums[1], rank_sums[2], 0.}, rank_sums[3], time_step);
+        // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
+        // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
+        const double work = -0.5 * time_step * compensation() *
+                            (rank_sums[4] * (before.velocity_x + hub->motion.velocity_x) +
+                             rank_sums[5] * (before.velocity_z + hub->motion.velocity_z));
         if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
           {
-            totals.external_work += rank_sums[4];
-            totals.gross_work += std::abs(rank_sums[4]);
+            totals.external_work += work;
+            totals.gross_work += std::abs(work);
           }
       }
 
+    count_local_damping(due);
     double work = 0., gross = 0.;
     next_loads = BodyLoads();
     for (unsigned int level = 0; level <= due; ++level)
@@ -475,6 +512,8 @@ namespace tread
     time += time_step;
     ++n_steps;
     place_hanging_nodes();
+    if (samples_damping)
+      end_damping_sample();
     times.nodes += watch.lap();
   }
 

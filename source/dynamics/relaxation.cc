@@ -19,6 +19,8 @@ namespace tread
 
     set_damping_time(0.);
     NodalField &x = x_damped; // which are the positions now
+    // Sweeps on the way to equilibrium are no steps in time.
+    const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
 
     // Masses with which a unit "time" step is stable, and equally so, for every cell.
     constexpr double highest_frequency = 1.8;
@@ -241,6 +243,8 @@ namespace tread
     std::fill(v.begin(), v.end(), Row{});
     if (hub)
       hub->balance_suspension();
+    if (contact)
+      contact->set_n_unconverged_steps(unconverged_steps);
     return iteration;
   }
 } // namespace tread

@@ -132,9 +132,26 @@ namespace tread
   {
     if (critical_step > 0.)
       return critical_step;
+    // Not where the nodes are now, but free of stress: small strain changes it by less than the margin.
+    NodalField reference(v.size());
+    for (unsigned int i = 0; i < v.size(); ++i)
+      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    critical_step = critical_time_step_of(highest_of_levels(reference, solid.virgin()));
+    return critical_step;
+  }
+
+
+  double ExplicitDynamics::highest_of_levels(const NodalField &x, const PlasticHistory &memory) const
+  {
     double highest = 0.;
     for (unsigned int level = 0; level <= max_level(); ++level)
-      highest = std::max(highest, std::ldexp(highest_frequency(level), level));
+      highest = std::max(highest, std::ldexp(highest_frequency(level, x, memory), level));
+    return highest;
+  }
+
+
+  double ExplicitDynamics::critical_time_step_of(double highest) const
+  {
     // Three digits, rounded up: the same step on any number of ranks.
     const auto rounded = [](const double value) {
       const double digit = std::pow(10., std::floor(std::log10(value)) - 2.);
@@ -142,7 +159,9 @@ namespace tread
     };
     // Forces at x + beta v of half a step back, dampers with v of half a step back: dt^2 K + 2 dt C <= 4 for
     // the largest eigenvalues of M^-1 K (1 + 2 beta/dt) and M^-1 C, or their bounds by row sums.
-    highest  = rounded(highest);
+    highest            = rounded(highest);
+    highest_of_step    = highest;
+    bound_found_stable = 0.;
     double K = highest * highest * (1. + 2. * parameters.damping_steps), C = 0.;
     if (supports)
       {
@@ -160,12 +179,18 @@ namespace tread
         K += rounded(dealii::Utilities::MPI::max(of_springs, mesh.comm));
         C = rounded(dealii::Utilities::MPI::max(of_dampers, mesh.comm));
       }
-    critical_step = 4. / (C + std::sqrt(C * C + 4. * K));
-    return critical_step;
+    // A node of level l moves with a step 2^l times as long.
+    double of_nodes = 0.;
+    for (const DampedNode &damped : damped_nodes)
+      of_nodes = std::max(of_nodes, std::ldexp(damped.rate, level_of_node[damped.node]));
+    C += rounded(dealii::Utilities::MPI::max(of_nodes, mesh.comm));
+    return 4. / (C + std::sqrt(C * C + 4. * K));
   }
 
 
-  double ExplicitDynamics::highest_frequency(const unsigned int first_level) const
+  double ExplicitDynamics::highest_frequency(const unsigned int    first_level,
+                                             const NodalField     &x,
+                                             const PlasticHistory &memory) const
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
@@ -187,11 +212,14 @@ namespace tread
           of_rank += dot(a[i], b[i]) / inverse[i];
       return sum(of_rank, mesh.comm);
     };
-    NodalField mode(v.size(), Row{}), mode_before(v.size(), Row{}), reference(v.size()), moved(v.size()),
-      at_rest(v.size(), Row{}), f(v.size());
-    // Not where the nodes are now, so that a run that resumes has the same step.
-    for (unsigned int i = 0; i < v.size(); ++i)
-      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    NodalField mode(v.size(), Row{}), mode_before(v.size(), Row{}), moved(v.size()), at_rest(v.size(), Row{}),
+      f(v.size()), forces_at_x(v.size(), Row{});
+    const auto add_forces = [&](const NodalField &at, NodalField &forces) {
+      solid.add_internal_forces(at.data(), at_rest.data(), forces.data(), memory, Levels{first_level});
+      mesh.condense_hanging_nodes(forces.data());
+      mesh.shared_nodes.sum(forces.data());
+    };
+    add_forces(x, forces_at_x);
     for (unsigned int i = 0; i < mode.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
         {
@@ -215,14 +243,12 @@ namespace tread
         const double scale = 1e-9 / std::sqrt(max(largest, mesh.comm)); // m: small against any cell
         for (unsigned int i = 0; i < v.size(); ++i)
           {
-            moved[i] = reference[i] + scale * mode[i];
+            moved[i] = x[i] + scale * mode[i];
             f[i]     = Row{};
           }
-        solid.add_internal_forces(moved.data(), at_rest.data(), f.data(), Levels{first_level});
-        mesh.condense_hanging_nodes(f.data());
-        mesh.shared_nodes.sum(f.data());
+        add_forces(moved, f);
         for (unsigned int i = 0; i < v.size(); ++i)
-          f[i] *= -inverse[i] / scale; // the reference is free of stress
+          f[i] = (inverse[i] / scale) * (forces_at_x[i] - f[i]);
         tridiagonal(k, k) = product(f, mode);
         for (unsigned int i = 0; i < v.size(); ++i)
           mode_before[i] = f[i] - tridiagonal(k, k) * mode[i] - size * mode_before[i];

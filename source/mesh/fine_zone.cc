@@ -47,7 +47,15 @@ namespace tread
     const double margin = 0.01 * finest_cell_size;
     const double a      = std::max({x_begin + margin - x, x - (x_end - margin), 0.});
     const double b      = std::max(std::abs(y - y_middle) - (half_width - margin), 0.);
-    const double c      = std::max(depth_of_point - (depth - margin), 0.);
+    double       below = std::max(depth_of_point - (depth - margin), 0.), c = 0.;
+    for (double layer = 2. * cells_per_level * finest_cell_size; layer < level_depth && below > 0.;
+         layer *= 2.)
+      {
+        const double part = std::min(below, level_depth);
+        c += part * layer / level_depth;
+        below -= part;
+      }
+    c += below;
     return std::sqrt(a * a + b * b + c * c);
   }
 

@@ -123,7 +123,7 @@ namespace tread
       {
         const std::string       name = entry.path().filename();
         static const std::regex own(
-          "(summary\\.json|(history|patch|patch_averaged|reference_patch|subsurface|rail_cells|"
+          "(summary\\.json|(history|patch|patch_averaged|reference_patch|subsurface|transient|rail_cells|"
           "rail_surface|strip|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
@@ -196,7 +196,8 @@ namespace tread
   {
     std::ostringstream text;
     text << "passage,settlement_um,shift_um,equivalent_plastic_strain_percent,residual_von_mises_MPa,"
-            "plastic_work_J,frictional_work_J,traction_coefficient,max_pressure_MPa,energy_residual_share\n"
+            "plastic_work_J,frictional_work_J,traction_coefficient,max_pressure_MPa,energy_residual_share,"
+            "energy_residual_of_dissipated\n"
          << std::setprecision(9);
     for (std::size_t i = 0; i < passages.size(); ++i)
       {
@@ -204,7 +205,7 @@ namespace tread
         text << i + 1 << ',' << 1e6 * p.settlement << ',' << 1e6 * p.shift << ',' << 100. * p.plastic_strain
              << ',' << 1e-6 * p.residual_stress << ',' << p.plastic_work << ',' << p.frictional_work << ','
              << p.traction_coefficient << ',' << 1e-6 * p.max_pressure << ',' << p.energy_residual_share
-             << '\n';
+             << ',' << p.energy_residual_of_dissipated << '\n';
       }
     write("passages.csv", text.str());
   }

@@ -2,19 +2,21 @@
 #include <tread/output/summary.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 namespace tread
 {
-  void Summary::compare(const std::string &name,
-                        const std::string &label,
-                        const double       scale,
-                        const double       value,
-                        const std::string &source,
-                        const double       reference_value,
-                        const double       negligible)
+  void Summary::compare(const std::string          &name,
+                        const std::string          &label,
+                        const double                scale,
+                        const double                value,
+                        const std::string          &source,
+                        const double                reference_value,
+                        const double                negligible,
+                        const std::optional<double> uncertainty)
   {
     std::optional<double> difference;
     if (std::abs(reference_value) > negligible)
@@ -25,17 +27,32 @@ namespace tread
                                        {"relative_difference", nullptr}};
     if (difference)
       json["reference"][name][source]["relative_difference"] = *difference;
-    lines.push_back({label, source, scale * value, scale * reference_value, difference});
+    Line line{label, source, scale * value, scale * reference_value, difference, {}};
+    if (uncertainty)
+      {
+        json["reference"][name][source]["uncertainty"] = *uncertainty;
+        std::string key                                = name + "_" + source + "_uncertainty";
+        std::replace(key.begin(), key.end(), '-', '_');
+        std::transform(key.begin() + name.size(), key.end(), key.begin() + name.size(),
+                       [](const unsigned char c) { return std::tolower(c); });
+        json[key]        = *uncertainty;
+        line.uncertainty = scale * *uncertainty;
+      }
+    lines.push_back(line);
   }
 
 
   void Summary::show(const std::string &name,
                      const std::string &label,
                      const double       scale,
-                     const double       value)
+                     const double       value,
+                     const std::string &after)
   {
     set(name, value);
-    lines.push_back({label, "", scale * value, 0., {}});
+    auto place = lines.end();
+    if (!after.empty())
+      place = std::find_if(lines.begin(), lines.end(), [&](const Line &line) { return line.label == after; });
+    lines.insert(place == lines.end() ? place : place + 1, {label, "", scale * value, 0., {}, {}});
   }
 
 
@@ -53,13 +70,18 @@ namespace tread
         if (!line.source.empty() && std::find(sources.begin(), sources.end(), line.source) == sources.end())
           sources.push_back(line.source);
       }
+    const auto uncertain = [&](const std::string &source) {
+      return std::any_of(lines.begin(), lines.end(),
+                         [&](const Line &line) { return line.source == source && line.uncertainty; });
+    };
     std::string text;
     char        buffer[256];
     std::snprintf(buffer, sizeof buffer, "%-32s %12s", "", "computed");
     text += buffer;
     for (const std::string &source : sources)
       {
-        std::snprintf(buffer, sizeof buffer, " %12s %8s", source.c_str(), "diff.");
+        std::snprintf(buffer, sizeof buffer, " %12s%s %8s", source.c_str(),
+                      uncertain(source) ? "   +-     " : "", "diff.");
         text += buffer;
       }
     text += "\n";
@@ -74,6 +96,11 @@ namespace tread
               const Line &line = column->second;
               std::snprintf(buffer, sizeof buffer, " %12.5g", line.reference);
               text += buffer;
+              if (line.uncertainty)
+                std::snprintf(buffer, sizeof buffer, " +-%-7.2g", *line.uncertainty);
+              else
+                std::snprintf(buffer, sizeof buffer, "%s", uncertain(source) ? "          " : "");
+              text += buffer;
               if (line.difference)
                 std::snprintf(buffer, sizeof buffer, " %+7.2f%%", 100. * *line.difference);
               else
@@ -82,7 +109,8 @@ namespace tread
             }
           else
             {
-              std::snprintf(buffer, sizeof buffer, " %12s %8s", "", "");
+              std::snprintf(buffer, sizeof buffer, " %12s%s %8s", "", uncertain(source) ? "          " : "",
+                            "");
               text += buffer;
             }
         text += "\n";

@@ -55,6 +55,9 @@ namespace tread::reference
     fixed.resize(2 * n);
     for (std::size_t k = 0; k < 2 * n; ++k)
       fixed[k] = equations.fixed[k] * r / p_ref;
+    softness.assign(2 * n, 0.);
+    for (std::size_t k = 0; k < equations.compliance.size(); ++k)
+      softness[k] = r * equations.compliance[k];
     sigma.resize(2 * n), weight.resize(n), e_x.resize(n), e_y.resize(n), work.resize(2 * n);
   }
 
@@ -67,8 +70,12 @@ namespace tread::reference
     out.resize(n_unknowns);
     for (std::size_t k = 0; k < n; ++k)
       {
-        const double s_x = r * sigma[k] + fixed[k] + c_x, s_y = r * sigma[n + k] + fixed[n + k] + c_y;
-        sigma[k] = s_x, sigma[n + k] = s_y;
+        sigma[k]     = r * sigma[k] + fixed[k] + c_x;
+        sigma[n + k] = r * sigma[n + k] + fixed[n + k] + c_y;
+        // With a compliance r must be the smaller one of a softer element, the same in both directions.
+        const double soft = 1. / (1. + std::max(softness[k], softness[n + k]));
+        const double s_x  = soft * (sigma[k] + softness[k] * v[k]),
+                     s_y  = soft * (sigma[n + k] + softness[n + k] * v[n + k]);
         const double q_x = v[k] - s_x, q_y = v[n + k] - s_y;
         const double size = std::hypot(q_x, q_y);
         if (size <= bound[k])
@@ -106,7 +113,9 @@ namespace tread::reference
     double       sum[2] = {0., 0.};
     for (std::size_t k = 0; k < n; ++k)
       {
-        const double s_x = r * work[k] + c_x, s_y = r * work[n + k] + c_y;
+        const double soft = 1. / (1. + std::max(softness[k], softness[n + k]));
+        const double s_x  = soft * (r * work[k] + c_x + softness[k] * in[k]),
+                     s_y  = soft * (r * work[n + k] + c_y + softness[n + k] * in[n + k]);
         sum[0] += in[k];
         sum[1] += in[n + k];
         if (weight[k] < 0.)
@@ -129,12 +138,14 @@ namespace tread::reference
 
   // Identity where elements slip. In adhesion u(x) - u(x + dx) = slip is inverted by the sum of slips from
   // the leading edge of each row, a convolution towards -x that belongs before the backward factor of the
-  // displacement's inverse. A shift or a transient step knows u(x + dx): no sums.
+  // displacement's inverse. The difference of second order is 3/2 (1 - z/3)(1 - z) with the shift z by an
+  // element towards +x, so a second, decaying sum follows. A shift or a transient step knows u(x + dx): no
+  // sums.
   void FrictionNewton::precondition(const double *in, double *out)
   {
     const std::vector<unsigned int> &element              = equations.patch->inner;
     const unsigned int               n_x                  = equations.patch->grid.n_x;
-    const bool                       sums                 = equations.stencil.size() == 2;
+    const bool                       sums                 = equations.stencil.size() >= 2;
     const double                     scale                = 1. / (r * equations.stencil[0][0]);
     const auto                       restrict_to_adhesion = [&] {
       for (std::size_t k = 0; k < n; ++k)
@@ -145,14 +156,19 @@ namespace tread::reference
     restrict_to_adhesion();
     inverse.apply_forward(out);
     restrict_to_adhesion();
-    if (sums)
+    const auto sum_from_the_front = [&](const double share) {
       for (std::size_t k = n - 1; k-- > 0;)
         if (weight[k] < 0. && weight[k + 1] < 0. && element[k + 1] == element[k] + 1 &&
             element[k + 1] % n_x != 0)
           {
-            out[k] += out[k + 1];
-            out[n + k] += out[n + k + 1];
+            out[k] += share * out[k + 1];
+            out[n + k] += share * out[n + k + 1];
           }
+    };
+    if (sums)
+      sum_from_the_front(1.);
+    if (equations.stencil.size() == 3)
+      sum_from_the_front(1. / 3.);
     inverse.apply_backward(out);
     for (std::size_t k = 0; k < n; ++k)
       {

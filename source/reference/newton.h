@@ -31,9 +31,10 @@ namespace tread::reference
   {
     const Patch                       *patch;
     ElasticPair                        pair;
-    std::vector<std::array<double, 2>> stencil; ///< of L: weights and offsets
-    std::vector<double>                bound;   ///< f pn per element [Pa]
-    std::vector<double>                fixed;   ///< slip that does not depend on the unknowns (two blocks)
+    std::vector<std::array<double, 2>> stencil;    ///< of L: weights and offsets
+    std::vector<double>                bound;      ///< f pn per element [Pa]
+    std::vector<double>                fixed;      ///< slip that does not depend on the unknowns (two blocks)
+    std::vector<double>                compliance; ///< more slip by an element's own traction (two blocks)
     bool                               prescribed[2]; ///< force in x, y prescribed
     double                             force[2];      ///< [N]
   };
@@ -83,6 +84,7 @@ namespace tread::reference
     int                      row[2]; // of the prescribed forces, -1: none
     std::size_t              n_unknowns;
     std::vector<double>      bound, fixed, sigma, weight, e_x, e_y, work;
+    std::vector<double>      softness; // r times compliance, two blocks
     Gmres                    gmres;
   };
 } // namespace tread::reference

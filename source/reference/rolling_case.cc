@@ -4,6 +4,7 @@
 #include <tread/reference/rolling_case.h>
 
 #include "require.h"
+#include "rolling_solve.h"
 
 #include <algorithm>
 #include <chrono>
@@ -11,27 +12,27 @@
 
 namespace tread::reference
 {
+  void check_case(const RollingCase &c)
+  {
+    require_positive("curvature_x", c.curvature_x, "1/m");
+    require_positive("curvature_y", c.curvature_y, "1/m");
+    require_positive("normal_force", c.normal_force, "N (no contact otherwise)");
+    require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
+    require_positive("speed", c.speed, "m/s");
+    require_positive("element_size", c.element_size, "m");
+    require_finite("lateral_creepage", c.lateral_creepage);
+    require_finite("spin", c.spin);
+    if (c.prescribe_force)
+      require(std::abs(c.traction_coefficient) < c.friction ||
+                (c.friction == 0. && c.traction_coefficient == 0.),
+              "traction_coefficient", c.traction_coefficient,
+              "less in magnitude than the friction coefficient, " + std::to_string(c.friction));
+    else
+      require_finite("creepage", c.creepage);
+  }
+
   namespace
   {
-    void check(const RollingCase &c)
-    {
-      require_positive("curvature_x", c.curvature_x, "1/m");
-      require_positive("curvature_y", c.curvature_y, "1/m");
-      require_positive("normal_force", c.normal_force, "N (no contact otherwise)");
-      require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
-      require_positive("speed", c.speed, "m/s");
-      require_positive("element_size", c.element_size, "m");
-      require_finite("lateral_creepage", c.lateral_creepage);
-      require_finite("spin", c.spin);
-      if (c.prescribe_force)
-        require(std::abs(c.traction_coefficient) < c.friction ||
-                  (c.friction == 0. && c.traction_coefficient == 0.),
-                "traction_coefficient", c.traction_coefficient,
-                "less in magnitude than the friction coefficient, " + std::to_string(c.friction));
-      else
-        require_finite("creepage", c.creepage);
-    }
-
     void summarise(const RollingCase       &c,
                    const TangentialProblem &tangential,
                    const Grid              &grid,
@@ -46,6 +47,10 @@ namespace tread::reference
       };
       double work =
         result.longitudinal_force * result.creepage + result.lateral_force * result.lateral_creepage;
+      for (std::size_t e = 0; e < grid.size(); ++e)
+        // The pressure's moment, which unlike bodies have, resists the rolling.
+        if (result.pressure[e] > 0.)
+          work -= area * result.pressure[e] * slope(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
       for (std::size_t e = 0; e < grid.size(); ++e)
         if (result.state[e] != ElementState::exterior)
           {
@@ -63,8 +68,6 @@ namespace tread::reference
             const double x = grid.x(e % grid.n_x), y = grid.y(e / grid.n_x);
             const auto   uneven = tangential.uneven_slip(x, y);
             work += area * (result.shear_x[e] * uneven[0] + result.shear_y[e] * uneven[1]);
-            // The pressure's moment, which unlike bodies have, resists the rolling.
-            work -= area * result.pressure[e] * slope(x, y);
           }
       result.area                 = n_contact * area;
       result.semi_axis_x          = 0.5 * grid.dx * *std::max_element(in_row.begin(), in_row.end());
@@ -104,12 +107,92 @@ namespace tread::reference
         }
       return solution;
     }
+
+    /// Hertz's pressure, mean over each element.
+    NormalSolution known_normal(const Grid &grid, const HertzEllipse &hertz, const double force)
+    {
+      constexpr unsigned int n_points = 8; // along an edge of an element
+      NormalSolution         normal;
+      normal.pressure.assign(grid.size(), 0.);
+      for (unsigned int e = 0; e < grid.size(); ++e)
+        {
+          for (unsigned int k = 0; k < n_points * n_points; ++k)
+            normal.pressure[e] +=
+              hertz.pressure(grid.x(e % grid.n_x) + grid.dx * ((k % n_points + 0.5) / n_points - 0.5),
+                             grid.y(e / grid.n_x) + grid.dy * ((k / n_points + 0.5) / n_points - 0.5));
+          normal.force += normal.pressure[e] * grid.element_area();
+        }
+      for (double &p : normal.pressure)
+        p *= force / normal.force;
+      for (unsigned int e = 0; e < grid.size(); ++e)
+        if (normal.pressure[e] > 0.)
+          normal.contact.push_back(e);
+      normal.force    = force;
+      normal.approach = hertz.approach;
+      return normal;
+    }
+    /// The pressure of elements a third as large, mean over each element, and its edges. Their error is a
+    /// ninth of the grid's own, and the normal problem is the smaller part of the work.
+    NormalSolution finer_normal(const Grid                                       &grid,
+                                const ElasticPair                                &pair,
+                                const std::function<NormalProblem(const Grid &)> &problem,
+                                Edges                                            &edges)
+    {
+      constexpr unsigned int parts = 3;
+      const double           size = grid.dx / parts, first = 0.5 * (parts - 1) * size;
+      const Grid             fine{parts * grid.n_x,     parts * grid.n_y,    size, size,
+                      grid.x_first - first, grid.y_first - first};
+      const FourierGrid      fourier(fine);
+      NormalSolution         normal     = solve_normal(fourier, NormalOperator(fourier, pair), problem(fine));
+      const Edges            fine_edges = pressure_edges(fine, normal.pressure);
+      std::vector<double>    pressure(grid.size(), 0.), gap(grid.size(), 0.);
+      for (const unsigned int e : normal.contact)
+        pressure[e / fine.n_x / parts * grid.n_x + e % fine.n_x / parts] +=
+          normal.pressure[e] / (parts * parts);
+      for (unsigned int e = 0; e < grid.size(); ++e)
+        gap[e] = normal.gap[(e / grid.n_x * parts + parts / 2) * std::size_t(fine.n_x) +
+                            e % grid.n_x * parts + parts / 2];
+      edges.semi_axis_x = fine_edges.semi_axis_x;
+      edges.semi_axis_y = fine_edges.semi_axis_y;
+      edges.lead.assign(grid.n_y, -1.);
+      edges.trail.assign(grid.n_y, 0.);
+      for (unsigned int j = 0; j < grid.n_y; ++j)
+        {
+          // Rows in part beside the patch: as long as their share of it, about the middle of the others.
+          double length = 0., middle = 0., n = 0.;
+          for (unsigned int k = parts * j; k < parts * (j + 1); ++k)
+            if (fine_edges.lead[k] > fine_edges.trail[k])
+              {
+                length += (fine_edges.lead[k] - fine_edges.trail[k]) / parts;
+                middle += 0.5 * (fine_edges.lead[k] + fine_edges.trail[k]);
+                n += 1.;
+              }
+          if (n > 0.)
+            {
+              edges.lead[j]  = middle / n + 0.5 * length;
+              edges.trail[j] = middle / n - 0.5 * length;
+            }
+        }
+      normal.pressure = std::move(pressure);
+      normal.gap      = std::move(gap);
+      normal.contact.clear();
+      for (unsigned int e = 0; e < grid.size(); ++e)
+        if (normal.pressure[e] > 0.)
+          normal.contact.push_back(e);
+      return normal;
+    }
   } // namespace
 
   RollingResult solve_rolling(const RollingCase &c)
   {
+    Edges edges;
+    return solve_rolling(c, 1, edges);
+  }
+
+  RollingResult solve_rolling(const RollingCase &c, const unsigned int order, Edges &edges)
+  {
     const auto start = std::chrono::steady_clock::now();
-    check(c);
+    check_case(c);
     const ElasticPair  pair = combine(c.wheel, c.rail);
     const HertzEllipse hertz =
       hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
@@ -122,6 +205,7 @@ namespace tread::reference
     tangential.friction     = c.friction;
     tangential.longitudinal = c.prescribe_force ? 0. : c.creepage;
     tangential.lateral      = c.lateral_creepage;
+    tangential.order        = order;
     tangential.spin         = c.spin;
     if (c.radius_change)
       tangential.more_slip = [&](const double x, const double y) -> std::array<double, 2> {
@@ -131,7 +215,7 @@ namespace tread::reference
     tangential.prescribe_longitudinal_force = c.prescribe_force;
     tangential.longitudinal_force           = c.traction_coefficient * c.normal_force;
 
-    const auto normal_problem = [&](const Grid &grid) {
+    const std::function<NormalProblem(const Grid &)> normal_problem = [&](const Grid &grid) {
       NormalProblem normal;
       normal.force = c.normal_force;
       normal.gap.resize(grid.size());
@@ -177,8 +261,28 @@ namespace tread::reference
       {
         grid                       = centred_grid(half_x + margin, half_y + margin, c.element_size);
         const NormalProblem normal = normal_problem(grid);
-        contact                    = c.friction > 0. ? solve_contact(grid, pair, normal, tangential)
-                                                     : solve_frictionless(grid, pair, normal, tangential);
+        const bool          known  = order == 2 && pair.coupling == 0.;
+        if (known && !c.gap)
+          {
+            contact.normal = known_normal(grid, hertz, c.normal_force);
+            edges          = ellipse_edges(grid, hertz.semi_axis_x, hertz.semi_axis_y);
+          }
+        else if (known)
+          contact.normal = finer_normal(grid, pair, normal_problem, edges);
+        tangential.leading_edge = edges.lead;
+        if (c.friction == 0.)
+          {
+            const NormalSolution by_elements = contact.normal;
+            contact                          = solve_frictionless(grid, pair, normal, tangential);
+            if (known)
+              contact.normal = by_elements;
+          }
+        else if (known)
+          contact.tangential = solve_tangential(grid, pair, contact.normal.pressure, tangential);
+        else
+          contact = solve_contact(grid, pair, normal, tangential);
+        if (!known)
+          edges = pressure_edges(grid, contact.normal.pressure);
         if (!contact.normal.cut)
           break;
       }
@@ -222,14 +326,12 @@ namespace tread::reference
     result.normal_residual       = n.residual;
     result.tangential_residual   = t.residual;
     summarise(c, tangential, grid, result);
+    if (order == 2)
+      {
+        result.semi_axis_x = edges.semi_axis_x;
+        result.semi_axis_y = edges.semi_axis_y;
+      }
     result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
-  }
-
-  double creepage_for_traction(const RollingCase &rolling_case)
-  {
-    RollingCase c     = rolling_case;
-    c.prescribe_force = true;
-    return 0. - solve_rolling(c).creepage;
   }
 } // namespace tread::reference

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/reference/half_space.h>
 
+#include "edges.h"
 #include "newton.h"
 #include "require.h"
 
@@ -32,9 +33,15 @@ namespace tread::reference
       sized("pressure", pressure, false);
       sized("previous_shear_x", problem.previous_shear_x, true);
       sized("previous_shear_y", problem.previous_shear_y, true);
+      sized("before_shear_x", problem.before_shear_x, true);
+      sized("before_shear_y", problem.before_shear_y, true);
       sized("previous_pressure", problem.previous_pressure, true);
       sized("initial_shear_x", problem.initial_shear_x, true);
       sized("initial_shear_y", problem.initial_shear_y, true);
+      require(problem.order == 1 || (problem.order == 2 && problem.motion != Motion::shift), "order",
+              problem.order, "1, or 2 if rolling");
+      require(problem.leading_edge.empty() || problem.leading_edge.size() == grid.n_y, "size of leading_edge",
+              static_cast<double>(problem.leading_edge.size()), "the number of rows");
       require_positive("friction", problem.friction, "");
       require(problem.step >= 0. && std::isfinite(problem.step), "step", problem.step, ">= 0 m");
       require_finite("longitudinal creepage", problem.longitudinal);
@@ -120,20 +127,46 @@ namespace tread::reference
       return result;
     }
 
+    using Stencil = std::vector<std::array<double, 2>>;
+
+    /// Slip from displacements: weights and places ahead.
+    Stencil slip_stencil(const unsigned int order, const double step)
+    {
+      if (order == 2)
+        return {{1.5 / step, 0.}, {-2. / step, step}, {0.5 / step, 2. * step}};
+      return {{1. / step, 0.}, {-1. / step, step}};
+    }
+
+    /// Slip of an element in a long strip across x by the strip's own unit traction, in x and in y.
+    std::array<double, 2> strip_compliance(const Grid &grid, const ElasticPair &pair)
+    {
+      std::array<double, 2> sum{};
+      for (const auto &[weight, offset] : slip_stencil(2, grid.dx))
+        {
+          sum[0] += weight * influence_coefficient(Influence::xx, pair, grid.dx, 1e3 * grid.dx, offset, 0.);
+          sum[1] += weight * influence_coefficient(Influence::yy, pair, grid.dx, 1e3 * grid.dx, offset, 0.);
+        }
+      return sum;
+    }
+
+    /// @param bound pressure that limits the traction; @param softness of border elements, empty: none
     FrictionEquations make_equations(const Grid              &grid,
                                      const ElasticPair       &pair,
                                      const Patch             &patch,
                                      const Vector            &pressure,
+                                     const Vector            &bound,
+                                     const Vector            &softness,
                                      const TangentialProblem &problem)
     {
       const std::size_t n    = patch.size();
       const double      step = step_of(grid, problem);
       FrictionEquations equations;
-      equations.patch = &patch;
-      equations.pair  = pair;
-      equations.stencil.push_back({1. / step, 0.});
-      if (problem.motion == Motion::steady)
-        equations.stencil.push_back({-1. / step, step});
+      equations.patch       = &patch;
+      equations.pair        = pair;
+      const Stencil stencil = slip_stencil(problem.order, step);
+      equations.stencil     = stencil;
+      if (problem.motion != Motion::steady)
+        equations.stencil.resize(1);
       equations.prescribed[0] = problem.prescribe_longitudinal_force;
       equations.prescribed[1] = problem.prescribe_lateral_force;
       equations.force[0]      = problem.longitudinal_force;
@@ -144,7 +177,7 @@ namespace tread::reference
       for (std::size_t k = 0; k < n; ++k)
         {
           const unsigned int e   = patch.outer[k];
-          equations.bound[k]     = problem.friction * pressure[e];
+          equations.bound[k]     = problem.friction * bound[e];
           const auto uneven      = problem.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
           equations.fixed[k]     = (equations.prescribed[0] ? 0. : problem.longitudinal) + uneven[0];
           equations.fixed[n + k] = (equations.prescribed[1] ? 0. : problem.lateral) + uneven[1];
@@ -153,6 +186,13 @@ namespace tread::reference
         for (std::size_t k = 0; k < 2 * n; ++k)
           equations.fixed[k] += u[k];
       };
+      if (!softness.empty())
+        {
+          const std::array<double, 2> own = strip_compliance(grid, pair);
+          equations.compliance.resize(2 * n);
+          for (std::size_t k = 0; k < 2 * n; ++k)
+            equations.compliance[k] = own[k / n] * softness[patch.outer[k % n]];
+        }
       if (pair.coupling != 0.)
         add(displacement(grid, pair, patch, {}, {}, pressure, equations.stencil));
       if (problem.motion != Motion::steady)
@@ -163,7 +203,10 @@ namespace tread::reference
           if (!problem.previous_shear_x.empty() || !problem.previous_shear_y.empty() ||
               (pair.coupling != 0. && !previous.empty()))
             add(displacement(grid, pair, patch, problem.previous_shear_x, problem.previous_shear_y, previous,
-                             {{-1. / step, rolls ? step : 0.}}));
+                             {{stencil[1][0], rolls ? step : 0.}}));
+          if (problem.order == 2)
+            add(displacement(grid, pair, patch, problem.before_shear_x, problem.before_shear_y, previous,
+                             {stencil[2]}));
         }
       return equations;
     }
@@ -202,7 +245,10 @@ namespace tread::reference
       coarse.problem                   = problem;
       coarse.problem.previous_shear_x  = average(problem.previous_shear_x);
       coarse.problem.previous_shear_y  = average(problem.previous_shear_y);
+      coarse.problem.before_shear_x    = average(problem.before_shear_x);
+      coarse.problem.before_shear_y    = average(problem.before_shear_y);
       coarse.problem.previous_pressure = average(problem.previous_pressure);
+      coarse.problem.leading_edge.clear();
       // Rolling steps of an element are kept one element long; a transient step must remain the step asked
       // for.
       if (problem.motion == Motion::steady)
@@ -275,10 +321,12 @@ namespace tread::reference
                        const ElasticPair &pair,
                        const Patch       &patch,
                        const Vector      &pressure,
+                       const Vector      &bound,
                        TangentialProblem  problem,
                        Level             &level)
     {
       problem.motion             = Motion::transient;
+      problem.order              = 1;
       problem.step               = step_of(grid, problem);
       const unsigned int n_steps = 2 * patch.grid.n_x;
       for (unsigned int s = 0; s < n_steps; ++s)
@@ -286,7 +334,7 @@ namespace tread::reference
           scatter(grid, patch, level);
           problem.previous_shear_x          = level.shear_x;
           problem.previous_shear_y          = level.shear_y;
-          const FrictionEquations equations = make_equations(grid, pair, patch, pressure, problem);
+          const FrictionEquations equations = make_equations(grid, pair, patch, pressure, bound, {}, problem);
           FrictionNewton          newton(equations);
           newton.iterate(level.state, 1e-3, 15);
         }
@@ -302,10 +350,17 @@ namespace tread::reference
                       const bool               finest,
                       const bool               started)
     {
-      const std::vector<unsigned int> contact = elements_in_contact(pressure);
+      // Within elements only the answer's own grid knows of edges; a first guess needs none.
+      LeadingEdge edge{pressure, {}};
+      if (finest && problem.order == 2)
+        edge = leading_edge(grid, pressure,
+                            problem.leading_edge.empty() ? pressure_edges(grid, pressure).lead
+                                                         : problem.leading_edge);
+      const std::vector<unsigned int> contact = elements_in_contact(edge.bound);
       const Patch                     patch(grid, contact);
-      const std::size_t               n         = patch.size();
-      const FrictionEquations         equations = make_equations(grid, pair, patch, pressure, problem);
+      const std::size_t               n = patch.size();
+      const FrictionEquations         equations =
+        make_equations(grid, pair, patch, pressure, edge.bound, edge.compliance, problem);
 
       Level level;
       level.state.shear.assign(2 * n, 0.);
@@ -339,7 +394,7 @@ namespace tread::reference
         return solve_level(grid, pair, pressure, problem, tolerance, solution, finest, false);
       if (!converged && problem.motion == Motion::steady)
         {
-          solution.fallback_steps += march(grid, pair, patch, pressure, problem, level);
+          solution.fallback_steps += march(grid, pair, patch, pressure, edge.bound, problem, level);
           converged = newton.iterate(level.state, tolerance, problem.max_iterations);
         }
       scatter(grid, patch, level);
@@ -426,6 +481,10 @@ namespace tread::reference
         changed_normal.initial_pressure = solution.normal.pressure;
         const Vector old                = solution.normal.pressure;
         solution.normal                 = solve_normal(fourier, op, changed_normal);
+        // Edges that stay where they are from then on: an element that comes and goes would keep the turns
+        // from settling.
+        if (tangential.order == 2 && tangential.leading_edge.empty() && solution.outer_iterations <= 4)
+          changed_tangential.leading_edge = pressure_edges(grid, solution.normal.pressure).lead;
 
         changed_tangential.initial_shear_x = solution.tangential.shear_x;
         changed_tangential.initial_shear_y = solution.tangential.shear_y;

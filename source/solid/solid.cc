@@ -56,11 +56,6 @@ namespace tread
               F[i][j] += position[a][i] * gradient[a][j];
           }
     }
-
-    Lanes contraction(const Lanes (&S)[6], const Lanes (&E)[6])
-    {
-      return S[0] * E[0] + S[1] * E[1] + S[2] * E[2] + 2. * (S[3] * E[3] + S[4] * E[4] + S[5] * E[5]);
-    }
   } // namespace
 
 
@@ -234,7 +229,7 @@ namespace tread
         Lanes       F[3][3], amplitude[4][3], E[6], S[6], P[3][3];
         deform(batch, x, F, amplitude);
         green_lagrange(F, E);
-        saint_venant_kirchhoff(range.lambda, range.mu, E, S);
+        HenckyPoint<Lanes>(E).stress(range.lambda, range.mu, S);
         if constexpr (viscous)
           {
             // Volumetric strain rate tr(F^T dF/dt): a pressure against fast changes of volume
@@ -283,7 +278,7 @@ namespace tread
             Lanes F[3][3], E[6], S[6], P[3][3];
             mean_deformation(position, batch.gradient[q], F);
             green_lagrange(F, E);
-            saint_venant_kirchhoff(range.lambda, range.mu, E, S);
+            HenckyPoint<Lanes>(E).stress(range.lambda, range.mu, S);
             first_piola(F, S, P);
             for (unsigned int a = 0; a < 8; ++a)
               for (unsigned int i = 0; i < 3; ++i)
@@ -324,10 +319,9 @@ namespace tread
     Lanes strain_sum{}, hourglass_sum{};
     for_batches([&](const Range &range, const auto &batch, const auto &) {
       const auto add_point = [&](const Lanes(&F)[3][3], const Lanes weight) {
-        Lanes E[6], S[6];
+        Lanes E[6];
         green_lagrange(F, E);
-        saint_venant_kirchhoff(range.lambda, range.mu, E, S);
-        strain_sum += 0.5 * weight * contraction(S, E);
+        strain_sum += weight * HenckyPoint<Lanes>(E).energy(range.lambda, range.mu);
       };
       Lanes F[3][3];
       if constexpr (std::is_same_v<std::decay_t<decltype(batch)>, BatchOfPoints>)
@@ -394,7 +388,7 @@ namespace tread
           deform(batch, x, F, amplitude);
         }
       green_lagrange(F, E);
-      saint_venant_kirchhoff(range.lambda, range.mu, E, S);
+      HenckyPoint<Lanes>(E).stress(range.lambda, range.mu, S);
       first_piola(F, S, P);
       for (unsigned int l = 0; l < n_lanes; ++l)
         if (const unsigned int c = cells[l]; c != invalid_cell)

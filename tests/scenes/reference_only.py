@@ -32,10 +32,16 @@ with tempfile.TemporaryDirectory() as folder:
     def reference_only(*settings, scene=SCENE, ranks=1, output=None):
         return run(program, scene, output or path(str(next(numbers))), settings, ranks, ["--reference-only"])
 
-    # Against CONTACT with elements of 0.1 mm; the program's own are 0.155 mm here.
+    # Against CONTACT, whose values are of first order: extrapolated from its elements of 0.2 and 0.1 mm. What the edge of
+    # the patch on those two grids leaves in them is 0.1 or 0.2 %, more in what sits at that edge.
     with open(os.path.join(CONTACT, "contact_summary.csv"), encoding="utf-8") as stream:
         table = list(csv.DictReader(stream))
+    with open(os.path.join(ROOT, "tests", "data", "contact_summary.csv"), encoding="utf-8") as stream:
+        convergence = {(float(r["mu"]), float(r["dx_mm"])): r
+                       for r in csv.DictReader(line for line in stream if not line.startswith("#"))}
     for row in table:
+        fine, coarse = (convergence[float(row["traction_coefficient"]), size] for size in (0.1, 0.2))
+        extrapolated = lambda name: 2 * abs(float(fine[name])) - abs(float(coarse[name]))
         mu = f"{float(row['traction_coefficient']):.2f}"
         spent = resource.getrusage(resource.RUSAGE_CHILDREN)
         answer = reference_only(scene=f"verification/half-space-0.63-mu{mu}.prm", output=path(mu))
@@ -45,12 +51,16 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"{name}: normal force, N", answer["normal_force_N"], float(row["normal_force_N"]), 1e-6)
         check.relative(f"{name}: traction coefficient", answer["traction_coefficient"], float(mu), 1e-6)
         check.relative(f"{name}: maximum pressure, MPa", 1e-6 * answer["max_pressure_Pa"], float(row["max_pressure_MPa"]), 0.003)
-        check.relative(f"{name}: patch area, mm2", 1e6 * answer["patch_area_m2"], float(row["patch_area_mm2"]), 0.003)
-        check.relative(f"{name}: creepage, 1e-3", 1e3 * answer["creepage"], 1e3 * float(row["creepage"]), 0.003)
-        check.absolute(f"{name}: adhesion share, %", 100 * answer["adhesion_share"], 100 * float(row["adhesion_share"]), 0.5)
-        check.relative(f"{name}: maximum shear stress, MPa", 1e-6 * answer["max_shear_Pa"], float(row["max_shear_MPa"]), 0.003)
-        check.relative(f"{name}: maximum micro-slip, m/s", answer["max_slip_m_per_s"], float(row["max_slip_m_per_s"]), 0.01)
-        check.relative(f"{name}: frictional power, W", answer["frictional_power_W"], float(row["frictional_power_W"]), 0.003)
+        check.relative(f"{name}: patch area, mm2", 1e6 * answer["patch_area_m2"], extrapolated("area_mm2"), 0.003)
+        check.relative(f"{name}: creepage, 1e-3", 1e3 * answer["creepage"], 1e3 * extrapolated("creepage"), 0.002)
+        check.absolute(f"{name}: adhesion share, %", 100 * answer["adhesion_share"], 100 * extrapolated("adhesion_share"), 0.3)
+        check.relative(f"{name}: maximum shear stress, MPa", 1e-6 * answer["max_shear_Pa"], extrapolated("max_shear_MPa"), 0.006)
+        check.relative(f"{name}: maximum micro-slip, m/s", answer["max_slip_m_per_s"], extrapolated("max_slip_m_per_s"), 0.01)
+        check.relative(f"{name}: frictional power, W", answer["frictional_power_W"],
+                       float(mu) * 127.1e3 * extrapolated("creepage") * 140 / 3.6, 0.002)
+        for key in ("max_pressure_Pa", "creepage", "adhesion_share", "max_shear_Pa", "max_slip_m_per_s", "frictional_power_W"):
+            check.that(f"{name}: {key}: uncertainty below 1 %",
+                       0. <= answer[key + "_half_space_uncertainty"] < 0.01 * abs(answer[key]))
         # asked for: a second. Processor time, for the machine may be busy, which can still double it.
         check.below(f"{name}: processor time, s", seconds, 2.)
 
@@ -59,10 +69,11 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"{name}: compare-contact.py reads it", compared.returncode == 0)
         with open(measures, encoding="utf-8") as stream:
             fields = json.load(stream)
-        # The grids differ, so values near the edge are interpolated: the largest error is half an element there.
-        check.below(f"{name}: pressure, RMS over the maximum", fields["pressure_rms_over_max"], 0.005)
+        # The program's elements are of 0.31 mm: values near the edge are interpolated, with errors of half an element there,
+        # and CONTACT's slip is that of half an element ahead.
+        check.below(f"{name}: pressure, RMS over the maximum", fields["pressure_rms_over_max"], 0.007)
         check.below(f"{name}: shear stress, RMS over the maximum", fields["shear_rms_over_max"], 0.0125)
-        check.below(f"{name}: micro-slip, RMS over the maximum", fields["micro_slip_rms_over_max"], 0.01)
+        check.below(f"{name}: micro-slip, RMS over the maximum", fields["micro_slip_rms_over_max"], 0.017)
 
     # Below the surface: CONTACT's depth lines of the same case, in both bodies under the patch centre. Stresses are those
     # of elements of 0.31 mm, so depths from there on (a twentieth of the smaller semi-axis).
@@ -99,6 +110,17 @@ with tempfile.TemporaryDirectory() as folder:
     with open(os.path.join(results, "summary.json"), encoding="utf-8") as stream:
         check.that("without --output a run's results are kept", stream.read() == "kept")
     check.that("without --output it writes beside them", os.path.exists(results + "-reference/summary.json"))
+
+    # From a start without tractions: the way to steady rolling, at the creepage of the scene.
+    transient = reference_only("Motion/Rolled distance (mm)=60", scene="verification/transient-low-strain.prm", output=path("transient"))
+    with open(path("transient/transient.csv"), encoding="utf-8") as stream:
+        way = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+    check.relative("transient: it ends at the distance rolled, mm", way[-1]["rolled_mm"], 60., 1e-6)
+    check.below("transient: traction coefficient at the start", way[0]["traction_coefficient"], 1e-12)
+    check.relative("transient: traction coefficient at the end", way[-1]["traction_coefficient"], transient["traction_coefficient"], 0.003)
+    check.relative("transient: creepage", way[-1]["creepage"], 6.65e-4, 1e-9)
+    check.that("transient: the traction rises all the way",
+               all(after["traction_coefficient"] > before["traction_coefficient"] for before, after in zip(way, way[1:])))
 
     # A folder that held a run: what it wrote is removed, its history is not of this answer.
     again = path("again")

@@ -19,6 +19,7 @@ SCENE = "smooth-rolling.prm"
 COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"]
 SHORT = COARSE + ["Motion/Rolled distance (mm)=12"]
 NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "creepage", "max_pressure_Pa", "patch_area_m2",
+           "dissipated_work_J", "contact_work_on_nodes_J", "hourglass_of_internal_energy", "slip_chatter_share",
            "adhesion_share", "max_shear_Pa", "max_slip_m_per_s", "frictional_power_W", "frictional_work_J", "damping_work_J"]
 
 
@@ -27,7 +28,7 @@ def same(name, a, b, allowed):
         # Damping is sampled every 50 steps; a ledger in between, as at an interruption, shifts the samples. The largest
         # micro-slip is that of one node at the patch's end.
         check.relative(f"{name}: {key}", a[key], b[key],
-                       {"damping_work_J": 10., "max_slip_m_per_s": 5.}.get(key, 1.) * allowed)
+                       {"damping_work_J": 10., "dissipated_work_J": 10., "max_slip_m_per_s": 5., "slip_chatter_share": 10.}.get(key, 1.) * allowed)
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
@@ -141,7 +142,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.that("Ctrl-C to mpirun: the summary is there", part["completed"] is False)
         rest = run(program, "smooth-rolling.prm", path("two-ranks"), longer, ranks=2, more=["--resume"])
         check.that("Ctrl-C to mpirun: resumed to the end", rest["completed"] and rest["steps"] > part["steps"])
-        check.below("Ctrl-C to mpirun: energy residual over both parts, share of the work", rest["energy_residual_share"], 1e-3)
+        check.energy("Ctrl-C to mpirun: both parts: ", rest, 0.005)
         run(program, "smooth-rolling.prm", path("two-ranks-whole"), longer, ranks=2)
         identical("two ranks, resumed against never stopped", "two-ranks", "two-ranks-whole")
 
@@ -165,7 +166,7 @@ with tempfile.TemporaryDirectory() as folder:
         base = COARSE + ["Motion/Rolled distance (mm)=60"]
         drive = run(program, "smooth-rolling.prm", path("drive"), base, 2)
         check.relative("driving: traction coefficient", drive["traction_coefficient"], 0.3, 0.02)
-        check.below("driving: energy residual, share of the work", drive["energy_residual_share"], 1e-3)
+        check.energy("driving: ", drive, 0.005)
         # Normal forces of pairs that slid apart by up to 2 % of a face, on surfaces that turn by speed/2R, against friction.
         check.below("driving: other work of the contact, share of the frictional work",
                     drive["contact_loss_J"] / drive["frictional_work_J"], 2e-3)
@@ -197,18 +198,31 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("density x 25: normal force", drive["normal_force_N"], plain["normal_force_N"], 0.001)
         check.relative("density x 25: maximum pressure", drive["max_pressure_Pa"], plain["max_pressure_Pa"], 0.002)
         check.relative("density x 25: traction coefficient", drive["traction_coefficient"], plain["traction_coefficient"], 0.005)
-        check.below("density 1: energy residual, share of the work", plain["energy_residual_share"], 1e-3)
+        check.energy("density 1: ", plain, 0.005)
         levels = run(program, "smooth-rolling.prm", path("levels"), base + ["Time stepping/Levels=4"], 2)
         # With cells of 1.3 mm the adhesion share changes by 0.3 % with any change of the step.
         for key, allowed in (("max_pressure_Pa", 0.002), ("patch_area_m2", 0.002), ("max_shear_Pa", 0.002),
                              ("traction_coefficient", 0.002), ("adhesion_share", 0.005)):
             check.relative(f"four levels of time steps: {key}", levels[key], drive[key], allowed)
-        check.below("four levels of time steps: energy residual, share of the work", levels["energy_residual_share"], 1e-3)
+        # Forces of slow cells act on their neighbours' nodes at other instants than those at which energy is counted: 1 %.
+        check.energy("four levels of time steps: ", levels, 0.02)
         full = run(program, "smooth-rolling.prm", path("full"),
                    SHORT + ["Solid/Element=fully-integrated"], 2)
         one = run(program, "smooth-rolling.prm", path("one"), SHORT, 2)
         check.relative("fully integrated cells: maximum pressure", full["max_pressure_Pa"], one["max_pressure_Pa"], 0.02)
         check.relative("fully integrated cells: traction", full["longitudinal_force_N"], one["longitudinal_force_N"], 0.02)
+        # What a user is told of: assumptions at the start, measures and warnings at the end.
+        check.that("scaled density, mass damping and the predicted start are named", len(drive["assumptions"]) == 3 and all(
+            any(word in line for line in drive["assumptions"]) for word in ("density", "mass damping", "predicts")))
+        check.that("a good run: no warning", drive["warnings"] == [])
+        check.below("hourglass over internal energy, as large as cells of 1.3 mm have it", drive["hourglass_of_internal_energy"], 0.04)
+        check.below("slip chatter with stiffness damping", one["slip_chatter_share"], 0.06)
+        rough = run(program, "smooth-rolling.prm", path("rough"), SHORT + ["Solid/Stiffness damping (time steps)=0", "Time stepping/Levels=1"], 2)
+        check.that("without it: micro-slip chatters, and the run says so", rough["slip_chatter_share"] > 2. * one["slip_chatter_share"]
+                   and any("no stiffness damping" in line for line in rough["assumptions"]))
+        few = run(program, "smooth-rolling.prm", path("few"), SHORT + ["Contact/Largest number of sweeps=2"], 2)
+        check.that("two sweeps: steps that do not converge are warned of", few["contact_unconverged_share"] > 0.01
+                   and any("tolerance" in line for line in few["warnings"]))
         unstable = subprocess.run(command(program, [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", path("unstable"),
                                                     "-s", SHORT[0], "-s", SHORT[1], "-s", SHORT[2],
                                                     "-s", "Time stepping/Courant number=1.3"]),
@@ -223,7 +237,7 @@ with tempfile.TemporaryDirectory() as folder:
                             "Rail/Hardening=Armstrong-Frederick", "Rail/Plastic zones=-7:-5:8:350:10"]
         rows = lambda name: list(csv.DictReader(open(os.path.join(path(name), "passages.csv"), encoding="utf-8")))
         whole = run(program, "smooth-rolling.prm", path("whole"), settings)
-        check.below("energy residual, share of the work", whole["energy_residual_share"], 3e-3)
+        check.energy("", whole, 0.01)
         check.that("work is lost to friction and to plastic strain",
                    whole["plastic_work_J"] > 0. and whole["frictional_work_J"] > 0.)
         first, second = rows("whole")
@@ -233,7 +247,7 @@ with tempfile.TemporaryDirectory() as folder:
         same("3 ranks against 1", ranks, whole, 1e-6)
         check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
         levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=3"])
-        check.below("levels of time steps: energy residual, share of the work", levels["energy_residual_share"], 3e-3)
+        check.energy("levels of time steps: ", levels, 0.01)
         check.relative("levels of time steps: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 0.03)
         for key in ("settlement_um", "residual_von_mises_MPa"):
             check.relative(f"levels of time steps: {key}", float(rows("levels")[1][key]), float(second[key]), 5e-3)
@@ -249,11 +263,12 @@ with tempfile.TemporaryDirectory() as folder:
     elif what == "full-wheel":
         wheel = run(program, "tutorial/full-wheel.prm", path("wheel"), ["Motion/Rolled distance (mm)=60"], 2)
         # From no tractions the rim swings on the web, and the traction is far from steady after 60 mm.
-        check.relative("full wheel: traction coefficient", wheel["traction_coefficient"], 0.3, 0.01)
+        # At the creepage of half-space theory cells of 1.3 mm transmit 1.5 % more (doc/verification.md, section 2.1).
+        check.relative("full wheel: traction coefficient", wheel["traction_coefficient"], 0.3, 0.02)
         check.relative("full wheel: normal force is the load, N", wheel["normal_force_N"], 14300. * 9.81, 0.002)
         check.relative("full wheel: maximum pressure against Hertz", wheel["max_pressure_Pa"],
                        wheel["reference"]["max_pressure_Pa"]["Hertz"]["value"], 0.02)
-        check.below("full wheel: energy residual, share of the work", wheel["energy_residual_share"], 1e-3)
+        check.energy("full wheel: ", wheel, 0.005)
 
     elif what == "shipped":
         shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
@@ -275,7 +290,11 @@ with tempfile.TemporaryDirectory() as folder:
             short = run(program, name, path("start"), SHORT[:2] + ["Motion/Rolled distance (mm)=4", "Motion/Hold distance (mm)=1",
                                                                   "Output/Write volume=false"])
             check.that(f"{name}: starts and ends", short["completed"])
-            check.below(f"{name}: energy residual, share of the work", short["energy_residual_share"], 1e-3)
+            # What rattles at the start is much beside the friction of 4 mm, and all there is without friction.
+            if short["frictional_work_J"] > 0.1:
+                check.energy(f"{name}: ", short, 0.1)
+            else:
+                check.absolute(f"{name}: energy residual, J", short["energy_residual_J"], 0., 0.015)
 
     elif what == "files":
         run(program, "smooth-rolling.prm", path("files"), SHORT + ["Output/Surface interval (mm)=4", "Output/Volume interval (mm)=6"], 2)

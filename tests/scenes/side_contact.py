@@ -41,7 +41,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(name + "comes to its end", summary["completed"])
         # Starting from rest, on cells of 1.8 mm.
         check.relative(name + "normal force over the load", summary["normal_force_N"], LOAD, 0.02)
-        check.below(name + "energy residual, share of the work", summary["energy_residual_share"], 1e-3)
+        check.energy(name, summary, 0.01)
         if shape == "head":
             check.that(name + "time steps are about those of a cone", summary["time_step_s"] > 0.7 * cone["time_step_s"])
         patch, half_space = table(folder_of_run, "patch_averaged.csv"), table(folder_of_run, "reference_patch.csv")
@@ -65,8 +65,9 @@ with tempfile.TemporaryDirectory() as folder:
             check.absolute(name + "traction coefficient, the one asked for", summary["traction_coefficient"], traction, 0.005)
             check.absolute(name + "creepage, half-space's", summary["creepage"], summary["reference"]["creepage"]["half-space"]["value"],
                            5e-5)
+            # Spin alone slips on a rim narrower than a cell of 1.3 mm.
             check.absolute(name + "adhesion share, half-space's", summary["adhesion_share"],
-                           summary["reference"]["adhesion_share"]["half-space"]["value"], 0.02)
+                           summary["reference"]["adhesion_share"]["half-space"]["value"], 0.02 if traction > 0. else 0.03)
             # Spin alone slips at the rim, which cells of 1.3 mm see coarsely.
             check.relative(name + "power, half-space's, W", summary["frictional_power_W"],
                            summary["reference"]["frictional_power_W"]["half-space"]["value"], 0.03 if traction > 0. else 0.1)

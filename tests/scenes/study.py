@@ -58,7 +58,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Four runs, two of which cannot be.
     study = write(path("product.study"), {"Motion/Creepage": ["0.001", "0.9"], "Contact/Friction coefficient": ["0.4", "0.5"]},
-                  Directory=path("product"), Figures="traction_coefficient | max(normal_force_N) | last(position_m)")
+                  Directory=path("product"), Figures="traction_coefficient | max(normal_force_N) | last(position_m) | max(strip.csv:von_mises_MPa) | "
+                          "at(strip.csv:von_mises_MPa:x_mm)")
     result = perform(study, "--processes", "2")
     rows = table(path("product"))
     check.that("a run that fails: the exit code says so", result.returncode == 1)
@@ -71,6 +72,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("a run of a study is the run alone", float(rows[0]["traction_coefficient"]), alone["traction_coefficient"], 1e-6)
     check.relative("largest value of a column", float(rows[0]["max(normal_force_N)"]), max(column(path("alone"), "normal_force_N")), 1e-6)
     check.relative("last value of a column", float(rows[0]["last(position_m)"]), column(path("alone"), "position_m")[-1], 1e-6)
+
+    # The summary has the same two from the program itself, in Pa and m.
+    check.relative("largest value of a column of another table", float(rows[0]["max(strip.csv:von_mises_MPa)"]),
+                   1e-6 * alone["strip_max_von_mises_Pa"], 1e-6)
+    check.relative("another column where one is largest", float(rows[0]["at(strip.csv:von_mises_MPa:x_mm)"]),
+                   1e3 * alone["strip_max_von_mises_x_m"], 1e-6)
 
     # Once more, with one value more: what is there is kept.
     summary = path("product", "creepage-0.001_friction-coefficient-0.4", "summary.json")
@@ -90,7 +97,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # A zip, with a twin that both runs share.
     study = write(path("zip.study"), {"Defect/Depth (mm)": ["0.002", "0.004"], "Defect/Length (mm)": ["5", "6"]},
-                  SETTINGS + ["Defect/Shape=dip", "Defect/Position (mm)=-4"], Directory=path("zip"), Combination="zip",
+                  SETTINGS + ["Defect/Shape=dip", "Defect/Position (mm)=-4", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], Directory=path("zip"), Combination="zip",
                   Smooth_twin="Defect/Shape=none", Figures="dynamic(normal_force_N)")
     result = perform(study)
     rows = table(path("zip"))
@@ -139,6 +146,7 @@ with tempfile.TemporaryDirectory() as folder:
                 ["same values", f"creepage-{value}"])
     refused("no number of processes", write(path("bad.study"), vary, Processes="many"), ["Processes", "many"])
     refused("an unknown kind of figure", write(path("bad.study"), vary, Figures="mean(normal_force_N)"), ["mean", "max, min"])
+    refused("a place without its column", write(path("bad.study"), vary, Figures="at(strip.csv:x_mm)"), ["at(TABLE.csv:COLUMN:OTHER"])
     refused("a dynamic force without a twin", write(path("bad.study"), vary, Figures="dynamic(normal_force_N)"), ["Smooth twin"])
     # Without its site packages a Python has no numpy.
     bare = subprocess.run([sys.executable, "-S"] + line(path("bad.study"))[1:], env=environment(), capture_output=True, text=True)

@@ -74,6 +74,14 @@ class Check:
     def that(self, what, holds):
         return self._line(what, float(bool(holds)), 1., 0. if holds else 1., 0.)
 
+    def energy(self, name, summary, residual):
+        """What is not accounted for, over what was dissipated; and what contact takes from the nodes must be what it takes
+        from the pairs, or one side does not get the impulse of the other."""
+        self.below(f"{name}energy residual over what was dissipated", summary["energy_residual_of_dissipated"], residual)
+        pairs = summary["frictional_work_J"] + summary["contact_loss_J"]
+        self.below(f"{name}work of contact on the nodes less that of the pairs, over what was dissipated",
+                   (summary["contact_work_on_nodes_J"] - pairs) / summary["dissipated_work_J"], 1e-9)
+
     def exit(self):
         print(f"{self.lines} comparisons, {self.failed} failed")
         sys.exit(0 if self.lines and not self.failed else 1)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A verification scene against Kalker's CONTACT with elements of 0.1 mm."""
+"""A verification scene against Kalker's CONTACT with elements of 0.1 mm, and the half-space solution of second order."""
 
 import json
 import os
@@ -11,28 +11,36 @@ import tempfile
 from tread_runner import ROOT, Check, run
 
 program, scene, contact = sys.argv[1:4]
+# What cells of 0.63 mm, a ninth of the smaller semi-axis, must reach: about half as much again as was found. With two cells
+# of each size instead of layers as thick as a semi-axis the largest pressure is 0.66 % off at low strain and 1.15 % at the
+# usual load. Load over that of CONTACT's case; largest pressure; RMS of pressure, shear stress, micro-slip; adhesion share
+# [points]; creepage; energy residual of what was dissipated.
+LIMITS = {"half-space-0.63-mu0.15": (1., 0.009, 0.020, 0.026, 0.033, 1.1, 0.010, 0.016),
+          "half-space-0.63-mu0.30": (1., 0.009, 0.020, 0.022, 0.021, 1.0, 0.010, 0.005),
+          "low-strain-0.63": (29232. / 127100., 0.0045, 0.019, 0.021, 0.021, 0.9, 0.015, 0.004)}
+scale, pressure, pressure_rms, shear_rms, slip_rms, adhesion, creepage, energy = LIMITS[scene]
 check = Check()
 with tempfile.TemporaryDirectory() as folder:
     summary = run(program, f"verification/{scene}.prm", folder, ["Output/Write volume=false"], 2)
     measures = os.path.join(folder, "measures.json")
     subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "plot", "compare-contact.py"), folder,
-                    os.path.join(ROOT, "contrib", "reference", contact), "--json", measures], check=True)
+                    os.path.join(ROOT, "contrib", "reference", contact), "--scale", str(scale), "--json", measures], check=True)
     with open(measures, encoding="utf-8") as stream:
         print(stream.read())
         stream.seek(0)
         m = json.load(stream)
-# What cells of 0.63 mm, a ninth of the smaller semi-axis, must reach.
-check.relative("normal force, N", summary["normal_force_N"], 127100., 0.002)
-check.below("maximum pressure, relative difference", m["max_pressure_relative_difference"], 0.012)
-check.below("pressure, RMS over the maximum", m["pressure_rms_over_max"], 0.025)
-check.below("shear stress, RMS over the maximum", m["shear_rms_over_max"], 0.025)
+half_space = {name: entry["half-space"]["value"] for name, entry in summary["reference"].items() if "half-space" in entry}
+check.relative("normal force, N", summary["normal_force_N"], scale * 127100., 0.003)
+check.below("maximum pressure, relative difference", m["max_pressure_relative_difference"], pressure)
+check.below("pressure, RMS over the maximum", m["pressure_rms_over_max"], pressure_rms)
+check.below("shear stress, RMS over the maximum", m["shear_rms_over_max"], shear_rms)
 # Nodes adhere or slip as a whole: one instant knows the share to a point; the mean over rolling one cell does better.
-contact_share = 100. * m["adhesion_share"] - m["adhesion_share_difference_points"]
-check.absolute("adhesion share, %", 100. * summary["adhesion_share"], contact_share, 1.)
-check.below("creepage at this traction, relative difference", m["creepage_at_this_traction_relative_difference"], 0.02)
-check.below("micro-slip averaged over one cell, RMS over the maximum", m["micro_slip_rms_over_max"], 0.04)
+check.absolute("adhesion share, %", 100. * summary["adhesion_share"], 100. * half_space["adhesion_share"], adhesion)
+check.relative("creepage at this traction", summary["creepage"], half_space["creepage"], creepage)
+check.below("micro-slip averaged over one cell, RMS over the maximum", m["micro_slip_rms_over_max"], slip_rms)
 check.below("isolated nodes of adhesion in the slip area", m["isolated_adhesion_nodes"], 0.)
 check.below("largest slip in adhesion, m/s, at the solver's tolerance", m["max_slip_in_adhesion_m_per_s"], 1e-6)
-check.below("ripple of the normal force over the last 10 mm", summary["normal_force_ripple_share"], 0.003)
-check.below("energy residual, share of the work", summary["energy_residual_share"], 1e-3)
+check.below("ripple of the normal force over the last 10 mm", summary["normal_force_ripple_share"], 0.002)
+check.below("contact steps not converged", summary["contact_unconverged_share"], 0.)
+check.energy("", summary, energy)
 check.exit()

@@ -34,7 +34,7 @@ namespace
     }
 
     /// Of the cell with this centre and edge. Means of the trilinear field's gradient, then Cauchy's stress
-    /// of St. Venant and Kirchhoff's law.
+    /// of Hencky's law.
     double von_mises(const double x, const double z, const double edge) const
     {
       const double s = from_rear ? length - x : x;
@@ -48,10 +48,12 @@ namespace
       E                 = 0.5 * (transpose(F) * F);
       for (unsigned int i = 0; i < 3; ++i)
         E[i][i] -= 0.5;
-      const ElasticMaterial steel;
-      dealii::Tensor<2, 3>  S = 2. * steel.shear_modulus() * E;
+      const ElasticMaterial      steel;
+      const double               mu = steel.shear_modulus(), lambda = steel.lame();
+      const dealii::Tensor<2, 3> square = E * E;
+      dealii::Tensor<2, 3>       S      = (2. * mu - 2. * lambda * trace(E)) * E - 6. * mu * square;
       for (unsigned int i = 0; i < 3; ++i)
-        S[i][i] += steel.lame() * trace(E);
+        S[i][i] += lambda * (trace(E) - trace(square));
       const dealii::Tensor<2, 3> stress = F * S * transpose(F) / determinant(F);
       return tread::von_mises(
         {{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][2], stress[2][0]}});

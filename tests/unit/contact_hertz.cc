@@ -186,9 +186,11 @@ int main(int argc, char **argv)
   }
 
   {
-    const double force = 127.1e3, radius = 0.46, crown = 0.30;
+    // At a pressure of 308 MPa: that of 1340 MPa under a wheel of 0.46 m strains steel by half a per cent,
+    // and the patch is 2 % smaller than half-space theory says, which neglects strain.
+    const double force = 29232., radius = 2., crown = 1.304348;
     const auto   hertz = reference::hertz_ellipse(0.5 / radius, 0.5 / crown, modulus, force);
-    check.relative("closed form: ellipse, a, mm", 1e3 * hertz.semi_axis_x, 7.758, 1e-3);
+    check.relative("closed form: ellipse, a, mm", 1e3 * hertz.semi_axis_x, 7.754, 1e-3);
     check.relative("closed form: ellipse, b, mm", 1e3 * hertz.semi_axis_y, 5.835, 1e-3);
     double approach[2] = {};
     for (const unsigned int i : {0u, 1u})
@@ -199,7 +201,9 @@ int main(int argc, char **argv)
         zone.x_end            = 1.25 * hertz.semi_axis_x;
         zone.half_width       = 1.25 * hertz.semi_axis_y;
         zone.depth            = 3e-3;
-        const double size     = 0.072 * (i + 1); // heights of both, and half of lengths and widths
+        // Two cells of each size leave the bodies too stiff: the patch would be 1.9 % too small.
+        zone.level_depth  = std::sqrt(hertz.semi_axis_x * hertz.semi_axis_y);
+        const double size = 0.072 * (i + 1); // heights of both, and half of lengths and widths
         RailBlock    block;
         block.x_begin            = -size;
         block.x_end              = size;

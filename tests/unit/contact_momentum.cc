@@ -183,6 +183,11 @@ int main(int argc, char **argv)
       // here 4 % of the kinetic energy with frequencies up to 0.4/dt.
       check.below(name + "residual of the energy ledger, share", r.energy.residual() / r.before.kinetic,
                   1e-3);
+      check.below(name + "work of contact on the nodes - that of the pairs, over what was dissipated",
+                  r.energy.of_dissipated(r.energy.contact_on_nodes - r.energy.friction - r.energy.contact),
+                  1e-10);
+      check.below(name + "the residual over what was dissipated", r.energy.of_dissipated(r.energy.residual()),
+                  5e-6);
       check.that(name + "a wrong impulse of 1e-10 is noticed",
                  size(r.after.of_body[1 - slave] - r.before.of_body[1 - slave] - (1. + 1e-10) * r.impulse) /
                      transfer >

@@ -252,7 +252,11 @@ int main(int argc, char **argv)
     std::printf("push: work %.4g J, damping %.4g, residual %.2g J\n", ledger.external_work, ledger.damping,
                 ledger.residual());
     // Nearly all of this block's motion is in the slow cells, right at the border: harsher than any scene.
-    check.below("push: energy residual over the work, 1e5 steps", worst_residual, 2e-3);
+    // Their forces act on the faster nodes at other instants than those at which the ledger takes them; with
+    // one step for all what is left is between the samples of the damping.
+    check.below("push: energy residual over the work, 1e5 steps", worst_residual, 7e-3);
+    check.below("push with one step for all: energy residual over the work",
+                plain.dynamics->ledger().residual_share(), 1e-4);
     check.below("push: deflection against one step for all", worst_deflection / largest_deflection, 2e-3);
   }
   return check.exit_code();

@@ -9,6 +9,7 @@
 #include "check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -235,10 +236,10 @@ int main(int argc, char **argv)
     std::printf("message after %u steps: %s\n", unsigned(dynamics.n_steps), message.c_str());
     check.that("Courant number 1.3 ends with a message", message.find("Courant number") != std::string::npos);
     check.that("and not before the first step", dynamics.n_steps > 0);
-    // Some steps later the positions are not even numbers: these must not pass as slow.
+    // What is no number must not pass as slow.
+    std::fill(dynamics.v.begin(), dynamics.v.end(), Row{});
+    dynamics.v.back()[1] = std::nan("");
     message.clear();
-    for (unsigned int n = 0; n < 3000; ++n)
-      dynamics.step();
     try
       {
         dynamics.check_stability();
@@ -247,8 +248,7 @@ int main(int argc, char **argv)
       {
         message = error.what();
       }
-    check.that("no number (NaN) is found too",
-               !(dynamics.v[mesh.cells.back().nodes[7]][0] < 1e300) && !message.empty());
+    check.that("no number (NaN) is found too", !message.empty());
   }
   return check.exit_code();
 }

@@ -6,3 +6,5 @@ target_compile_definitions(reference_half_space PRIVATE TREAD_TEST_DATA="${PROJE
 tread_add_test(NAME reference_track SOURCE reference_track.cc LIBRARIES tread_reference)
 tread_add_test(NAME reference_rolling SOURCE reference_rolling.cc LIBRARIES tread_reference)
 tread_add_test(NAME reference_gap SOURCE reference_gap.cc LIBRARIES tread_reference)
+tread_add_test(NAME reference_convergence SOURCE reference_convergence.cc LIBRARIES tread_reference)
+tread_add_test(NAME reference_transient SOURCE reference_transient.cc LIBRARIES tread_reference)

@@ -27,11 +27,14 @@ namespace
     return I;
   }
 
-  /// Cauchy stress of a St. Venant-Kirchhoff material under the deformation gradient F, in full tensors.
+  /// Cauchy stress of HenckyPoint's law under the deformation gradient F, in full tensors.
   Tensor<2, 3> exact_stress(const ElasticMaterial &material, const Tensor<2, 3> &F)
   {
-    const Tensor<2, 3> E = 0.5 * (transpose(F) * F - identity());
-    const Tensor<2, 3> S = material.lame() * trace(E) * identity() + 2. * material.shear_modulus() * E;
+    const Tensor<2, 3> E      = 0.5 * (transpose(F) * F - identity());
+    const Tensor<2, 3> square = E * E;
+    const Tensor<2, 3> S      = material.lame() * (trace(E) - trace(square)) * identity() +
+                           (2. * material.shear_modulus() - 2. * material.lame() * trace(E)) * E -
+                           6. * material.shear_modulus() * square;
     return F * S * transpose(F) / determinant(F);
   }
 

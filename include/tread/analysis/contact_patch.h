@@ -52,6 +52,12 @@ namespace tread
     /// Means of the measures of each step.
     PatchMeasures measures() const;
 
+    /// How much the micro-slip of single steps strays from the averaged one: RMS over all nodes and steps in
+    /// contact, over the largest averaged slip. A node passes through the patch by a cell in the meantime,
+    /// over which slip changes without any chatter. So each node is compared with the straight line, over its
+    /// place in the patch, that fits its own slip best; what is curved between two cells remains.
+    double slip_chatter() const;
+
     unsigned int n_steps() const
     {
       return steps;
@@ -62,6 +68,8 @@ namespace tread
     {
       PatchNode    values{};
       unsigned int in_contact = 0, adhesive = 0;
+      /// Of place in the patch x (m) and slip s (m/s): x, x x, s x by direction, s s.
+      double x = 0., xx = 0., sx[2] = {0., 0.}, ss = 0.;
     };
     std::map<unsigned int, Sum> sums;
     PatchMeasures               measure_sums;

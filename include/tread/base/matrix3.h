@@ -78,6 +78,18 @@ namespace tread
     inverse[5]     = factor * (s[3] * s[4] - s[1] * s[5]);
   }
 
+  /// Product of two symmetric matrices that commute, such as functions of one matrix: symmetric as well.
+  template <typename T>
+  inline void commuting_product(const T (&a)[6], const T (&b)[6], T (&product)[6])
+  {
+    product[0] = a[0] * b[0] + a[3] * b[3] + a[5] * b[5];
+    product[1] = a[3] * b[3] + a[1] * b[1] + a[4] * b[4];
+    product[2] = a[5] * b[5] + a[4] * b[4] + a[2] * b[2];
+    product[3] = a[0] * b[3] + a[3] * b[1] + a[5] * b[4];
+    product[4] = a[3] * b[5] + a[1] * b[4] + a[4] * b[2];
+    product[5] = a[0] * b[5] + a[3] * b[4] + a[5] * b[2];
+  }
+
   /// result = M S M^T for symmetric S.
   template <typename T>
   inline void congruence(const T (&m)[3][3], const T (&s)[6], T (&result)[6])

@@ -32,11 +32,17 @@ namespace tread
     bool   adhesion;
   };
 
-  /// Work of one step's impulses, J: lost by the sliding of slipping pairs, and otherwise: by touching down,
-  /// and lost or gained as pairs whose coupling is older than their sliding turn with the surfaces.
+  /// Work of one step's impulses, J. The first three are taken from the pairs, with the mean of their
+  /// relative velocities before and after the step; the last one from the nodes, with their own velocities
+  /// and the forces that they were given. Whatever the pairs lose the nodes must lose.
   struct ContactWork
   {
-    double friction = 0., normal = 0.;
+    double friction = 0.; ///< lost by the tangential impulses of slipping pairs
+    double normal   = 0.; ///< lost by the normal impulses: by touching down and, as pairs whose coupling is
+                          ///< older than their sliding turn with the surfaces, lost or gained
+    double adhesion =
+      0.; ///< lost by the tangential impulses of adhering pairs: what stops those that slipped
+    double on_nodes = 0.; ///< lost by what the forces on the nodes do
   };
 
   /// Contact between two surfaces: search, mortar coupling and impulses of each step.
@@ -114,10 +120,14 @@ namespace tread
     /// Slave nodes that carry an impulse after the last step, ordered by number. Collective.
     std::vector<ContactNodeState> active_nodes() const;
 
-    /// Steps in which the sweeps ended before the tolerance was reached.
+    /// Steps in which the sweeps ended before the tolerance was reached, those of the start left out.
     std::uint64_t n_unconverged_steps() const
     {
       return unconverged_steps;
+    }
+    void set_n_unconverged_steps(const std::uint64_t n)
+    {
+      unconverged_steps = n;
     }
 
     /// Where a node at the rim of the surface of either body was loaded in the last step (m): beyond it
@@ -129,6 +139,8 @@ namespace tread
   private:
     /// Whether an impulse is below the bound of friction.
     bool adheres(const Row impulse, const double normal_impulse, const Row normal) const;
+    /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
+    void add_work_of_pairs();
     /// Of this rank's own slave and master nodes, m/s.
     std::array<double, 2> largest_speeds(const Row *v) const;
     /// Normals follow the turning of the slave faces between two refreshes.
@@ -165,6 +177,7 @@ namespace tread
     /// By compact number; positions and velocities at the end of a step are known of the nodes of this
     /// rank's strip, of those that its normals follow, and of its own.
     std::vector<Row>          position, predicted, velocity, velocity_before;
+    std::vector<Row>          mean_velocity;    ///< of before and after the step, by compact number
     std::vector<Row>          impulse;          ///< by constraint
     std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
     std::vector<Row>          given_ratio;      ///< by constraint: of impulses, tangential over normal

@@ -27,6 +27,10 @@ namespace tread
     double mass_damping  = 0.;
     double density_scale = 1.;
     double gravity       = 9.81; ///< m/s^2, along -z
+    /// What stiffness damping and bulk viscosity take is looked at every so many steps, in two more force
+    /// evaluations, and taken to change in a straight line in between; with 1 it is counted exactly. A prime,
+    /// as a vibration whose period divides it would be met in the same phase each time.
+    unsigned int steps_between_damping_samples = 47;
   };
 
   /// Where energy is and went since the start, J; sums over all ranks.
@@ -36,8 +40,11 @@ namespace tread
     double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far
-    double plastic = 0.;                              ///< work on plastic strain so far
-    double springs = 0.;                              ///< of the supports, change since the start
+    double plastic          = 0.;                     ///< work on plastic strain so far
+    double springs          = 0.;                     ///< of the supports, change since the start
+    double dampers          = 0.;                     ///< the supports' part of damping
+    double contact_on_nodes = 0.; ///< lost so far by what contact does to the nodes: friction + contact
+    double stored_strain = 0., stored_hourglass = 0.; ///< in the cells now
 
     double residual() const
     {
@@ -45,6 +52,32 @@ namespace tread
              (kinetic + strain + hourglass + springs + friction + contact + damping + plastic);
     }
     double residual_share() const;
+
+    /// What friction, plastic strain, damping and contact have taken. Drive and guidance pass much more
+    /// through the contact, which is no measure for errors.
+    double dissipated() const
+    {
+      return friction + plastic + damping + std::abs(contact);
+    }
+
+    /// A work over what was dissipated; 0 where nothing was.
+    double of_dissipated(const double work) const
+    {
+      return dissipated() > 0. ? work / dissipated() : 0.;
+    }
+
+    /// A work over what friction and plastic strain have taken, which a run is made for; 0 where nothing was.
+    double of_friction_and_plasticity(const double work) const
+    {
+      return friction + plastic > 0. ? work / (friction + plastic) : 0.;
+    }
+
+    /// Energy in the hourglass modes over all that the cells hold now.
+    double hourglass_of_internal() const
+    {
+      const double internal = stored_strain + stored_hourglass;
+      return internal > 0. ? stored_hourglass / internal : 0.;
+    }
   };
 
   /// Seconds that this rank spent since the start.
@@ -90,6 +123,10 @@ namespace tread
 
     void attach_contact(Contact &contact);
 
+    /// Slow the free nodes of a body by a force of -rate(p) m v, with a rate (1/s) by their place in the
+    /// reference position: absorbing ends. The energy that this takes counts as damping.
+    void damp_nodes(const unsigned int body, const std::function<double(const dealii::Point<3> &)> &rate);
+
     /// @param rail_material of the rail that they bear: a beam of it finds the equilibrium at the start.
     void attach_supports(Supports &supports, const ElasticMaterial &rail_material);
 
@@ -102,6 +139,16 @@ namespace tread
     /// cells of each level and above. Collective; costs some 30 force evaluations a level the first time,
     /// when all supports must have been set.
     double critical_time_step() const;
+
+    /// Find the critical time step for the cells as they are deformed now; start() takes it over. Cells that
+    /// are yielding in this moment count with their softer tangent. Collective; some 30 force evaluations a
+    /// level.
+    void renew_critical_time_step();
+
+    /// @throws std::runtime_error with one line if a cell has been turned inside out, or if the cells have
+    /// deformed so much that the time step is no longer stable. Collective; about one force evaluation, 30 a
+    /// level when a bound from the cells' stretches does not suffice.
+    void check_cells();
 
     /// Give the nodes of the wheel the velocities that the hub's rigid motion had half a step ago.
     void set_wheel_velocities();
@@ -201,12 +248,19 @@ namespace tread
     void                prepare_step();                      ///< what step() leaves behind for the next one
     void                set_damping_time(const double beta); ///< positions stay
     std::vector<double> free_inverse_masses() const;         ///< 0 where motion is prescribed
-    double              highest_frequency(const unsigned int first_level) const;
-    void                set_node_levels();
-    unsigned int        level_due() const; ///< the highest level whose cells are evaluated in this step
+    /// Of the cells of this and higher levels when nodes are at x, rad/s.
+    double highest_frequency(const unsigned int    first_level,
+                             const NodalField     &x,
+                             const PlasticHistory &memory) const;
+    /// The largest of these times 2^level: what the steps of level 0 must follow, rad/s.
+    double       highest_of_levels(const NodalField &x, const PlasticHistory &memory) const;
+    double       critical_time_step_of(double highest_of_levels) const; ///< s, and remember that frequency
+    void         set_node_levels();
+    unsigned int level_due() const; ///< the highest level whose cells are evaluated in this step
     /// As far as the cells that are due now, contact or (when nodes are synchronised) others need them.
     void           place_hanging_nodes();
-    mutable double critical_step = 0.;
+    mutable double critical_step = 0., highest_of_step = 0.; ///< s, and the frequency that it is for, rad/s
+    mutable double bound_found_stable = 0.; ///< times the Courant number: no look below it, rad/s
     void           add_hub_sums(std::vector<double> &sums) const;
     void           hold_guided_nodes(NodalField &field) const;
     void           move_hub_nodes();
@@ -216,11 +270,13 @@ namespace tread
     StrainEnergy strain_energy() const;
     /// Of the cells, before hanging nodes give theirs to their parents.
     NodalField cell_forces() const;
-    /// Of this rank, W. @param forces cell_forces() of now.
-    double damping_power(const NodalField &forces) const;
-    /// Trapezoid from the last sample to a power of now, J.
+    /// What damping adds to the forces of this rank's cells, N. @param forces cell_forces() of now. @returns
+    /// the power that it takes with the velocities of half a step back, W.
+    double damping_forces(const NodalField &forces, NodalField &damping) const;
+    /// From the step of the last sample to the one before this, when power is this much now, J.
     double damping_since_sample(const double power) const;
-    void   sample_damping();
+    void   begin_damping_sample(); ///< before a step
+    void   end_damping_sample();   ///< when its velocities are known
 
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
@@ -266,6 +322,19 @@ namespace tread
       unsigned int node, level;
       Row          load; ///< N, times 2^level
     };
+
+    /// A node with damping of its own.
+    struct DampedNode
+    {
+      unsigned int node;
+      double       rate; ///< 1/s
+      Row          load; ///< the force on it in the present step, times 2^level, N
+    };
+
+    /// Add to the forces on damped nodes that move in this step.
+    void add_local_damping(const unsigned int due);
+    /// Count the work of these forces, when all forces of the step are known.
+    void count_local_damping(const unsigned int due);
 
     /// What slows nodes that move on top of the rigid motion, and what compensates the centrifugal force of
     /// density that is not there: sums over this rank's own nodes, weighted with their scaled masses.
@@ -335,6 +404,7 @@ namespace tread
     BodyLoads                                          next_loads; ///< of level 0 in its next step
     std::vector<char>                                  fixed, carried, on_wheel;
     std::vector<std::pair<unsigned int, unsigned int>> guided; ///< node, direction
+    std::vector<DampedNode>                            damped_nodes;
     std::vector<unsigned int>                          hub_nodes;
     std::vector<Row>                                   hub_reference; ///< relative to the axle
     WheelHub                                          *hub      = nullptr;
@@ -343,9 +413,10 @@ namespace tread
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
     double                                             nominal_angular_velocity = 0.;
-    /// Of a step, over the ranks: force and moment on the hub, work of the compensation; then of supports.
+    /// Of a step, over the ranks: force and moment on the hub, first moments of what is compensated; then of
+    /// supports.
     std::vector<double>           rank_sums;
-    static constexpr unsigned int n_hub_sums = 5;
+    static constexpr unsigned int n_hub_sums = 6;
 
     EnergyLedger  totals; ///< accumulated by step()
     double        start_kinetic = 0., start_potential = 0.;
@@ -354,6 +425,10 @@ namespace tread
     double        start_springs = 0., start_dissipated = 0.;
     double        last_damping_power = 0.;
     std::uint64_t last_damping_step  = 0;
+    bool          damping_is_sampled = false; ///< since start()
+    // Within a step that samples damping.
+    NodalField sampled_damping;           ///< N
+    double     damping_power_before = 0.; ///< W
 
     friend class Checkpoint;
   };

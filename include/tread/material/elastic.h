@@ -2,6 +2,8 @@
 #ifndef tread_material_elastic_h
 #define tread_material_elastic_h
 
+#include <tread/base/matrix3.h>
+
 #include <array>
 #include <cmath>
 
@@ -42,21 +44,45 @@ namespace tread
     return std::sqrt(0.5 * (a * a + b * b + c * c) + 3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
   }
 
-  /// St. Venant-Kirchhoff: second Piola-Kirchhoff stress S = lambda tr(E) 1 + 2 mu E, for
-  /// small strain under any rotation. T is double or a vector of lanes; symmetric tensors
-  /// are stored as xx, yy, zz, xy, yz, zx.
+  /// An isotropic material whose Cauchy stress is linear in the logarithmic strain (Hencky 1928) to second
+  /// order, as in cells that yield (PlasticPoint): hyperelastic in the Green-Lagrange strain E, with the
+  /// energy of ln(U) = E - E^2 + O(E^3) to third order,
+  ///   W = lambda/2 (tr(E)^2 - 2 tr(E) tr(E^2)) + mu (tr(E^2) - 2 tr(E^3)).
+  /// St. Venant and Kirchhoff's law, linear in E, softens in compression: by one per cent at a strain of half
+  /// a per cent. Meant for the strains of elastic steel: in tension beyond E = 1/6 this law softens without
+  /// end. T is double or a vector of lanes; symmetric tensors are stored as xx, yy, zz, xy, yz, zx.
   template <typename T>
-  inline void saint_venant_kirchhoff(const double lambda,
-                                     const double mu,
-                                     const T (&strain)[6],
-                                     T (&stress)[6])
+  struct HenckyPoint
   {
-    const T pressure_part = lambda * (strain[0] + strain[1] + strain[2]);
-    for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = pressure_part + 2. * mu * strain[i];
-    for (unsigned int i = 3; i < 6; ++i)
-      stress[i] = 2. * mu * strain[i];
-  }
+    const T (&strain)[6];
+    T square[6]; ///< E^2
+    T trace, trace_of_square;
+
+    explicit HenckyPoint(const T (&E)[6])
+      : strain(E)
+    {
+      commuting_product(E, E, square);
+      trace           = E[0] + E[1] + E[2];
+      trace_of_square = square[0] + square[1] + square[2];
+    }
+
+    /// Second Piola-Kirchhoff stress, dW/dE, Pa.
+    void stress(const double lambda, const double mu, T (&S)[6]) const
+    {
+      const T mean = lambda * (trace - trace_of_square), slope = 2. * mu - (2. * lambda) * trace;
+      for (unsigned int k = 0; k < 6; ++k)
+        S[k] = slope * strain[k] - (6. * mu) * square[k];
+      for (unsigned int k = 0; k < 3; ++k)
+        S[k] += mean;
+    }
+
+    /// W, over the undeformed volume, J/m^3.
+    T energy(const double lambda, const double mu) const
+    {
+      return 0.5 * lambda * (trace * trace - 2. * trace * trace_of_square) +
+             mu * (trace_of_square - 2. * contraction(square, strain));
+    }
+  };
 } // namespace tread
 
 #endif

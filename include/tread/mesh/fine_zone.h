@@ -21,7 +21,8 @@ namespace tread
     double y_middle         = 0.;     ///< (m)
     double half_width       = 9e-3;   ///< the box is |y - y_middle| <= half_width (m)
     double depth            = 1.5e-3; ///< the box is 0 <= depth <= this (m)
-    double cells_per_level  = 2; ///< cells of each size 2h, 4h, ... that lie between the box and larger ones
+    double cells_per_level  = 2;  ///< cells of each size 2h, 4h, ... that lie between the box and larger ones
+    double level_depth      = 0.; ///< least thickness of the layer of each of these sizes below the box (m)
 
     /// Between these the cells of the box are cubes of the finest size (m). Elsewhere they are coarser by
     /// path_level levels of the octree, and up to path_stretch times as long along the path as they are wide.
@@ -40,7 +41,13 @@ namespace tread
     }
 
     /// Distance of a point from the box; zero inside (m). The box is taken smaller by a hundredth of a
-    /// cell, so that cells which only touch it stay outside.
+    /// cell, so that cells which only touch it stay outside. Below the box a layer that level_depth makes
+    /// thicker counts as if it were not.
+    ///
+    /// Where the cells' size s doubles, hanging nodes stiffen a layer of cells, by a share that grows with
+    /// s over the distance from the patch. With the same number of cells of each size that share stays what
+    /// it is at the depth of a semi-axis, however small the finest cell is; layers that are as thick as the
+    /// patch asks for let it shrink.
     double distance(double x, double y, double depth) const;
 
     /// The largest cell that may exist at the distance r from the box (m): the octree sizes are

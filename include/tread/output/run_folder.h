@@ -50,6 +50,7 @@ namespace tread
     double traction_coefficient;  ///< mean over the last 10 mm
     double max_pressure;          ///< at the solution instant, Pa
     double energy_residual_share; ///< of the work done in this passage
+    double energy_residual_of_dissipated;
   };
 
   /// The folder of a run and the files in it, all written by rank 0.

@@ -21,18 +21,26 @@ namespace tread
     }
 
     /// A figure that is also a line of the table. @param scale from SI to the unit shown there.
-    void show(const std::string &name, const std::string &label, const double scale, const double value);
+    /// @param after label of the line that it is to follow; empty or not there: at the end.
+    void show(const std::string &name,
+              const std::string &label,
+              const double       scale,
+              const double       value,
+              const std::string &after = "");
 
     /// A figure with its reference: stands under "reference" in the file and as a line of the table.
     /// @param scale from SI to the unit shown in the table. @param negligible a reference of this magnitude
-    /// is as good as none: the relative difference from it says nothing and is null.
-    void compare(const std::string &name,
-                 const std::string &label,
-                 const double       scale,
-                 const double       value,
-                 const std::string &source,
-                 const double       reference_value,
-                 const double       negligible = 0.);
+    /// is as good as none: the relative difference from it says nothing and is null. @param uncertainty how
+    /// far the reference itself may be from what it stands for; stands beside it, and as
+    /// `<name>_half_space_uncertainty` (the source, in lower case with underscores) among the figures.
+    void compare(const std::string    &name,
+                 const std::string    &label,
+                 const double          scale,
+                 const double          value,
+                 const std::string    &source,
+                 const double          reference_value,
+                 const double          negligible  = 0.,
+                 std::optional<double> uncertainty = {});
 
     std::string text() const
     {
@@ -47,7 +55,8 @@ namespace tread
     {
       std::string           label, source; // no source: nothing to compare with
       double                value, reference;
-      std::optional<double> difference; // relative
+      std::optional<double> difference;  // relative
+      std::optional<double> uncertainty; // of the reference, scaled
     };
     nlohmann::ordered_json json;
     std::vector<Line>      lines;

@@ -84,8 +84,18 @@ namespace tread::reference
     double longitudinal_force           = 0.; ///< Fx on the wheel [N]
     double lateral_force                = 0.; ///< Fy on the wheel [N]
 
+    /// Order in the step of the difference that makes the slip. 1: (u - u')/step, which belongs half a step
+    /// ahead. 2: (3 u/2 - 2 u' + u''/2)/step at the element's own place, u'' where the particle was two steps
+    /// ago, and the leading edge within an element as in edges.h. A transient step needs before_shear_x and
+    /// before_shear_y for it.
+    unsigned int order = 1;
+    /// For order 2: where each row of elements has its leading edge [m]; empty: found from the pressure.
+    std::vector<double> leading_edge;
+
     std::vector<double> previous_shear_x; ///< full grid, before the step; empty: none (not used if steady)
     std::vector<double> previous_shear_y;
+    std::vector<double> before_shear_x; ///< two steps before, for transient steps of order 2
+    std::vector<double> before_shear_y;
     std::vector<double>
       previous_pressure;                 ///< for unlike bodies only; empty: as now if rolling, none if shift
     std::vector<double> initial_shear_x; ///< start of the iteration; empty: solutions on coarser grids

@@ -109,11 +109,6 @@ namespace tread::reference
   /// friction, |Fx| >= f Fn > 0, or an element size that gives fewer than 3 elements along a semi-axis
   /// or more than two million elements; std::runtime_error if the solver does not converge.
   RollingResult solve_rolling(const RollingCase &rolling_case);
-
-  /// The creepage at which a wheel transmits Fx = traction_coefficient Fn: magnitude with the sign of the
-  /// force, POSITIVE FOR A DRIVING WHEEL (circumferential speed over rolling speed, minus one), i.e. minus
-  /// RollingResult::creepage.
-  double creepage_for_traction(const RollingCase &rolling_case);
 } // namespace tread::reference
 
 #endif

@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What every shipped scene does with its energy: the table 'energy' of doc/verification.md.
+
+Reads RESULTS/<folder>-<name of the parameter file>/summary.json of the scenes of prm/. With --run, scenes without results
+are run first, one after the other; --rolled shortens their paths (results of other lengths are run anew), --scenes chooses.
+Scenes without results are left out and named.
+"""
+
+import argparse
+import fnmatch
+import glob
+import os
+
+from doc_tables import ROOT, available_ranks, fill, markdown, number, provenance, run_scene, run_script
+from run_data import DataError, read_summary
+
+# (heading, key, factor, what is large: include/tread/output/quality.h)
+MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
+            ("residual [%]", "energy_residual_of_dissipated", 100, 2.),
+            ("contact loss [%]", "contact_loss_of_dissipated", 100, 2.),
+            ("damping over friction and plasticity [%]", "damping_of_friction_and_plasticity", 100, 10.),
+            ("hourglass over internal energy [%]", "hourglass_of_internal_energy", 100, 5.),
+            ("slip chatter [%]", "slip_chatter_share", 100, 10.),
+            ("contact unconverged [% of steps]", "contact_unconverged_share", 100, 1.))
+
+
+def scenes(pattern):
+    paths = sorted(glob.glob("**/*.prm", root_dir=os.path.join(ROOT, "prm"), recursive=True))
+    return [path for path in paths if fnmatch.fnmatch(path, pattern)]
+
+
+def parameter(scene, name):
+    """The number behind 'set NAME = ' in a scene of prm/, None if it is not set."""
+    with open(os.path.join(ROOT, "prm", scene), encoding="utf-8") as stream:
+        for line in stream:
+            left, _, right = line.partition("=")
+            if left.split() == ["set"] + name.split():
+                return float(right)
+    return None
+
+
+def settings_of(scene, rolled):
+    settings = {"Output/Write volume": "false"}
+    if rolled is None:
+        return settings
+    own = parameter(scene, "Rolled distance (mm)")
+    if own is None or own > rolled:
+        settings["Motion/Rolled distance (mm)"] = f"{rolled:g}"
+        hold = parameter(scene, "Hold distance (mm)")
+        # The torque must set in on the way.
+        if (15. if hold is None else hold) >= rolled:
+            settings["Motion/Hold distance (mm)"] = f"{0.5 * rolled:g}"
+    return settings
+
+
+def cell(summary, key, factor, large):
+    value = summary.get(key)
+    if value is None:
+        return "-"
+    text = number(factor * value)
+    return f"**{text}**" if large is not None and abs(factor * value) > large else text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results", "energy"))
+    parser.add_argument("--run", action="store_true", help="run the scenes that have no such results yet")
+    parser.add_argument("--rolled", metavar="MM", type=float, help="roll no farther than this")
+    parser.add_argument("--scenes", metavar="PATTERN", default="*", help="of paths in prm/, such as 'thesis/3.1-*'")
+    parser.add_argument("--ranks", metavar="N", type=int, default=available_ranks())
+    parser.add_argument("--print", action="store_true", dest="only_print", help="print the table instead of filling it in")
+    arguments = parser.parse_args()
+    rows, summaries, missing = [], [], []
+    for scene in scenes(arguments.scenes):
+        folder = os.path.join(arguments.results, scene[:-len(".prm")].replace(os.sep, "-"))
+        try:
+            summary = run_scene(scene, folder, settings_of(scene, arguments.rolled), arguments.ranks) if arguments.run \
+                else read_summary(folder)
+        except DataError as error:
+            print(f"note: {error}")
+            missing.append(scene)
+            continue
+        summaries.append(summary)
+        rows.append([scene[:-len(".prm")], number(1e3 * summary["rolled_m"])]
+                    + [cell(summary, key, factor, large) for _, key, factor, large in MEASURES])
+    if not rows:
+        raise DataError(f"no results in {arguments.results}")
+    if missing:
+        print("left out:", ", ".join(missing))
+    table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES], rows)
+    table += "\n\nBold: a run warns of it. " + provenance("contrib/plot/energy-table.py --run"
+                                                      + (f" --rolled {arguments.rolled:g}" if arguments.rolled else ""), summaries)
+    if arguments.only_print:
+        print(table)
+    else:
+        fill("verification.md", "energy", table)
+
+
+if __name__ == "__main__":
+    run_script(main)

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What large deformation does to the cells: turned inside out, or too fast for the time step.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    using dealii::Tensor;
+
+    /// dx/dxi at the centre of a cell with corners in lexicographic order, for xi from -1 to 1.
+    template <typename Corner>
+    Tensor<2, 3> jacobian_at_centre(const Corner &corner)
+    {
+      Tensor<2, 3> J;
+      for (unsigned int a = 0; a < 8; ++a)
+        {
+          const auto x = corner(a);
+          for (unsigned int k = 0; k < 3; ++k)
+            for (unsigned int i = 0; i < 3; ++i)
+              J[i][k] += ((a >> k) & 1 ? 0.125 : -0.125) * x[i];
+        }
+      return J;
+    }
+
+    /// By how much the principal stretches of F can speed a cell up: stiffness grows with the square of the
+    /// largest one where stress refers to undeformed areas (St. Venant and Kirchhoff's law), and with the
+    /// inverse square of the smallest one where it refers to deformed ones.
+    double largest_change_of_stretch(const Tensor<2, 3> &F)
+    {
+      const dealii::SymmetricTensor<2, 3> C = dealii::symmetrize(dealii::transpose(F) * F);
+      // Frobenius' norm bounds the eigenvalues of C - 1; where it is small it will do.
+      constexpr double small     = 0.02;
+      const double     deviation = (C - dealii::unit_symmetric_tensor<3>()).norm();
+      if (deviation < small)
+        return 1. / std::sqrt(1. - deviation);
+      const auto squares = dealii::eigenvalues(C); // the largest first
+      return std::sqrt(std::max(squares[0], 1. / squares[2]));
+    }
+  } // namespace
+
+
+  void ExplicitDynamics::check_cells()
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::min;
+    double       least_volume = std::numeric_limits<double>::max(), stretch = 1., fastest = 0.;
+    unsigned int worst = 0;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const auto        &nodes = mesh.cells[c].nodes;
+        const Tensor<2, 3> before =
+                             jacobian_at_centre([&](const unsigned int a) { return mesh.nodes[nodes[a]]; }),
+                           now = jacobian_at_centre([&](const unsigned int a) { return position(nodes[a]); });
+        const Tensor<2, 3> F   = now * dealii::invert(before);
+        const double       volume = dealii::determinant(F);
+        if (!(volume >= least_volume)) // NaN is found as well
+          {
+            least_volume = volume == volume ? volume : std::numeric_limits<double>::lowest();
+            worst        = c;
+          }
+        if (volume > 0.)
+          {
+            const double change = largest_change_of_stretch(F);
+            stretch             = std::max(stretch, change);
+            fastest =
+              std::max(fastest, change * std::ldexp(solid.cell_frequencies()[c], solid.cell_levels()[c]));
+          }
+      }
+    if (const double least = min(least_volume, mesh.comm); least <= 0.)
+      {
+        // The lowest rank that has such a cell says where.
+        const int this_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
+        const int rank = min(least_volume == least ? this_rank : std::numeric_limits<int>::max(), mesh.comm);
+        std::string where;
+        if (rank == this_rank)
+          {
+            dealii::Point<3> centre;
+            for (const unsigned int i : mesh.cells[worst].nodes)
+              centre += mesh.nodes[i] / 8.;
+            char text[160];
+            std::snprintf(text, sizeof text, "at x = %.2f, y = %.2f, z = %.2f mm of the %s", 1e3 * centre[0],
+                          1e3 * centre[1], 1e3 * centre[2], mesh.body_names[mesh.cells[worst].body].c_str());
+            where = text;
+          }
+        throw std::runtime_error("the cell " + dealii::Utilities::MPI::broadcast(mesh.comm, where, rank) +
+                                 " has been turned inside out after " + std::to_string(n_steps) +
+                                 " steps: its strain is too large for this mesh; use larger cells there, or "
+                                 "less load or hardening that carries it");
+      }
+
+    // No motion of the mesh can have become faster by more than its most changed cell, nor be faster than the
+    // fastest cell alone: while that is slow enough nothing needs to be known exactly.
+    const double     bound = std::min(max(stretch, mesh.comm) * highest_of_step, max(fastest, mesh.comm));
+    constexpr double worth_looking = 1.01; // over what was found to be stable
+    if (parameters.courant_number * bound <= std::max(highest_of_step, worth_looking * bound_found_stable))
+      return;
+    const double courant =
+      parameters.courant_number * highest_of_levels(positions(), history) / highest_of_step;
+    if (courant > 1.)
+      {
+        char text[256];
+        std::snprintf(text, sizeof text,
+                      "the cells have deformed so much after %llu steps that the time step is no longer "
+                      "stable: Courant number %.3f; start anew with 'Time stepping/Courant number' at most "
+                      "%.2f",
+                      (unsigned long long)n_steps, courant,
+                      std::floor(100. * 0.98 * parameters.courant_number / courant) / 100.);
+        throw std::runtime_error(text);
+      }
+    bound_found_stable = parameters.courant_number * bound;
+  }
+
+
+  void ExplicitDynamics::renew_critical_time_step()
+  {
+    critical_step = critical_time_step_of(highest_of_levels(positions(), history));
+  }
+} // namespace tread
