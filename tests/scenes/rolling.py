@@ -23,12 +23,11 @@ NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "cr
            "adhesion_share", "max_shear_Pa", "max_slip_m_per_s", "frictional_power_W", "frictional_work_J", "damping_work_J"]
 
 
-def same(name, a, b, allowed):
+def same(name, a, b, allowed, damping_allowed=None):
+    """Equal measures. Damping is sampled every 50 steps: an interruption in between shifts the samples."""
     for key in NUMBERS:
-        # Damping is sampled every 50 steps; a ledger in between, as at an interruption, shifts the samples. The largest
-        # micro-slip is that of one node at the patch's end.
-        check.relative(f"{name}: {key}", a[key], b[key],
-                       {"damping_work_J": 10., "dissipated_work_J": 10., "max_slip_m_per_s": 5., "slip_chatter_share": 10.}.get(key, 1.) * allowed)
+        shifted = damping_allowed is not None and key in ("damping_work_J", "dissipated_work_J")
+        check.relative(f"{name}: {key}", a[key], b[key], damping_allowed if shifted else allowed)
     check.that(f"{name}: steps", a["steps"] == b["steps"])
 
 
@@ -88,8 +87,8 @@ with tempfile.TemporaryDirectory() as folder:
                            summary["cells"] / gain, 5e-3)
 
     elif what == "resume":
-        # Small steps, so that there is time for an interruption.
-        settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Scene/Density scale=1"]
+        # Small steps, so that there is time for an interruption; a tight tolerance, so that the sweeps of other ranks end as near.
+        settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Scene/Density scale=1", "Contact/Tolerance=1e-12"]
         whole = run(program, "smooth-rolling.prm", path("whole"), settings)
         process, _ = interrupt(path("parts"), settings)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
@@ -105,7 +104,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("element updates of both parts over their time", resumed["element_updates_per_s"],
                        resumed["element_updates"] / resumed["wall_s_internal_forces"], 1e-9)
         same("resumed on 4 ranks against never stopped on 1",
-             run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 3e-4)
+             run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 1e-4, 3e-3)
 
         again = subprocess.run(command(program, arguments_of(SCENE, path("parts"), settings) + ["--resume"]), env=environment(),
                                capture_output=True, text=True)
@@ -136,15 +135,20 @@ with tempfile.TemporaryDirectory() as folder:
         identical("levels of time steps, interrupted four times at the end of a row, against never stopped",
                   "every-parts", "every")
 
-        longer = COARSE + ["Motion/Rolled distance (mm)=100", "Scene/Density scale=1"]
-        interrupt(path("two-ranks"), longer, ranks=2)
-        part = read_summary(path("two-ranks"))
+        # mpirun passes the interruption on a second or two later: a fast machine needs a longer way.
+        for rolled in (100, 300, 900):
+            longer = COARSE + [f"Motion/Rolled distance (mm)={rolled}", "Scene/Density scale=1"]
+            name = f"two-ranks-{rolled}"
+            interrupt(path(name), longer, ranks=2)
+            part = read_summary(path(name))
+            if not part["completed"]:
+                break
         check.that("Ctrl-C to mpirun: the summary is there", part["completed"] is False)
-        rest = run(program, "smooth-rolling.prm", path("two-ranks"), longer, ranks=2, more=["--resume"])
+        rest = run(program, "smooth-rolling.prm", path(name), longer, ranks=2, more=["--resume"])
         check.that("Ctrl-C to mpirun: resumed to the end", rest["completed"] and rest["steps"] > part["steps"])
         check.energy("Ctrl-C to mpirun: both parts: ", rest, 0.005)
         run(program, "smooth-rolling.prm", path("two-ranks-whole"), longer, ranks=2)
-        identical("two ranks, resumed against never stopped", "two-ranks", "two-ranks-whole")
+        identical("two ranks, resumed against never stopped", name, "two-ranks-whole")
 
     elif what == "torque":
         settings = COARSE + ["Motion/Rolled distance (mm)=75"]
@@ -244,7 +248,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.that("the second wheel adds less settlement than the first",
                    0. < float(second["settlement_um"]) - float(first["settlement_um"]) < 0.5 * float(first["settlement_um"]))
         ranks = run(program, "smooth-rolling.prm", path("ranks"), settings, 3)
-        same("3 ranks against 1", ranks, whole, 1e-6)
+        same("3 ranks against 1", ranks, whole, 1e-6, 1e-5)
         check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
         levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=3"])
         check.energy("levels of time steps: ", levels, 0.01)
@@ -256,7 +260,7 @@ with tempfile.TemporaryDirectory() as folder:
         process, _ = interrupt(path("parts"), settings, rows=65)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
         resumed = run(program, "smooth-rolling.prm", path("parts"), settings, ranks=2, more=["--resume"])
-        same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3)
+        same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3, 2e-2)
         for key in ("settlement_um", "equivalent_plastic_strain_percent", "residual_von_mises_MPa"):
             check.relative(f"resumed: {key}", float(rows("parts")[1][key]), float(second[key]), 2e-3)
 
