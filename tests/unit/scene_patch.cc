@@ -2,7 +2,7 @@
 // Where the patch lies across the rail before a run: half-space theory on the coarse grid of the check
 // against Hertz and against a finer one, for S1002 treads that touch to one side; what leaves the rail is
 // refused.
-#include <tread/references.h>
+#include <tread/scene/half_space_case.h>
 
 #include "check.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_output_checkpoint_h
-#define tread_output_checkpoint_h
+#ifndef tread_simulation_checkpoint_h
+#define tread_simulation_checkpoint_h
 
 #include <tread/output/run_folder.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/output/checkpoint.h>
-#include <tread/simulation.h>
+#include <tread/simulation/checkpoint.h>
+#include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 

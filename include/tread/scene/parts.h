@@ -6,7 +6,7 @@
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/body.h>
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 #include <tread/solid/solid.h>
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_scene_h
-#define tread_scene_h
+#ifndef tread_scene_scene_h
+#define tread_scene_scene_h
 
 #include <tread/geometry/defect.h>
 #include <tread/geometry/rail_profile.h>

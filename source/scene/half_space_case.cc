@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/rail_profile.h>
-#include <tread/references.h>
+#include <tread/scene/half_space_case.h>
 
 #include <algorithm>
 #include <cmath>

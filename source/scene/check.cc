@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/reference/hertz.h>
 #include <tread/reference/rolling_case.h>
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 
 #include <algorithm>
 #include <cmath>

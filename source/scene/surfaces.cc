@@ -3,7 +3,7 @@
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
-#include <tread/output/checkpoint.h>
-#include <tread/scene_parts.h>
-#include <tread/simulation.h>
+#include <tread/scene/parts.h>
+#include <tread/simulation/checkpoint.h>
+#include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 

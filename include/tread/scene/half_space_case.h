@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_references_h
-#define tread_references_h
+#ifndef tread_scene_half_space_case_h
+#define tread_scene_half_space_case_h
 
 #include <tread/analysis/contact_patch.h>
 #include <tread/output/summary.h>
 #include <tread/reference/hertz.h>
 #include <tread/reference/rolling_estimate.h>
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 
 #include <vector>
 

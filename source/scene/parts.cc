@@ -3,8 +3,8 @@
 #include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/wheel_body.h>
 #include <tread/mesh/whole_rail.h>
-#include <tread/references.h>
-#include <tread/scene_parts.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/parts.h>
 
 #include <algorithm>
 #include <cmath>

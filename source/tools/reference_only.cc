@@ -4,8 +4,8 @@
 #include <tread/output/run_folder.h>
 #include <tread/reference/subsurface.h>
 #include <tread/reference/transient.h>
-#include <tread/reference_only.h>
-#include <tread/references.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/tools/reference_only.h>
 
 #include <deal.II/base/mpi.h>
 

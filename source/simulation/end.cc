@@ -2,7 +2,7 @@
 // What a simulation says at the end of a passage and of the run.
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
-#include <tread/simulation.h>
+#include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 
 namespace tread
 {
@@ -11,7 +11,7 @@ namespace tread
     using dealii::Patterns::Selection;
 
     constexpr double tiny = 1e-12; // for "above 0"
-  } // namespace
+  }                                // namespace
 
 
   Scene::Scene()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/dynamic_force.h>
-#include <tread/dynamic_force_files.h>
 #include <tread/output/run_folder.h>
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
+#include <tread/tools/dynamic_force_files.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_dynamic_force_files_h
-#define tread_dynamic_force_files_h
+#ifndef tread_tools_dynamic_force_files_h
+#define tread_tools_dynamic_force_files_h
 
 #include <mpi.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_reference_only_h
-#define tread_reference_only_h
+#ifndef tread_tools_reference_only_h
+#define tread_tools_reference_only_h
 
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 
 #include <mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_simulation_h
-#define tread_simulation_h
+#ifndef tread_simulation_simulation_h
+#define tread_simulation_simulation_h
 
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
@@ -10,8 +10,8 @@
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
-#include <tread/references.h>
-#include <tread/scene.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/scene.h>
 #include <tread/solid/solid.h>
 #include <tread/track/wheel_hub.h>
 

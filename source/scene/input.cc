@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/scene.h>
+#include <tread/scene/scene.h>
 
 #include <boost/property_tree/json_parser.hpp>
 
