@@ -27,35 +27,35 @@ namespace tread
            frictional_power = 0.;
     /// Half of the extent of the nodes in contact and their cells.
     double semi_axis_x = 0., semi_axis_y = 0.;
-    /// Semi-axes of the Hertzian ellipse with the same second moments of pressure, a^2 = 5 int p x^2 / int p:
-    /// finer than a cell.
+    /// Semi-axes of the Hertzian ellipse with the same second moments of pressure, a^2 = 5 int p x^2 / int p.
+    /// They resolve less than a cell.
     double pressure_semi_axis_x = 0., pressure_semi_axis_y = 0.;
   };
 
-  /// The patch of one instant. @param centre_x where the wheel's centre stands, m; @param time_step s.
+  /// The patch at one instant. @param centre_x position of the wheel's centre, m; @param time_step s.
   std::vector<PatchNode> patch_nodes(const std::vector<ContactNodeState> &states,
                                      const double                         centre_x,
                                      const double                         time_step);
 
   PatchMeasures measure(const std::vector<PatchNode> &patch);
 
-  /// Mean over some steps of what each rail node carries, and of the measures of the patch.
+  /// Average, over a number of steps, of the quantities at each rail node and of the measures of the patch.
   class PatchAverage
   {
   public:
     void add(const std::vector<ContactNodeState> &states, const double centre_x, const double time_step);
 
-    /// Mean tractions over all steps; mean slip over the steps in contact; x from the mean centre.
-    /// A node is in adhesion that adhered in most of its steps in contact.
+    /// Mean tractions over all steps; mean slip over the steps in contact; x relative to the mean centre. A
+    /// node is in adhesion if it adhered in most of its steps in contact.
     std::vector<PatchNode> nodes() const;
 
     /// Means of the measures of each step.
     PatchMeasures measures() const;
 
-    /// How much the micro-slip of single steps strays from the averaged one: RMS over all nodes and steps in
-    /// contact, over the largest averaged slip. A node passes through the patch by a cell in the meantime,
-    /// over which slip changes without any chatter. So each node is compared with the straight line, over its
-    /// place in the patch, that fits its own slip best; what is curved between two cells remains.
+    /// Deviation of the micro-slip in single steps from the averaged one: RMS over all nodes and steps in
+    /// contact, over the largest averaged slip. A node passes through the patch by one cell in the meantime,
+    /// over which slip changes even without chatter. Each node is therefore compared with the straight line
+    /// over its position in the patch that best fits its own slip; curvature between two cells remains.
     double slip_chatter() const;
 
     unsigned int n_steps() const
@@ -68,7 +68,7 @@ namespace tread
     {
       PatchNode    values{};
       unsigned int in_contact = 0, adhesive = 0;
-      /// Of place in the patch x (m) and slip s (m/s): x, x x, s x by direction, s s.
+      /// Sums over position in the patch x (m) and slip s (m/s): x, x x, s x by direction, s s.
       double x = 0., xx = 0., sx[2] = {0., 0.}, ss = 0.;
     };
     std::map<unsigned int, Sum> sums;

@@ -9,7 +9,7 @@
 
 namespace tread
 {
-  /// The forces of a run's history.csv. Each row is the mean since the row before.
+  /// The forces in the history.csv of a run. Each row is the mean since the previous row.
   struct ForceHistory
   {
     std::string                      name;     ///< of the run, for messages
@@ -19,7 +19,7 @@ namespace tread
     std::vector<std::vector<double>> force;    ///< N, [column][row]
   };
 
-  /// What a defect adds to the force of one column.
+  /// The contribution of a defect to the force of one column.
   struct DynamicForce
   {
     std::string              column;
@@ -39,10 +39,10 @@ namespace tread
     std::vector<DynamicForce> forces;
   };
 
-  /// The forces of a run minus those of its smooth twin at the same time: what is left of the mesh, the
-  /// sleepers' spacing and the start goes with the twin. Rows of the two lie at slightly different times
-  /// where their time steps differ, so the twin is interpolated linearly in time, and so is the run between
-  /// its own rows, which are not quite equally spaced.
+  /// The forces of a run minus those of its smooth twin at equal times, which removes the effects of the
+  /// mesh, the sleeper spacing and the start. Rows of the two lie at slightly different times if their time
+  /// steps differ, so the twin is interpolated linearly in time, and so is the run between its own rows,
+  /// which are not exactly equally spaced.
   /// @param from, to section of the position, m
   /// @throws std::invalid_argument with one line, if the twin rolled at another speed or does not cover the
   /// run

@@ -13,34 +13,35 @@ namespace tread
   struct StripExtent
   {
     double x_begin, x_end, y_middle, half_width, depth;
-    /// Below the surface, of a point in the reference position.
+    /// Depth below the surface of a point in the reference configuration.
     std::function<double(const dealii::Point<3> &)> depth_of;
   };
 
-  /// The largest von Mises stress that a cell has seen, and when: time (s) and x of the wheel (m).
+  /// The largest von Mises stress that a cell has experienced, with its time (s) and the position x of the
+  /// wheel (m) at that time.
   struct StressPeak
   {
     double stress = 0., time = 0., wheel_x = 0.; // Pa, s, m
   };
 
-  /// The same of a cell, wherever it is stored: for checkpoints.
+  /// The same with a key of the cell that does not depend on the ranks: for checkpoints.
   struct StoredPeak
   {
     std::array<long long, 4> key; ///< body and centre in the reference position, nm
     StressPeak               peak;
   };
 
-  /// What the cells between two cross-sections of the strip have seen, SI units.
+  /// Maxima over the cells between two cross-sections of the strip, SI units.
   struct StripColumn
   {
-    double     x;                         ///< its middle, in the reference position
-    StressPeak largest, at_surface;       ///< of all its cells, of those at the surface
+    double     x;                         ///< middle of the column in the reference configuration
+    StressPeak largest, at_surface;       ///< of all its cells, and of those at the surface
     double     y, depth, y_at_surface;    ///< centres of these cells
-    double     equivalent_plastic_strain; ///< largest, now
+    double     equivalent_plastic_strain; ///< present maximum
   };
 
-  /// The cells of a rail under the path of the wheel: the largest von Mises stress that each has seen at any
-  /// of the instants at which it was sampled.
+  /// Records for the cells of a rail under the path of the wheel the largest von Mises stress at the instants
+  /// sampled.
   class StressStrip
   {
   public:
@@ -49,10 +50,10 @@ namespace tread
     /// Only cells of the strip are evaluated. Nodes must be synchronised.
     void sample(const ExplicitDynamics &dynamics, const double wheel_x);
 
-    /// One for each cell of the surface along the path, from behind; on rank 0. Collective.
+    /// One column for each surface cell along the path, beginning at the rear; on rank 0. Collective.
     std::vector<StripColumn> columns(const ExplicitDynamics &dynamics) const;
 
-    /// Of this rank's cells, and back. Cells that are not in the list keep theirs.
+    /// Save and restore the maxima of this rank's cells. Cells that are not in the list keep theirs.
     std::vector<StoredPeak> stored() const;
     void                    restore(const std::vector<StoredPeak> &list);
 
@@ -71,21 +72,21 @@ namespace tread
     std::vector<char>   wanted;  ///< by cell of the mesh
   };
 
-  /// What a cell bears at one instant.
+  /// Stress and plastic strain of a cell at one instant.
   struct CellRecord
   {
     double von_mises, equivalent_plastic_strain; // Pa, share
   };
 
-  /// Cells of a body at chosen places, known to all ranks.
+  /// Cells of a body at selected positions, known to all ranks.
   class CellProbes
   {
   public:
-    /// @param points in the reference position, m. @throws std::out_of_range with the number of the first
-    /// that lies outside the body, on all ranks. Collective.
+    /// @param points in the reference configuration, m. @throws std::out_of_range with the number of the
+    /// first point that lies outside the body, on all ranks. Collective.
     CellProbes(const Mesh &mesh, const unsigned int body, const std::vector<dealii::Point<3>> &points);
 
-    /// One a point. Nodes must be synchronised. Collective.
+    /// One record for each point. Nodes must be synchronised. Collective.
     std::vector<CellRecord> record(const ExplicitDynamics &dynamics) const;
 
     const std::vector<dealii::Point<3>> &centres() const

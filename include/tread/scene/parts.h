@@ -16,23 +16,25 @@
 
 namespace tread
 {
-  // What a scene says to the parts of a simulation.
+  // Inputs of the parts of a simulation, derived from a scene.
 
-  /// Rail, wheel and solid sleepers, in this order; materials likewise.
+  /// Rail, wheel and solid sleepers, in this order; the materials are in the same order.
   std::vector<Body>            make_bodies(const Scene &scene);
   std::vector<ElasticMaterial> materials(const Scene &scene);
   std::vector<SolidSleeper>    solid_sleepers(const Scene &scene);
   SolidParameters              solid_parameters(const Scene &scene);
   /// Cells under the contact path that may yield, on both bodies.
   std::vector<PlasticZone> plastic_zones(const Scene &scene);
-  /// By the work of the element asked for, the time step that a cell needs and the distance rolled.
+  /// Cost of a cell from the work of the selected element, the time step that the cell needs and the distance
+  /// rolled.
   Mesh::CellCost cell_cost(const Scene &scene);
-  /// Cells of the rail whose largest stress is kept, down to where shear stress has passed its largest value.
+  /// The cells of the rail whose largest stress is recorded, down to a depth below the maximum of the shear
+  /// stress.
   StripExtent        strip_extent(const Scene &scene);
   WheelHubParameters hub_parameters(const Scene &scene);
   DynamicsParameters dynamics_parameters(const Scene &scene);
   ContactParameters  contact_parameters(const Scene &scene);
-  /// x half a spacing ahead of a support; where the rail ends before it, its end.
+  /// Coordinate x half a spacing ahead of a support, or the end of the rail if it comes first.
   double mid_span_beside(const Scene &scene, const int number);
 } // namespace tread
 

@@ -47,7 +47,7 @@ namespace tread
         return {young_modulus_GPa * 1e9, poisson_ratio, density};
       }
 
-      /// SI, with a yield stress and a tangent modulus of its own.
+      /// The plastic material in SI units, with the given yield stress and tangent modulus.
       PlasticMaterial plastic(const double yield_MPa, const double tangent_GPa) const;
 
       /// A part of the plastic zone that differs from the rest.
@@ -140,8 +140,8 @@ namespace tread
     {
       std::string path, value; ///< Section/Name
     };
-    /// All that a scene with this parameter file has, in the order of declaration; only names and ranges are
-    /// checked. @throws SceneError
+    /// All parameters of a scene with this parameter file, in the order of declaration. Only names and ranges
+    /// are checked. @throws SceneError
     static std::vector<Parameter> parameters_in(const std::string &file);
 
     double speed() const
@@ -157,8 +157,8 @@ namespace tread
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
 
-    /// What the answer rests on that is not in the physics of the scene: scaled density, mass damping,
-    /// predicted start; one line each.
+    /// Numerical assumptions that are not part of the physics of the scene (scaled density, mass damping,
+    /// predicted start), one line each.
     std::vector<std::string> assumptions() const;
 
     bool predicts_creepage() const
@@ -174,18 +174,21 @@ namespace tread
       return foundation == "two-layer" && sleepers == "solid";
     }
     TrackParameters track() const;
-    /// Of length 0 if the ends are symmetric.
+    /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
     AbsorbingEnds absorbing_ends() const;
-    /// x of the supports on the rail, m, and the number of the first; support 0 is where the scene says.
+    /// Coordinates x of the supports on the rail, m, and the number of the first one. Support 0 lies where
+    /// the scene places it.
     std::vector<double> support_positions() const;
     int                 first_support() const;
     /// The middle of the rail's base at x = 0.
     dealii::Point<3> base_middle() const;
-    /// That gives it its mass, m.
+    /// Height of a solid sleeper, which follows from the mass that the scene prescribes, m.
     double solid_sleeper_height() const;
-    /// Numbers of the supports in history.csv: those asked for, or those beside the path of the wheel.
+    /// Numbers of the supports written to history.csv: those selected, or those next to the path of the
+    /// wheel.
     std::vector<int> recorded_supports() const;
-    /// Places in the rail in the reference position, m, whose cells cells.csv has. @throws SceneError
+    /// Positions in the rail (reference configuration, m) whose cells are written to cells.csv. @throws
+    /// SceneError
     std::vector<dealii::Point<3>> recorded_cells() const;
 
     /// x of the wheel at the start and at the solution instant, m.
@@ -197,7 +200,7 @@ namespace tread
     {
       return shapes->path_end;
     }
-    /// Of a rail head or a full section.
+    /// The profile of a rail head or a full section.
     RailProfile rail_profile() const;
     /// Ends of the rail, m.
     double rail_begin() const
@@ -205,33 +208,34 @@ namespace tread
       return shapes->rail_begin;
     }
     double rail_end() const;
-    /// The top leans to the gauge side, y < 0, by this, rad.
+    /// Angle by which the rail top is inclined towards the gauge side, y < 0, rad.
     double inclination() const;
-    /// Position in the rail's own axes, which lean with it.
+    /// Position in the rail's own axes, which are inclined with it.
     dealii::Point<3> in_rail_axes(const dealii::Point<3> &p) const;
 
-    /// Surfaces and where they touch first; made by read().
+    /// The running surfaces of wheel and rail, created by read().
     const RunningSurfaces &surfaces() const
     {
       return shapes->surfaces;
     }
-    /// Height over the rail's profile, in its own axes: measured head and defect; null: none. @see RailTop
+    /// Height above the rail's profile, in the rail's own axes: measured head and defect. Null: none. @see
+    /// RailTop
     const std::function<double(double, double)> &rail_height() const
     {
       return shapes->rail_height;
     }
-    /// Null: none.
+    /// The defect of the running surface; null: none.
     const std::shared_ptr<const Defect> &defect() const
     {
       return shapes->defect;
     }
-    /// Where the smooth rail is touched, and how the wheel stands at the start.
+    /// Point of first contact on the smooth rail, and the position of the wheel at the start.
     const FirstContact &first_contact() const
     {
       return shapes->contact;
     }
-    /// Lateral extent of the patch under the static load on the smooth rail (m), by half-space theory with
-    /// the true gap: a worn profile or S1002 may be touched far to one side of the first contact.
+    /// Lateral extent of the patch under the static load on the smooth rail (m), from half-space theory with
+    /// the true gap: the patch of a worn profile or of S1002 may extend far to one side of the first contact.
     struct PatchExtent
     {
       double begin, end;
@@ -240,26 +244,28 @@ namespace tread
     {
       return shapes->patch;
     }
-    /// Of the finest cells from the middle of the path: as given, or what the patch needs, m.
+    /// Half width of the zone of finest cells, from the middle of the path: as prescribed, or as the patch
+    /// requires, m.
     double fine_half_width() const;
-    /// The least that it may be, m.
+    /// Smallest admissible half width of that zone, m.
     double needed_half_width() const;
-    /// Middle of the finely meshed path: first contact, moved in whole cells towards the patch's middle, m.
+    /// Lateral middle of the finely meshed path: the first contact, shifted by whole cells towards the middle
+    /// of the patch, m.
     double path_y() const;
-    /// Below the running surface, of a point in the reference position, m.
+    /// Depth below the running surface of a point in the reference configuration, m.
     double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
     double axle_height() const
     {
       return 1e-3 * radius_mm + first_contact().lift;
     }
-    /// Of the wheel where it touches, m.
+    /// Rolling radius of the wheel at the first contact, m.
     double rolling_radius() const;
     /// Lateral radius of the gap between the surfaces where they touch, m.
     double lateral_radius() const;
 
   private:
-    /// What follows from the places, files and shapes that the parameters name.
+    /// Quantities that follow from the positions, files and shapes named by the parameters.
     struct Shapes
     {
       double                                path_begin, path_end, rail_begin; ///< x, m
@@ -277,17 +283,18 @@ namespace tread
     void set(const std::string &setting);
     void check() const;
     void check_track() const;
-    /// Scaled density, mass damping and levels of time steps only where they do no harm.
+    /// Check that scaled density, mass damping and levels of time steps are used only where they are
+    /// admissible.
     void check_numerics() const;
-    /// A file that a parameter names: as it is, or from the folder of the parameter file.
+    /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
     std::string located(const std::string &file) const;
     /// @throws SceneError
     void                          make_shapes();
     std::shared_ptr<const Defect> make_defect() const;
     PatchExtent                   patch_under_load() const;
     void                          check_surfaces() const;
-    /// @param thickness_mm and the rest: how far the mesh of the body reaches from its surface, its middle
-    /// and along the path. @throws SceneError
+    /// @param thickness_mm and the following: extent of the body's mesh from its surface, from its middle and
+    /// along the path. @throws SceneError
     void check_plasticity(const std::string &section,
                           const Material    &material,
                           const double       thickness_mm,

@@ -29,7 +29,7 @@ namespace tread
   public:
     Simulation(const Scene &scene, const MPI_Comm comm);
 
-    /// What a run would cost, printed; nothing is run or written.
+    /// Print the cost of a run without running it or writing anything.
     void estimate();
 
     /// @param folder of the results; @param resume from its last checkpoint.
@@ -43,7 +43,7 @@ namespace tread
     void                       add_to_interval();
     void                       end_interval(RunFolder &folder);
     std::vector<PatchNode>     patch_now() const;
-    /// At the solution instant, or now if there was none.
+    /// Measures of the patch at the solution instant, or at present if it has not been reached.
     PatchMeasures measures_of_solution() const;
     void          take_solution(RunFolder &folder);
     void          end_passage(RunFolder &folder);
@@ -53,13 +53,14 @@ namespace tread
     {
       complete,
       interrupted, ///< by a signal
-      left_surface ///< contact was about to leave what is meshed for it
+      left_surface ///< contact was about to leave the faces meshed for it
     };
     void finish(RunFolder &folder, const End end);
-    /// Of the answer: Kalker's for the forces that act; where (nearly) all slips and they say little about
-    /// the creepage, at the creepage. @returns his patch.
+    /// Compare the answer with Kalker's solution for the forces that act. If (nearly) the whole patch slips,
+    /// the forces say little about the creepage, and the solution is that for the creepage. @returns the
+    /// half-space patch.
     std::vector<PatchNode> compare_with_half_space(Summary &summary, const ContactAnswer &answer) const;
-    /// How far the wheel rolled since the start or since a torque acts, in lengths of the patch.
+    /// Distance rolled since the start, or since a torque acts, in lengths of the patch.
     struct Rolled
     {
       double patch_lengths, lengths_to_be_steady;
@@ -71,7 +72,7 @@ namespace tread
     Rolled add_size(Summary &summary, const double normal_force) const;
     void   add_cost(Summary &summary) const;
     void   add_recorded(Summary &summary, RunFolder &folder) const;
-    /// @throws std::runtime_error if contact is about to leave what is meshed for it.
+    /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
     bool   interrupted() const;
     double position() const
@@ -79,8 +80,8 @@ namespace tread
       return hub.motion.x;
     }
     std::uint64_t remaining_steps() const;
-    /// Whether the wheel has passed the end of one of the intervals that the path is divided into since
-    /// checked_position; never for 0. No sums, so that a run that resumes finds the same.
+    /// Whether the wheel has passed, since checked_position, the end of one of the intervals into which the
+    /// path is divided; never for an interval of 0. No sums are used, so that a resumed run finds the same.
     bool   interval_ended(const double interval_mm) const;
     double memory_of_cells_and_nodes() const; // bytes, of all ranks
 
@@ -104,16 +105,16 @@ namespace tread
     Row          interval_force{};
     unsigned int interval_steps      = 0;
     double       interval_start_time = 0., interval_start_speed = 0.; ///< of the hub, vertical: m/s
-    double       checked_position = 0.; ///< of the wheel when the ends of intervals were last looked at, m
+    double       checked_position = 0.; ///< of the wheel when the ends of intervals were last checked, m
 
-    PatchAverage           average; ///< while rolling one cell about the solution instant
+    PatchAverage           average; ///< while the wheel rolls over one cell around the solution instant
     std::vector<PatchNode> solution_patch;
     Row                    last_force_sum{}; ///< over the last 10 mm before the solution instant
     double                 last_force_low = 1e300, last_force_high = -1e300;
     std::uint64_t          last_steps = 0;
     std::vector<Passage>   passages;
     double                 relaxation_seconds = 0., relaxation_iterations = 0.;
-    double                 wall_seconds = 0.; ///< those before resuming included
+    double                 wall_seconds = 0.; ///< including the parts before resuming
 
     friend class Checkpoint;
   };

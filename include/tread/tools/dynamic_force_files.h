@@ -8,7 +8,7 @@
 
 namespace tread
 {
-  /// What `tread --dynamic-force RUN --smooth-twin TWIN` asks for.
+  /// Options of `tread --dynamic-force RUN --smooth-twin TWIN`.
   struct DynamicForceRequest
   {
     std::string run, smooth_twin;       ///< folders
@@ -18,7 +18,7 @@ namespace tread
   };
 
   /// Write dynamic.csv, spectrum.csv and dynamic.json, and print peaks and vibrations. Collective.
-  /// @throws SceneError with one line for what the user can mend
+  /// @throws SceneError with one line for errors that the user can correct
   void write_dynamic_force(const DynamicForceRequest &request, const MPI_Comm comm);
 } // namespace tread
 

@@ -10,10 +10,10 @@
 
 namespace tread
 {
-  /// The half-space answer of a scene, printed and written in the formats of a run: summary.json, patch.csv,
-  /// surface.pvd, parameters.prm; and subsurface.csv. No mesh is made.
+  /// Compute the half-space solution of a scene, print it and write it in the formats of a run: summary.json,
+  /// patch.csv, surface.pvd, parameters.prm; and subsurface.csv. No mesh is made.
   /// @param folder of the results
-  /// @throws SceneError where the scene has no such answer; std::runtime_error if a file cannot be written
+  /// @throws SceneError if the scene has no such solution; std::runtime_error if a file cannot be written
   void run_reference_only(const Scene &scene, const std::string &folder, const MPI_Comm comm);
 } // namespace tread
 
