@@ -23,17 +23,18 @@ namespace tread
     /// Stiffness-proportional damping: internal forces are taken at x + beta v with
     /// beta = damping_steps time steps.
     double damping_steps = 0.1;
-    /// Mass-proportional damping of what moves on top of the rigid motion, 1/s: for quasi-static scenes.
+    /// Mass-proportional damping of the motion relative to the rigid motion, 1/s: for quasi-static scenes.
     double mass_damping  = 0.;
     double density_scale = 1.;
     double gravity       = 9.81; ///< m/s^2, along -z
-    /// What stiffness damping and bulk viscosity take is looked at every so many steps, in two more force
-    /// evaluations, and taken to change in a straight line in between; with 1 it is counted exactly. A prime,
-    /// as a vibration whose period divides it would be met in the same phase each time.
+    /// Interval, in steps, at which the energy dissipated by stiffness damping and bulk viscosity is sampled,
+    /// with two more force evaluations. It is assumed to vary linearly in between; with 1 it is counted
+    /// exactly. The number is a prime, because a vibration whose period divides it would always be sampled in
+    /// the same phase.
     unsigned int steps_between_damping_samples = 47;
   };
 
-  /// Where energy is and went since the start, J; sums over all ranks.
+  /// Stored and dissipated energies since the start, J; sums over all ranks.
   struct EnergyLedger
   {
     double external_work = 0.; ///< drive, guidance, suspension, weight, prescribed forces
@@ -43,7 +44,7 @@ namespace tread
     double plastic          = 0.;                     ///< work on plastic strain so far
     double springs          = 0.;                     ///< of the supports, change since the start
     double dampers          = 0.;                     ///< the supports' part of damping
-    double contact_on_nodes = 0.; ///< lost so far by what contact does to the nodes: friction + contact
+    double contact_on_nodes = 0.; ///< lost so far by the contact forces on the nodes: friction + contact
     double stored_strain = 0., stored_hourglass = 0.; ///< in the cells now
 
     double residual() const
@@ -53,20 +54,21 @@ namespace tread
     }
     double residual_share() const;
 
-    /// What friction, plastic strain, damping and contact have taken. Drive and guidance pass much more
-    /// through the contact, which is no measure for errors.
+    /// Energy dissipated by friction, plastic strain, damping and contact. Drive and guidance pass much more
+    /// energy through the contact, which is no measure for errors.
     double dissipated() const
     {
       return friction + plastic + damping + std::abs(contact);
     }
 
-    /// A work over what was dissipated; 0 where nothing was.
+    /// A work over the dissipated energy; 0 if nothing was dissipated.
     double of_dissipated(const double work) const
     {
       return dissipated() > 0. ? work / dissipated() : 0.;
     }
 
-    /// A work over what friction and plastic strain have taken, which a run is made for; 0 where nothing was.
+    /// A work over the energy dissipated by friction and plastic strain, the purpose of a run; 0 if there was
+    /// none.
     double of_friction_and_plasticity(const double work) const
     {
       return friction + plastic > 0. ? work / (friction + plastic) : 0.;
@@ -103,10 +105,10 @@ namespace tread
   public:
     ExplicitDynamics(const Mesh &mesh, const Solid &solid, const DynamicsParameters &parameters);
 
-    /// Hold these nodes (of this rank) where they are.
+    /// Fix these nodes (of this rank) at their positions.
     void fix_nodes(const std::vector<unsigned int> &nodes);
 
-    /// Let these nodes (of this rank) not move in a direction (0 to 2).
+    /// Prevent these nodes (of this rank) from moving in a direction (0 to 2).
     void guide_nodes(const std::vector<unsigned int> &nodes, const unsigned int direction);
 
     /// The nodes of a part of a body's boundary on this rank.
@@ -116,49 +118,50 @@ namespace tread
       return boundary_nodes(body, Boundary::support);
     }
 
-    /// Carry the support nodes of a body by a rigid hub. The centrifugal force of density that is
-    /// only scaled (not there) is compensated on this body, at the angular velocity given until start() takes
-    /// the hub's.
+    /// Attach the support nodes of a body to a rigid hub. The centrifugal force of the density added by
+    /// scaling, which does not exist in reality, is compensated on this body, at the given angular velocity
+    /// until start() takes that of the hub.
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
 
     void attach_contact(Contact &contact);
 
-    /// Slow the free nodes of a body by a force of -rate(p) m v, with a rate (1/s) by their place in the
-    /// reference position: absorbing ends. The energy that this takes counts as damping.
+    /// Damp the free nodes of a body by a force of -rate(p) m v, with a rate (1/s) that depends on their
+    /// position in the reference configuration: absorbing ends. The energy dissipated counts as damping.
     void damp_nodes(const unsigned int body, const std::function<double(const dealii::Point<3> &)> &rate);
 
-    /// @param rail_material of the rail that they bear: a beam of it finds the equilibrium at the start.
+    /// @param rail_material material of the supported rail: a beam of it is used to find the equilibrium at
+    /// the start.
     void attach_supports(Supports &supports, const ElasticMaterial &rail_material);
 
-    /// Give rail and sleepers the velocities (half a step back) with which the deflection of a beam under the
-    /// hub's load follows the hub, and the hub its own along that path. To be called before
-    /// set_wheel_velocities().
+    /// Set the velocities of rail and sleepers (half a step back) to those with which the deflection of a
+    /// beam under the hub's load follows the hub, and that of the hub to its motion along this path. To be
+    /// called before set_wheel_velocities().
     void set_track_velocities();
 
-    /// Largest stable time step of level 0 with the damping asked for, s: from the highest frequencies of the
-    /// cells of each level and above. Collective; costs some 30 force evaluations a level the first time,
-    /// when all supports must have been set.
+    /// Largest stable time step of level 0 with the prescribed damping, s, from the highest frequencies of
+    /// the cells of each level and above. Collective; the first call costs about 30 force evaluations per
+    /// level and requires that all supports are set.
     double critical_time_step() const;
 
-    /// Find the critical time step for the cells as they are deformed now; start() takes it over. Cells that
-    /// are yielding in this moment count with their softer tangent. Collective; some 30 force evaluations a
-    /// level.
+    /// Determine the critical time step for the cells as they are deformed at present; start() uses it. Cells
+    /// that are yielding at present count with their softer tangent. Collective; about 30 force evaluations
+    /// per level.
     void renew_critical_time_step();
 
     /// @throws std::runtime_error with one line if a cell has been turned inside out, or if the cells have
-    /// deformed so much that the time step is no longer stable. Collective; about one force evaluation, 30 a
-    /// level when a bound from the cells' stretches does not suffice.
+    /// deformed so much that the time step is no longer stable. Collective; costs about one force evaluation,
+    /// or 30 per level if a bound from the cells' stretches is not sufficient.
     void check_cells();
 
-    /// Give the nodes of the wheel the velocities that the hub's rigid motion had half a step ago.
+    /// Set the velocities of the wheel's nodes to those of the hub's rigid motion half a step ago.
     void set_wheel_velocities();
 
-    /// Take over inertia and time step and zero the ledger; call after all that is attached and set.
+    /// Set inertia and time step and reset the ledger; call after everything is attached and set.
     void start();
 
     void step();
 
-    /// Whether all nodes are at the same instant: always, but for levels of time steps.
+    /// Whether all nodes are at the same instant, which only levels of time steps can prevent.
     bool synchronised() const
     {
       return n_steps % (std::uint64_t(1) << max_level()) == 0;
@@ -169,33 +172,35 @@ namespace tread
       return nodes_of_level.size() - 1;
     }
 
-    /// Cell updates in 2^max_level steps without levels over those with them, of all ranks. Collective.
+    /// Number of cell updates in 2^max_level steps without levels over that with levels, of all ranks.
+    /// Collective.
     double ideal_gain_of_levels(const unsigned int largest_level) const;
     double ideal_gain_of_levels() const
     {
       return ideal_gain_of_levels(max_level());
     }
 
-    /// Equilibrium at rest under weight, the hub's static force and the centrifugal force of the
-    /// true density at the nominal angular velocity: dynamic relaxation (Underwood 1983) with
-    /// masses that give every cell the same frequency. Contact is without friction here, or with given
-    /// tractions. Cells of plastic zones yield in one step, from their history before to the equilibrium:
-    /// what is passed on the way to it leaves no trace.
+    /// Find the equilibrium at rest under weight, the hub's static force and the centrifugal force of the
+    /// true density at the nominal angular velocity, by dynamic relaxation (Underwood 1983) with masses that
+    /// give every cell the same frequency. Contact is frictionless here, or has given tractions. Cells of
+    /// plastic zones yield in one step, from their initial history to the equilibrium; intermediate states of
+    /// the iteration leave no trace.
     /// @param tolerance of the force balance, share of the largest force.
     /// @param after_measurement is called with the number of the iteration and the balance reached, and may
-    /// give the contact tractions.
-    /// @returns the number of iterations. @throws std::runtime_error if max_iterations do not do.
+    /// prescribe the contact tractions.
+    /// @returns the number of iterations. @throws std::runtime_error if max_iterations are not sufficient.
     unsigned int relax(const double                                     tolerance,
                        const unsigned int                               max_iterations,
                        const std::function<void(unsigned int, double)> &after_measurement);
 
-    /// Energies now, when nodes must be synchronised. Collective; costs about two steps.
+    /// Present energies, when nodes must be synchronised. Collective; costs about two steps.
     EnergyLedger ledger() const;
 
-    /// @throws std::runtime_error with a clear line if nodes move faster than steel can. Collective.
+    /// @throws std::runtime_error with a clear line if nodes move faster than is possible in steel.
+    /// Collective.
     void check_stability() const;
 
-    /// Where a node is, m.
+    /// Position of a node, m.
     Row position(const unsigned int node) const
     {
       return x_damped[node] - damping_time * v[node];
@@ -206,17 +211,17 @@ namespace tread
       x_damped[node] = place + damping_time * v[node];
     }
 
-    /// Velocities, half a step back, m/s. To be set from outside between relax() and start() alone, where
-    /// positions do not depend on them.
+    /// Velocities, half a step back, m/s. They may be set from outside only between relax() and start(),
+    /// where positions do not depend on them.
     NodalField v;
     NodalField external_force; ///< N, by node; empty if none
-    /// Of the cells of plastic zones, at x + beta v of the last step.
+    /// History of the cells of plastic zones, at x + beta v of the last step.
     PlasticHistory history;
     double         time = 0., time_step = 0.;
     std::uint64_t  n_steps = 0;
     StepTimes      times;
 
-    /// Bytes that the nodes of this rank hold here.
+    /// Memory of this rank's nodes in this object, bytes.
     std::size_t memory_consumption() const
     {
       std::size_t bytes = v.size() * (3 * sizeof(Row) + 2 * sizeof(double) + 3 + sizeof(level_of_node[0]));
@@ -243,47 +248,51 @@ namespace tread
     const Solid &solid;
 
   private:
-    /// Time step, inverse masses and the pairs in contact.
+    /// Set the time step, the inverse masses and the pairs in contact.
     void                set_inertia();
-    void                prepare_step();                      ///< what step() leaves behind for the next one
+    void                prepare_step(); ///< the state that step() leaves for the next one
     void                set_damping_time(const double beta); ///< positions stay
     std::vector<double> free_inverse_masses() const;         ///< 0 where motion is prescribed
-    /// Of the cells of this and higher levels when nodes are at x, rad/s.
+    /// Highest frequency of the cells of this and higher levels with nodes at x, rad/s.
     double highest_frequency(const unsigned int    first_level,
                              const NodalField     &x,
                              const PlasticHistory &memory) const;
-    /// The largest of these times 2^level: what the steps of level 0 must follow, rad/s.
+    /// The largest of these frequencies times 2^level, which the steps of level 0 must resolve, rad/s.
     double       highest_of_levels(const NodalField &x, const PlasticHistory &memory) const;
-    double       critical_time_step_of(double highest_of_levels) const; ///< s, and remember that frequency
+    double       critical_time_step_of(double highest_of_levels) const; ///< s; also stores that frequency
     void         set_node_levels();
     unsigned int level_due() const; ///< the highest level whose cells are evaluated in this step
-    /// As far as the cells that are due now, contact or (when nodes are synchronised) others need them.
+    /// Move the hanging nodes that are needed now by cells due in this step, by contact or (when nodes are
+    /// synchronised) from outside.
     void           place_hanging_nodes();
     mutable double critical_step = 0., highest_of_step = 0.; ///< s, and the frequency that it is for, rad/s
-    mutable double bound_found_stable = 0.; ///< times the Courant number: no look below it, rad/s
+    mutable double bound_found_stable = 0.; ///< times the Courant number: no check is needed below it, rad/s
     void           add_hub_sums(std::vector<double> &sums) const;
     void           hold_guided_nodes(NodalField &field) const;
     void           move_hub_nodes();
-    /// Of velocities half a step back, and what the cells' forces add to it in half a step.
+    /// Kinetic energy from the velocities half a step back and the change that the cells' forces cause in
+    /// half a step.
     double       kinetic_energy(NodalField cell_forces) const;
     double       body_potential() const;
     StrainEnergy strain_energy() const;
-    /// Of the cells, before hanging nodes give theirs to their parents.
+    /// Forces of the cells, before hanging nodes pass theirs to their parents.
     NodalField cell_forces() const;
-    /// What damping adds to the forces of this rank's cells, N. @param forces cell_forces() of now. @returns
-    /// the power that it takes with the velocities of half a step back, W.
+    /// Contribution of damping to the forces of this rank's cells, N. @param forces the present
+    /// cell_forces(). @returns the dissipated power with the velocities of half a step back, W.
     double damping_forces(const NodalField &forces, NodalField &damping) const;
-    /// From the step of the last sample to the one before this, when power is this much now, J.
+    /// Energy dissipated from the step of the last sample to the previous step, if the power is this much at
+    /// present, J.
     double damping_since_sample(const double power) const;
     void   begin_damping_sample(); ///< before a step
-    void   end_damping_sample();   ///< when its velocities are known
+    void   end_damping_sample();   ///< when the velocities of the step are known
 
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
 
-    /// What the cells of a level exert on nodes that move in smaller steps. Pushed now and then only, a
-    /// node in a prestressed body would rattle: the steady part of the force acts in each of its steps, and
-    /// only the rest, the difference to the present force, acts as one push.
+    /// Forces of the cells of a level on nodes that move in smaller steps. If these forces acted only as
+    /// occasional impulses, they would excite the nodes of a prestressed body. The steady part of the force
+    /// therefore acts in each step of a node, and only the difference from the present force acts as an
+    /// impulse.
     struct SlowShares
     {
       std::vector<unsigned int> nodes;        ///< by their own levels
@@ -316,7 +325,8 @@ namespace tread
     };
     using Runs = std::vector<Run>;
 
-    /// What forces on a node that has copies elsewhere do not begin with, but get after their sum.
+    /// Load that is left out of the initial force on a node with copies on other ranks, and added after their
+    /// sum.
     struct LoadOfShared
     {
       unsigned int node, level;
@@ -333,11 +343,11 @@ namespace tread
 
     /// Add to the forces on damped nodes that move in this step.
     void add_local_damping(const unsigned int due);
-    /// Count the work of these forces, when all forces of the step are known.
+    /// Count the work of these forces when all forces of the step are known.
     void count_local_damping(const unsigned int due);
 
-    /// What slows nodes that move on top of the rigid motion, and what compensates the centrifugal force of
-    /// density that is not there: sums over this rank's own nodes, weighted with their scaled masses.
+    /// Mass damping relative to the rigid motion, and compensation of the centrifugal force of the density
+    /// added by scaling: sums over this rank's own nodes, weighted with their scaled masses.
     struct BodyLoads
     {
       Row arms{};     ///< from the axle to the wheel's nodes, kg m
@@ -365,8 +375,8 @@ namespace tread
       return Row{0., 0., -parameters.gravity * free_mass(i, factor), 0.};
     }
 
-    /// Call loop(load) for a run, where load(i) is the body load on a node now, times factor (N), which is
-    /// added to the sums. Without loads it is zero.
+    /// Call loop(load) for a run, where load(i) is the present body load on a node, times factor (N), which
+    /// is added to the sums. It is zero if there are no loads.
     template <typename Loop>
     void with_body_loads(const bool   has_loads,
                          const Run   &run,
@@ -379,13 +389,13 @@ namespace tread
       return parameters.mass_damping > 0. || (run.on_wheel && compensation() != 0.);
     }
 
-    /// Centripetal acceleration per radius that density which is only scaled needs, 1/s^2.
+    /// Centripetal acceleration per radius that compensates the density added by scaling, 1/s^2.
     double compensation() const
     {
       return (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     }
 
-    /// Take from shared nodes up to this level what their forces begin with.
+    /// Save, for shared nodes up to this level, the load with which their forces begin.
     void keep_loads_of_shared(const unsigned int due);
 
     DynamicsParameters               parameters;
@@ -413,8 +423,8 @@ namespace tread
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
     double                                             nominal_angular_velocity = 0.;
-    /// Of a step, over the ranks: force and moment on the hub, first moments of what is compensated; then of
-    /// supports.
+    /// Sums over the ranks in a step: force and moment on the hub, first moments of the compensated loads;
+    /// then those of the supports.
     std::vector<double>           rank_sums;
     static constexpr unsigned int n_hub_sums = 6;
 

@@ -13,9 +13,9 @@
 
 namespace tread
 {
-  /// The rail of cells seen as a beam on its supports: its sections stay plane and rigid. Such fields are far
-  /// softer than what cells do among themselves, so an iteration that is good at the latter leaves them to
-  /// this beam.
+  /// The rail of cells represented as a beam on its supports, with plane and rigid sections. Such
+  /// displacement fields are far softer than relative motions of the cells, so the relaxation, which is
+  /// efficient for the latter, leaves them to this beam.
   class RailBeam
   {
   public:
@@ -28,8 +28,8 @@ namespace tread
       std::vector<double>                sleepers; ///< by support; solid or rigid
     };
 
-    /// The field that balances these nodal forces (N, of this rank) and a vertical force at x on the rail.
-    /// Collective.
+    /// The displacement field that balances these nodal forces (N, of this rank) and a vertical force at x on
+    /// the rail. Collective.
     Field balance(const Row *force, const double x, const double force_at_x) const;
     Field balance(const double x, const double force_at_x) const;
 

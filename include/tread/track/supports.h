@@ -10,8 +10,8 @@
 
 namespace tread
 {
-  /// One foundation of a rail: what lies between its foot and the ground at each sleeper. Stiffness and
-  /// damping are those of a whole support; its points share them.
+  /// The foundation of a rail between its foot and the ground at each sleeper. Stiffness and damping are
+  /// those of a whole support; its points share them.
   struct TrackParameters
   {
     double       pad_stiffness = 1300e6;              ///< N/m
@@ -19,17 +19,17 @@ namespace tread
     double       pad_length = 0.15, pad_width = 0.14; ///< along and across the rail, m
     double       pad_middle   = 0.;                   ///< y, m
     unsigned int points_along = 3, points_across = 4;
-    /// With a second layer the pads rest on sleepers on ballast, else on the ground.
+    /// With a second layer the pads rest on sleepers on ballast, otherwise on the ground.
     bool   two_layers        = true;
     double sleeper_mass      = 200.; ///< kg; of a rigid sleeper that moves in z only
     double ballast_stiffness = 45e6; ///< N/m
     double ballast_damping   = 32e3; ///< N s/m
 
-    /// The same for a beam; rigid sleepers do not turn.
+    /// The same foundation for a beam; rigid sleepers do not rotate.
     reference::SupportLayers layers() const;
   };
 
-  /// A sleeper that is a body of the mesh: where the ballast lies under it.
+  /// A sleeper that is a body of the mesh: the area over which it rests on the ballast.
   struct SolidSleeper
   {
     unsigned int body;
@@ -41,9 +41,9 @@ namespace tread
   /// which are masses or bodies of the mesh, and on to the ground. A point lies on a face, and the face's
   /// nodes share its force by their shape functions.
   ///
-  /// Displacement and velocity of all points are known to all ranks, which do the same with them; forces
-  /// reach the nodes by the rank that holds the face. Dampers act with the velocities of half a step back, as
-  /// all damping in central differences.
+  /// Displacement and velocity of all points are known to all ranks, which update them identically; forces
+  /// reach the nodes through the rank that holds the face. Like all damping in central differences, dampers
+  /// act with the velocities of half a step back.
   class Supports
   {
   public:
@@ -53,7 +53,8 @@ namespace tread
       ballast
     };
 
-    /// @param positions of the supports along the rail (x, m); @param solid_sleepers one a support, or none.
+    /// @param positions of the supports along the rail (x, m); @param solid_sleepers one for each support, or
+    /// none.
     /// @throws std::invalid_argument if a point finds no face of its body. Collective.
     Supports(const Mesh                      &mesh,
              const unsigned int               rail_body,
@@ -61,30 +62,32 @@ namespace tread
              const TrackParameters           &parameters,
              const std::vector<SolidSleeper> &solid_sleepers = {});
 
-    /// Watch the vertical displacement of the rail's foot at x. @returns its number. Collective.
+    /// Record the vertical displacement of the rail's foot at x. @returns the number of this record.
+    /// Collective.
     unsigned int add_probe(const double x);
 
-    /// Weight of rigid sleepers, m/s^2 along -z.
+    /// Set the gravity of rigid sleepers, m/s^2 along -z.
     void set_gravity(const double value)
     {
       gravity = value;
     }
 
-    /// Take displacements from nodal positions; all at rest, rigid sleepers where forces balance. Collective.
+    /// Initialise the displacements from nodal positions: everything is at rest, and rigid sleepers are
+    /// placed where forces balance. Collective.
     void set_at_rest(const Row *x);
 
     /// Add the forces at the present state to the nodes of this rank.
     void add_forces(Row *force);
-    /// Those of the springs alone.
+    /// Add the forces of the springs alone.
     void add_spring_forces(Row *force) const;
 
-    /// Row sums of stiffness (in [0], N/m) and damping (in [1], N s/m) on the nodes of this rank, and of a
-    /// rigid sleeper over its mass: bounds of eigenvalues.
+    /// Row sums of stiffness (in [0], N/m) and damping (in [1], N s/m) on the nodes of this rank, and those
+    /// of a rigid sleeper over its mass: bounds of eigenvalues.
     void add_row_sums(Row *field) const;
     void sleeper_row_sums(double &stiffness_over_mass, double &damping_over_mass) const;
 
     /// Velocities that this rank's points will have: v + time_step * force / m; zero for those of other
-    /// ranks. Their sums over the ranks are for advance().
+    /// ranks. Their sums over the ranks are passed to advance().
     void        predict(const Row                 *v,
                         const Row                 *force,
                         const std::vector<double> &inverse_masses,
@@ -95,27 +98,27 @@ namespace tread
       return ends.size();
     }
 
-    /// One step to the new velocities of all points.
+    /// Advance by one step with the new velocities of all points.
     void advance(const double *velocities, const double time_step);
 
-    /// Points start with the velocities of the nodes, half a step back, rigid sleepers with those given.
-    /// Collective.
+    /// Initialise the velocities: points get those of the nodes, half a step back, and rigid sleepers those
+    /// given. Collective.
     void set_velocities(const Row *v, const std::vector<double> &sleeper_velocities);
 
-    /// Compression of a layer of a support in the last step, N.
+    /// Compressive force in a layer of a support in the last step, N.
     double force(const unsigned int support, const Layer layer) const;
-    /// Smallest and largest pressure that one of the pad's points stands for, Pa; negative where it pulls.
+    /// Smallest and largest pressure among the points of the pad, Pa; negative in tension.
     std::pair<double, double> pad_pressures(const unsigned int support) const;
     /// Mean displacement of the rail's foot over a support, upwards, m.
     double rail_displacement(const unsigned int support) const;
     double probe_displacement(const unsigned int probe) const;
 
-    /// Present energies, J, all ranks' together: springs; rigid sleepers, where velocities are half a step
-    /// back and spring forces those of now; weight of rigid sleepers half a step back.
+    /// Present energies of all ranks, J: springs; rigid sleepers, with velocities half a step back and
+    /// present spring forces; weight of rigid sleepers half a step back.
     double spring_energy() const;
     double sleeper_kinetic_energy(const double time_step) const;
     double weight_potential(const double time_step) const;
-    /// Work that the dampers have taken since the start, J.
+    /// Work dissipated by the dampers since the start, J.
     double dissipated() const
     {
       return damper_work;
@@ -125,7 +128,8 @@ namespace tread
     std::vector<unsigned int> nodes() const;
     /// Nodes to be held so that supports move vertically only: in y (direction 1) the nodes of the rail's
     /// foot nearest to the middle of each pad, in x (direction 0) those of solid sleepers nearest to the
-    /// middle of the ballast. Held across a pad's whole area the rail could not bend freely. Collective.
+    /// middle of the ballast. If they were held across the whole area of a pad, the rail could not bend
+    /// freely. Collective.
     std::vector<unsigned int> guided_nodes(const unsigned int direction) const;
 
     const unsigned int              rail_body;
@@ -134,7 +138,7 @@ namespace tread
     const std::vector<SolidSleeper> solid_sleepers; ///< one a support, or none
 
   private:
-    /// A point on a face; no nodes where another rank holds it.
+    /// A point on a face; it has no nodes if another rank holds the face.
     struct End
     {
       std::vector<std::pair<unsigned int, double>> nodes; ///< with shares that sum to 1

@@ -11,14 +11,14 @@ namespace tread
   /// How the axle is driven.
   enum class Drive
   {
-    creepage, ///< the angular velocity is kept
+    creepage, ///< the angular velocity is prescribed
     torque    ///< a torque acts on the axle
   };
 
   struct WheelHubParameters
   {
-    double mass                 = 0.;   ///< of the wheel, kg; what deforms is taken out when it is attached
-    double moment_of_inertia    = 0.;   ///< of the same about the axle, kg m^2
+    double mass = 0.; ///< of the wheel, kg; the share of the cells is subtracted when they are attached
+    double moment_of_inertia    = 0.;   ///< of the wheel about the axle, kg m^2
     double sprung_mass          = 0.;   ///< kg
     double suspension_stiffness = 0.;   ///< N/m
     double suspension_damping   = 0.;   ///< N s/m
@@ -46,15 +46,15 @@ namespace tread
     /// Put the axle into its reference position (x, z).
     void place(const double x, const double z);
 
-    /// The suspension is in equilibrium where the axle is now.
+    /// Define the present position of the axle as the equilibrium of the suspension.
     void balance_suspension()
     {
       equilibrium_z = motion.z;
     }
 
-    /// Take the cells' share out of mass and inertia: m (kg), their moment of inertia about the axle (kg m^2)
-    /// and first moment in the reference position (x and z, kg m). The whole wheel is balanced, so the rigid
-    /// rest has the opposite first moment: with a flexible sector it is the rest that balances the
+    /// Subtract the share of the cells from mass and inertia: mass (kg), moment of inertia about the axle (kg
+    /// m^2) and first moment in the reference configuration (x and z, kg m). The whole wheel is balanced, so
+    /// the rigid remainder has the opposite first moment and, with a flexible sector, balances the
     /// centrifugal force.
     void take_out(const double mass,
                   const double moment_of_inertia,
@@ -65,19 +65,20 @@ namespace tread
     /// the flexible cells exert.
     void advance(const Row force, const double moment, const double time_step);
 
-    /// Vertical force of everything but the cells when at rest and turning steadily, N (negative: down).
+    /// Vertical force of everything but the cells, at rest and in steady rotation, N (negative: down).
     double static_force() const;
 
     /// Position of a point that is fixed to the hub, from its reference position relative to the axle.
     Row position_of(const Row reference) const;
 
-    /// Velocity of a point of the hub now at x.
+    /// Velocity of a point of the hub that is at x at present.
     Row velocity_at(const Row x) const;
 
-    /// With the angle of so many seconds ago: velocities are those of half a step back.
+    /// Kinetic energy with the angle that the hub had this many seconds ago, because velocities are those of
+    /// half a step back, J.
     double kinetic_energy(const double time_back) const;
 
-    /// Where the axle was in the reference configuration, m.
+    /// Position of the axle in the reference configuration, m.
     double start_x() const
     {
       return reference_x;
@@ -105,7 +106,7 @@ namespace tread
     WheelHubParameters parameters;
 
   private:
-    /// First moment now, by turning the reference one about +y.
+    /// Present first moment, from rotating the reference one about +y.
     void first_moment(double &x, double &z, const double angle) const;
 
     double reference_x = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
