@@ -10,7 +10,7 @@
 
 namespace tread
 {
-  /// What all ranks have, in the order of the ranks. Collective.
+  /// The data of all ranks, in the order of the ranks. Collective.
   template <typename T>
   std::vector<T> gathered(const std::vector<T> &own, const MPI_Comm comm)
   {

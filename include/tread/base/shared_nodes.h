@@ -11,9 +11,8 @@
 
 namespace tread
 {
-  /// Nodes that several ranks hold a copy of, and the sum of their forces over these ranks.
-  /// Every rank adds the partial sums in the order of the ranks, so that all copies stay
-  /// identical to the last bit.
+  /// Nodes of which several ranks hold a copy, and the sum of their forces over these ranks. Every rank adds
+  /// the partial sums in the order of the ranks, so that all copies remain identical to the last bit.
   class SharedNodes
   {
   public:

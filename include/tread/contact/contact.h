@@ -23,7 +23,7 @@ namespace tread
     double turning = 2e-3;
   };
 
-  /// What the last step did at one slave node.
+  /// Result of the last step at one slave node.
   struct ContactNodeState
   {
     unsigned int node;                      ///< surface node
@@ -32,9 +32,10 @@ namespace tread
     bool   adhesion;
   };
 
-  /// Work of one step's impulses, J. The first three are taken from the pairs, with the mean of their
-  /// relative velocities before and after the step; the last one from the nodes, with their own velocities
-  /// and the forces that they were given. Whatever the pairs lose the nodes must lose.
+  /// Work of one step's impulses, J. The first three are computed from the pairs, with the mean of their
+  /// relative velocities before and after the step; the last one is computed from the nodes, with their own
+  /// velocities and the forces applied to them. The energy lost by the pairs must equal that lost by the
+  /// nodes.
   struct ContactWork
   {
     double friction = 0.; ///< lost by the tangential impulses of slipping pairs
@@ -64,19 +65,20 @@ namespace tread
       friction = std::move(law);
     }
 
-    /// From the next refresh on, which is due then, tangential tractions are given instead of found: those on
-    /// the master surface over the pressure, by the place of a slave node in the mesh (m), which does not
-    /// move from one element of a table to the next. An empty function: the friction law again.
+    /// Prescribe tangential tractions instead of finding them, from the next refresh on, which becomes due by
+    /// this call. The function gives the traction on the master surface over the pressure at the position of
+    /// a slave node in the mesh (m), which does not move from one element of a table to the next. An empty
+    /// function restores the friction law.
     void give_tractions(std::function<Row(const Row)> over_pressure)
     {
       given_tractions = std::move(over_pressure);
       time_to_refresh = 0.;
     }
 
-    /// Give all ranks what only the rank of a constraint or node knows. Collective.
+    /// Distribute to all ranks the data that only the rank of a constraint or node has. Collective.
     void complete_state();
 
-    /// Multiply the impulses that start the next step, e.g. with the ratio of two time steps.
+    /// Multiply the impulses that start the next step, e.g. by the ratio of two time steps.
     void scale_impulses(const double factor);
 
     /// Find the pairs that may touch and integrate their coupling. Collective. To be called when
@@ -100,7 +102,7 @@ namespace tread
     /// Total impulse on the master surface in the last step, N s.
     Row total_impulse() const;
 
-    /// The same on either body.
+    /// Total impulse on the given body in the last step, N s.
     Row total_impulse_on(const unsigned int body) const
     {
       return (body == parameters.master_body ? 1. : -1.) * total_impulse();
@@ -112,15 +114,16 @@ namespace tread
       return work;
     }
 
-    /// Creepage omega R / V - 1 at which the loaded surfaces roll without mean slip: the difference of
-    /// their stretch along x, weighted with the load. Half-space theory has none for like bodies; wheels
-    /// and rails of finite size have some 1e-5. Collective; x: nodal positions of this rank.
+    /// Creepage omega R / V - 1 at which the loaded surfaces roll without mean slip: the difference of their
+    /// stretch along x, weighted with the load. In half-space theory it is zero for like bodies; for wheels
+    /// and rails of finite size it is about 1e-5. Collective; x: nodal positions of this rank.
     double free_rolling_creepage(const Row *x) const;
 
     /// Slave nodes that carry an impulse after the last step, ordered by number. Collective.
     std::vector<ContactNodeState> active_nodes() const;
 
-    /// Steps in which the sweeps ended before the tolerance was reached, those of the start left out.
+    /// Number of steps in which the sweeps ended before the tolerance was reached, without those of the
+    /// start.
     std::uint64_t n_unconverged_steps() const
     {
       return unconverged_steps;
@@ -130,8 +133,8 @@ namespace tread
       unconverged_steps = n;
     }
 
-    /// Where a node at the rim of the surface of either body was loaded in the last step (m): beyond it
-    /// contact would be missed.
+    /// Position of a node at the rim of the contact faces of either body that was loaded in the last step
+    /// (m): beyond the rim contact would be missed.
     std::optional<Row> contact_at_rim() const;
 
     const ContactSurfaces surfaces;
@@ -141,16 +144,17 @@ namespace tread
     bool adheres(const Row impulse, const double normal_impulse, const Row normal) const;
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
-    /// Of this rank's own slave and master nodes, m/s.
+    /// Largest speeds of this rank's own slave and master nodes, m/s.
     std::array<double, 2> largest_speeds(const Row *v) const;
-    /// Normals follow the turning of the slave faces between two refreshes.
+    /// Rotate the normals with the slave faces between two refreshes.
     void update_normals();
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Row>          &impulse_of_node,
                  const std::vector<Row>          &x);
-    /// Room for what each step finds, by the pairs and involved nodes of now.
-    /// @param begin_of_strip as it was for these pairs, for as many ranks; otherwise strips are made anew.
+    /// Allocate the arrays used in each step for the present pairs and involved nodes.
+    /// @param begin_of_strip division into strips, for the same pairs and number of ranks; if empty, new
+    /// strips are made.
     void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
     MPI_Comm                           comm;
@@ -164,7 +168,7 @@ namespace tread
     Strips                                 strips;
     std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
     std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-    /// What a prediction needs of the involved nodes of this rank, in their order.
+    /// Data of the involved nodes of this rank, in their order, that a prediction needs.
     struct Predicted
     {
       unsigned int node, local; ///< compact number, number on this rank
@@ -174,8 +178,8 @@ namespace tread
     /// Compact numbers of the nodes whose prediction goes to or comes from each rank.
     std::vector<std::vector<unsigned int>>    sent_to, received_from;
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
-    /// By compact number; positions and velocities at the end of a step are known of the nodes of this
-    /// rank's strip, of those that its normals follow, and of its own.
+    /// By compact number. At the end of a step positions and velocities are known for the nodes of this
+    /// rank's strip, for those that its normals follow, and for the rank's own nodes.
     std::vector<Row>          position, predicted, velocity, velocity_before;
     std::vector<Row>          mean_velocity;    ///< of before and after the step, by compact number
     std::vector<Row>          impulse;          ///< by constraint
@@ -184,8 +188,8 @@ namespace tread
     std::vector<double>       gap_rate;         ///< by constraint of the strip
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
     std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
-    /// What the constraints do to a node, of the strip or of this rank: summed in the same order on all ranks
-    /// that know it, so that its position is the same.
+    /// Effect of the constraints on a node of the strip or of this rank. It is summed in the same order on
+    /// all ranks that know the node, so that its position is the same on all of them.
     struct NodeTerms
     {
       unsigned int node;         ///< compact number

@@ -29,7 +29,8 @@ namespace tread
     std::vector<Constraint> constraints;
     std::vector<Entry>      entries;
 
-    /// Sum of c times the field. Four sums at a time, as each addition waits for the one before it.
+    /// Sum of c times the field, computed as four independent sums because each addition waits for the
+    /// previous one.
     Row combine(const Constraint &constraint, const std::vector<Row> &field) const
     {
       Row          sum[4] = {};

@@ -34,7 +34,7 @@ namespace tread
 
     explicit ContactSurfaces(const Mesh &mesh);
 
-    /// Lies in the middle of its parents, two of a larger face, and follows them.
+    /// A node in the middle of its parents, two of a larger face, which it follows.
     struct HangingNode
     {
       unsigned int                node;

@@ -8,7 +8,7 @@
 
 namespace tread
 {
-  /// One weighted constraint: the multiplier of one slave node with all nodes that it joins.
+  /// One weighted constraint: the multiplier of one slave node and all nodes that it couples.
   struct MortarRow
   {
     unsigned int slave;      ///< surface node that carries the multiplier

@@ -24,14 +24,15 @@ namespace tread
     /// One strip, for this rank alone.
     explicit Strips(const ContactProblem &problem);
 
-    /// One strip a rank. The same problem on all ranks.
-    /// @param impulse one a constraint: loaded ones are more work. @param n_nodes compact nodes.
+    /// One strip for each rank. The problem is the same on all ranks.
+    /// @param impulse one for each constraint: loaded constraints require more work. @param n_nodes compact
+    /// nodes.
     Strips(const ContactProblem   &problem,
            const std::vector<Row> &impulse,
            const unsigned int      n_nodes,
            const MPI_Comm          comm);
 
-    /// Strips that were made before for as many ranks.
+    /// Restore strips that were made for the same number of ranks.
     Strips(const ContactProblem            &problem,
            const std::vector<unsigned int> &begin_of_strip,
            const unsigned int               n_nodes,
@@ -43,9 +44,10 @@ namespace tread
       return begin_of_strip;
     }
 
-    /// This rank's constraints, and where those end and begin that have nodes of the strips beside.
+    /// This rank's constraints, and the limits of those that share nodes with the previous and the next
+    /// strip.
     unsigned int begin, end_lower, begin_upper, end;
-    /// Of those that act on a node of this rank's constraints: neighbours' too.
+    /// Constraints that act on a node of this rank's constraints, including those of neighbours.
     unsigned int first_acting, end_acting;
 
     struct Neighbour
@@ -64,12 +66,12 @@ namespace tread
     /// The largest of each of two numbers over all ranks. Collective.
     void largest(double (&values)[2]) const;
 
-    /// Give all ranks what each has found for its own constraints. Collective.
-    /// @param values one a constraint. @return the largest of the ranks' own numbers.
+    /// Distribute to all ranks the values that each has found for its own constraints. Collective.
+    /// @param values one for each constraint. @return the largest of the ranks' own numbers.
     double gather(std::vector<Row> &values, const double own = 0.);
 
   private:
-    /// Whether these strips can do their sweeps at the same time; finds the borders if so.
+    /// Whether these strips can be swept at the same time; if so, their borders are determined.
     bool divide(const ContactProblem &problem, const unsigned int n_nodes);
 
     MPI_Comm                  comm;

@@ -37,11 +37,11 @@ namespace tread
     /// the last refinement; null: the chart is the space itself.
     std::function<dealii::Point<3>(const dealii::Point<3> &)> to_space;
 
-    /// Largest edge length allowed at a point (chart coordinates).
+    /// Largest admissible edge length at a point (chart coordinates).
     std::function<double(const dealii::Point<3> &)> wanted_cell_size;
 
-    /// How many times longer than wanted a cell may be along the path, at its centre (chart coordinates):
-    /// edges between the vertices 2i and 2i+1 of a cell. Null: 1.
+    /// Factor by which a cell may be longer along the path than the wanted size, at its centre (chart
+    /// coordinates); edges along the path join the vertices 2i and 2i+1 of a cell. Null: 1.
     std::function<double(const dealii::Point<3> &)> path_stretch;
 
     /// What the boundary is used for at the centre of a coarse boundary face (chart coordinates).

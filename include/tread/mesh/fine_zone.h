@@ -34,7 +34,7 @@ namespace tread
     /// The cubes that lie in the box along the path; where none do, its middle twice (m).
     std::array<double, 2> cubes() const;
 
-    /// How far the box reaches from the middle of the body (m).
+    /// Largest distance of the box from the middle of the body (m).
     double reach() const
     {
       return (y_middle < 0. ? -y_middle : y_middle) + half_width;
@@ -57,7 +57,7 @@ namespace tread
     /// It stays below 2h + r/n: n is the inverse slope of the mesh size.
     double wanted_size(double distance) const;
 
-    /// wanted_size(distance(x, y, depth)), of the box with and without cubes: the smaller.
+    /// The smaller value of wanted_size(distance(x, y, depth)) for the box with and without cubes.
     double wanted_size(double x, double y, double depth) const;
   };
 

@@ -38,8 +38,8 @@ namespace tread
       Boundary                    boundary;
     };
 
-    /// A node that lies at the mean of its parents: the four nodes of a larger face around it or the two of a
-    /// larger edge, each of these twice.
+    /// A node at the mean of its parents: the four nodes of a larger face around it, or the two nodes of a
+    /// larger edge, each of which is listed twice.
     struct HangingNode
     {
       static constexpr double     weight = 0.25; ///< of each parent
@@ -57,7 +57,7 @@ namespace tread
     SharedNodes                   shared_nodes;
     std::uint64_t                 n_global_cells, n_global_nodes, n_global_hanging_nodes;
 
-    /// A name for a node that does not depend on ranks: body and reference position in nm.
+    /// An identifier of a node that does not depend on the ranks: body and reference position in nm.
     std::array<long long, 4> node_key(const unsigned int node) const;
 
     /// Reference positions of a cell's nodes, m.
@@ -69,23 +69,23 @@ namespace tread
       return points;
     }
 
-    /// Bytes that the cells and nodes of this rank hold.
+    /// Memory of this rank's cells and nodes, bytes.
     std::size_t memory_consumption() const
     {
       return cells.size() * sizeof(Cell) + nodes.size() * (sizeof(nodes[0]) + sizeof(node_bodies[0]) + 1) +
              hanging_nodes.size() * sizeof(HangingNode);
     }
 
-    /// About how long a cell of a body with these corners (reference positions, m) will take in all, s.
-    /// @param level of time steps that its size gives it.
+    /// Approximate total time that a cell of a body with these corners (reference positions, m) will take, s.
+    /// @param level of time steps that follows from its size.
     using CellCost = std::function<double(unsigned int                                        body,
                                           const std::array<dealii::Point<3>, nodes_per_cell> &corners,
                                           unsigned int                                        level)>;
 
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
-    /// @param max_level of time steps that the cells will be run with.
-    /// @param cost what ranks get equal shares of where that pays; none: cells.
-    /// @throws std::runtime_error when a body has a cell that is turned inside out.
+    /// @param max_level of time steps with which the cells will be run.
+    /// @param cost quantity to be divided equally among the ranks if this pays; none: number of cells.
+    /// @throws std::runtime_error if a body has a cell that is turned inside out.
     Mesh(const MPI_Comm           comm,
          const std::vector<Body> &bodies,
          const unsigned int       max_level = 0,

@@ -11,7 +11,7 @@
 
 namespace tread
 {
-  /// What the top of a rail has on top of its profile, and how the rail stands.
+  /// Deviations of the top of a rail from its profile, and the inclination of the rail.
   struct RailTop
   {
     /// Height over the profile at (x, y), along the rail's own vertical (m); null: none. It fades linearly to

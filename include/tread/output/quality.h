@@ -11,32 +11,33 @@
 
 namespace tread
 {
-  /// What a user judges a run by.
+  /// The measures by which a user judges a run.
   struct Quality
   {
     EnergyLedger          energy;
     std::optional<double> slip_chatter;             ///< none: nothing was averaged
     double                contact_unconverged = 0.; ///< share of the steps
 
-    // Beyond these a warning is given.
+    // A warning is given beyond the following values.
 
-    /// Energy residual over what was dissipated. Frictional power and creepage are compared within one to two
-    /// per cent, and energy that is not accounted for may be missing from friction.
+    /// Energy residual over the dissipated energy. Frictional power and creepage are compared within one to
+    /// two per cent, and energy that is not accounted for may be missing from friction.
     static constexpr double large_residual = 0.02;
-    /// Contact loss over what was dissipated, for the same reason.
+    /// Contact loss over the dissipated energy, for the same reason.
     static constexpr double large_contact_loss = 0.02;
-    /// Over the internal energy: residual and contact loss below it are nothing to warn of, however little is
+    /// Share of the internal energy below which residual and contact loss cause no warning, however little is
     /// dissipated.
     static constexpr double negligible = 1e-3;
-    /// The same for damping: what strikes rings, and where nothing slips little else takes energy.
+    /// The same for damping: impacts excite vibrations, and where nothing slips little else dissipates
+    /// energy.
     static constexpr double negligible_damping = 1e-2;
-    /// Damping of the cells over friction and plasticity. It belongs to the numerics: at a tenth it takes
-    /// part in the answer. The dampers of a track are not counted.
+    /// Damping of the cells over friction and plasticity. This damping is numerical: from a tenth on it
+    /// affects the answer. The dampers of a track are not counted.
     static constexpr double large_damping = 0.1;
     /// Hourglass energy over the internal energy: the customary 5 % for one-point cells (Flanagan &
     /// Belytschko 1981 control the modes, they do not resolve them).
     static constexpr double large_hourglass = 0.05;
-    /// Slip chatter. The curvature of slip between two cells leaves a few per cent, chatter some ten.
+    /// Slip chatter. The curvature of slip between two cells contributes a few per cent, chatter about ten.
     static constexpr double large_chatter = 0.1;
     /// Share of steps whose contact did not converge. Rare ones are corrected by the steps after them.
     static constexpr double large_unconverged = 0.01;
@@ -46,7 +47,7 @@ namespace tread
     /// A few lines for the screen.
     std::string lines() const;
 
-    /// One line for each measure that is large: what it says and what to do.
+    /// One line for each measure that is too large: what it means and what to do.
     std::vector<std::string> warnings() const;
   };
 } // namespace tread

@@ -15,7 +15,7 @@
 
 namespace tread
 {
-  /// What one support carries, SI units.
+  /// Forces and displacements of one support, SI units.
   struct SupportRecord
   {
     double pad_force, ballast_force; ///< compression at the end of the interval
@@ -34,12 +34,12 @@ namespace tread
     PatchMeasures              patch;
     EnergyLedger               energy;
     double                     axle_box_acceleration; ///< vertical, mean over the interval
-    std::vector<SupportRecord> supports;              ///< as many as open_histories was told of
+    std::vector<SupportRecord> supports;              ///< as many as were passed to open_histories
     std::vector<CellRecord>    cells;                 ///< likewise
   };
 
-  /// What a wheel left behind it on the rail, SI units: means over the nodes in the middle of the rolled
-  /// distance, 10 mm long and on the line y = 0, and the largest of the cells under them.
+  /// Residual state of the rail after a wheel, SI units: averages over the nodes in the middle of the rolled
+  /// distance, 10 mm long and on the line y = 0, and the largest values of the cells below them.
   struct Passage
   {
     double settlement, shift;     ///< of the surface since the virgin state: downwards, along x (m)
@@ -70,13 +70,13 @@ namespace tread
       return folder + "/" + name;
     }
 
-    /// Whether its summary is that of a run that came to its end. Collective.
+    /// Whether the summary in the folder is that of a completed run. Collective.
     bool is_complete() const;
 
-    /// A new run leaves nothing of an earlier one that could be taken for its own.
+    /// Remove all files of an earlier run that could be mistaken for those of the new one.
     void remove_results() const;
 
-    /// Write text to a file of the folder by way of a temporary one, so that it is whole or not there.
+    /// Write text to a file of the folder through a temporary one, so that it is either complete or absent.
     void write(const std::string &name, const std::string &text) const;
 
     /// The bytes of all ranks one after the other, on rank 0. Collective.
@@ -91,27 +91,28 @@ namespace tread
                            const unsigned int      body,
                            const double            depth) const;
 
-    /// passages.csv: one row a passage of a wheel so far.
+    /// passages.csv: one row for each passage of a wheel so far.
     void write_passages(const std::vector<Passage> &passages) const;
 
-    /// strip.csv: one row a column of cells under the path.
+    /// strip.csv: one row for each column of cells under the path.
     void write_strip(const std::vector<StripColumn> &columns) const;
 
-    /// Begin history.csv, and cells.csv if there are cells, anew, or (when resuming) go on after the last row
-    /// not later than time. @param supports whose forces the rows have, by number.
+    /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
+    /// row not later than time. @param supports numbers of those whose forces the rows contain.
     void open_histories(const bool              resume,
                         const double            time,
                         const std::vector<int> &supports,
                         const std::size_t       n_cells);
     void append(const HistoryRow &row);
 
-    /// Bodies as they are now: displacement without the hub's rigid motion, velocity, stress. Collective.
+    /// Write the present state of the bodies: displacement without the hub's rigid motion, velocity, stress.
+    /// Collective.
     void write_volume(const ExplicitDynamics &dynamics, const WheelHub &hub, const unsigned int wheel_body);
 
-    /// A body's contact surface with pressure, shear, slip and state. Collective.
+    /// Write a body's contact surface with pressure, shear, slip and state. Collective.
     void write_surface(const ExplicitDynamics &dynamics, const Contact &contact, const unsigned int body);
 
-    /// The square elements of a half-space answer with the same fields.
+    /// Write the square elements of a half-space solution with the same fields.
     void write_surface(const std::vector<PatchNode> &elements, const double element_size);
 
   private:
@@ -122,10 +123,10 @@ namespace tread
                     const bool         resume,
                     const double       time) const;
 
-    /// On rank 0. @returns what is wrong, in one line; empty if the folder is this run's.
+    /// On rank 0. @returns an error in one line; empty if the folder is this run's.
     std::string take_lock();
 
-    /// A picture and the list of all with their times.
+    /// Write a picture and the list of all pictures with their times.
     void add_picture(const std::string                           &stem,
                      const std::string                           &pieces,
                      const double                                 time,

@@ -10,7 +10,7 @@
 
 namespace tread
 {
-  /// The figures of a run: names with units, values, and what they are compared with.
+  /// The figures of a run: names with units, values, and reference values.
   class Summary
   {
   public:
@@ -28,11 +28,12 @@ namespace tread
               const double       value,
               const std::string &after = "");
 
-    /// A figure with its reference: stands under "reference" in the file and as a line of the table.
-    /// @param scale from SI to the unit shown in the table. @param negligible a reference of this magnitude
-    /// is as good as none: the relative difference from it says nothing and is null. @param uncertainty how
-    /// far the reference itself may be from what it stands for; stands beside it, and as
-    /// `<name>_half_space_uncertainty` (the source, in lower case with underscores) among the figures.
+    /// A figure with its reference value, which is written under "reference" in the file and shown as a line
+    /// of the table.
+    /// @param scale from SI to the unit shown in the table. @param negligible magnitude below which a
+    /// reference is treated as zero: the relative difference from it is meaningless and is written as null.
+    /// @param uncertainty of the reference itself; written with it, and as `<name>_half_space_uncertainty`
+    /// (the source, in lower case with underscores) among the figures.
     void compare(const std::string    &name,
                  const std::string    &label,
                  const double          scale,
@@ -47,7 +48,7 @@ namespace tread
       return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
 
-    /// Computed, reference and difference, one line a figure; a column for each reference.
+    /// Computed value, reference and difference, one line for each figure; a column for each reference.
     std::string table() const;
 
   private:

@@ -11,9 +11,9 @@ namespace tread
   class ExplicitDynamics;
   class Simulation;
 
-  /// The whole state of a run in one of two files, written in turn; checkpoint.last names the one that
-  /// is complete. Nodes are stored by position, so a run may resume on any number of ranks. On as many as
-  /// before it goes on to the last bit as if it had never stopped.
+  /// The whole state of a run in one of two files, written in turn; checkpoint.last names the one that is
+  /// complete. Nodes are stored by position, so a run may resume on any number of ranks. On the same number
+  /// of ranks it continues to the last bit as if it had not been interrupted.
   class Checkpoint
   {
   public:
@@ -29,7 +29,7 @@ namespace tread
     template <typename Archive>
     static void        state(Archive &archive, Simulation &simulation);
     static std::string fingerprint(const Simulation &simulation);
-    /// What this rank sums or keeps for its own cells alone: a part of the whole, in bytes.
+    /// Data that this rank sums or keeps for its own cells alone: a part of the whole, in bytes.
     static std::string own_part(const ExplicitDynamics &dynamics);
     void               restore_parts(ExplicitDynamics &dynamics, const std::string &parts) const;
 

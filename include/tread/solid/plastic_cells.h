@@ -20,17 +20,18 @@ namespace tread
     std::function<bool(const dealii::Point<3> &)> contains;
   };
 
-  /// The zone in which a cell of a body with this centre (reference position, m) may yield: the last that
-  /// contains it; -1 if there is none or that one is elastic.
+  /// Index of the zone in which a cell of a body with this centre (reference configuration, m) may yield: the
+  /// last zone that contains it; -1 if there is none or if that zone is elastic.
   int zone_at(const std::vector<PlasticZone> &zones, const unsigned int body, const dealii::Point<3> &centre);
 
-  /// What the cells of all plastic zones of a rank remember. Part of the state of a run, as positions are.
+  /// History of the cells of all plastic zones of a rank. It is part of the state of a run, like the
+  /// positions.
   struct PlasticHistory
   {
     AlignedVector<Lanes> values;
   };
 
-  /// What one cell remembers, wherever it is stored: for checkpoints.
+  /// History of one cell with a key that does not depend on the ranks: for checkpoints.
   struct CellHistory
   {
     std::array<long long, 4> key; ///< body and centre in the reference position, nm
@@ -47,7 +48,8 @@ namespace tread
   public:
     PlasticCells() = default;
 
-    /// @param materials one a body. @param zones where a cell is in several of one body, the last counts.
+    /// @param materials one for each body. @param zones if a cell lies in several zones of a body, the last
+    /// one applies.
     PlasticCells(const Mesh                         &mesh,
                  const std::vector<ElasticMaterial> &materials,
                  const std::vector<PlasticZone>     &zones,
@@ -65,21 +67,21 @@ namespace tread
 
     PlasticHistory virgin_history() const;
 
-    /// Make the cells of a body as if they had never been loaded.
+    /// Reset the cells of a body to the state of never having been loaded.
     void forget(const unsigned int body, PlasticHistory &history) const;
 
-    /// Add the forces (N) that the cells exert when their nodes go from where the history was last
-    /// updated to x (m). The history stays.
+    /// Add the forces (N) that the cells exert when their nodes move to x (m) from the state of the last
+    /// update of the history. The history remains unchanged.
     void add_forces(const Row *x, Row *force, const PlasticHistory &history) const;
 
-    /// The same, and the history follows. @returns the plastic work done by that on this rank, J.
+    /// The same with an update of the history. @returns the plastic work done in it on this rank, J.
     double update(const Row *x, Row *force, PlasticHistory &history) const;
 
     /// Elastic energies of deformation and of the hourglass modes at x, J.
     std::array<double, 2> energies(const Row *x, const PlasticHistory &history) const;
 
     /// Write the Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) of the cells at x into a list of all cells.
-    /// @param wanted by cell: batches without any are left out; empty: all.
+    /// @param wanted by cell: batches without any wanted cell are omitted; empty: all cells.
     void cauchy_stress(const Row                          *x,
                        const PlasticHistory               &history,
                        std::vector<std::array<double, 6>> &stress,
@@ -88,12 +90,13 @@ namespace tread
     /// Equivalent plastic strain by cell of the mesh, 0 outside the zones.
     std::vector<double> equivalent_plastic_strain(const PlasticHistory &history) const;
 
-    /// The histories of this rank's cells by key, and back. Cells that are not in the list keep theirs.
+    /// Save and restore the histories of this rank's cells by key. Cells that are not in the list keep
+    /// theirs.
     /// @returns how many were found.
     std::vector<CellHistory> stored(const PlasticHistory &history) const;
     std::size_t              restore(const std::vector<CellHistory> &list, PlasticHistory &history) const;
 
-    /// Bytes that the cells of this rank hold, their history included.
+    /// Memory of this rank's cells including their history, bytes.
     std::size_t memory_consumption() const;
 
     std::size_t n_cells() const
@@ -111,7 +114,7 @@ namespace tread
       PlasticMaterial plastic;
       unsigned int    body;
 
-      /// Lanes of history that a batch has.
+      /// Number of lanes of history per batch.
       std::size_t stride() const
       {
         return 19 + 6 * plastic.backstresses.size();

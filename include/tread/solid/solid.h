@@ -31,7 +31,7 @@ namespace tread
     unsigned int max_level = 0;
   };
 
-  /// Which cells a sum of forces is over.
+  /// Selection of the cells over which forces are summed.
   struct Levels
   {
     unsigned int first = 0, last = 1000;
@@ -51,19 +51,18 @@ namespace tread
   class Solid
   {
   public:
-    /// @param materials one a body. @param zones of cells that may yield; the others are elastic.
+    /// @param materials one for each body. @param zones of cells that may yield; the others are elastic.
     Solid(const Mesh                         &mesh,
           const std::vector<ElasticMaterial> &materials,
           const SolidParameters              &parameters,
           const std::vector<PlasticZone>     &zones = {});
 
-    /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and,
-    /// for bulk viscosity, move at v (m/s). Hanging nodes are the caller's affair. Cells of plastic zones
-    /// are not in it.
+    /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and, for bulk
+    /// viscosity, move at v (m/s). The caller treats hanging nodes. Cells of plastic zones are not included.
     void add_elastic_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const;
 
-    /// Forces of all cells; those of plastic zones, which are of level 0, go to x from where the history was
-    /// last updated. The history stays.
+    /// Forces of all cells. Those of plastic zones, which are on level 0, move to x from the state of the
+    /// last update of the history, which remains unchanged.
     void add_internal_forces(const Row            *x,
                              const Row            *v,
                              Row                  *force,
@@ -75,14 +74,14 @@ namespace tread
         plastic_cells.add_forces(x, force, history);
     }
 
-    /// The same of cells that were never loaded.
+    /// The same for cells that have never been loaded.
     void add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const
     {
       add_internal_forces(x, v, force, virgin_history, levels);
     }
 
-    /// Forces of all cells, and the history follows to x: once a step, with the cells of level 0. @returns
-    /// the plastic work done on this rank, J.
+    /// Forces of all cells with an update of the history to x: once per step, with the cells of level 0.
+    /// @returns the plastic work done on this rank, J.
     double update_internal_forces(const Row      *x,
                                   const Row      *v,
                                   Row            *force,
@@ -101,7 +100,7 @@ namespace tread
     }
 
     /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x. @param wanted
-    /// by cell: where none of a batch is, stress is left 0; empty: all.
+    /// by cell: the stress remains 0 in batches without any wanted cell; empty: all cells.
     std::vector<std::array<double, 6>> cauchy_stress(const Row               *x,
                                                      const PlasticHistory    &history,
                                                      const std::vector<char> &wanted = {}) const;
@@ -137,16 +136,16 @@ namespace tread
       return levels_of_cells;
     }
 
-    /// What cell_levels() would say of a cell with another largest level.
+    /// The value that cell_levels() would give for a cell with another largest level.
     unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
 
-    /// About how long a cell and its nodes take in a step, s: for fair shares of the ranks.
+    /// Approximate time that a cell and its nodes take in a step, s: for a fair division among the ranks.
     static double step_seconds(const std::array<dealii::Point<3>, 8> &corners,
                                const ElementType                      type,
                                const bool                             is_plastic);
 
-    /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell.
-    /// Computed anew: nothing of it is kept.
+    /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell. They
+    /// are computed anew and not stored.
     std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
 
     bool needs_velocity() const
@@ -154,7 +153,7 @@ namespace tread
       return parameters.linear_bulk_viscosity > 0. || parameters.quadratic_bulk_viscosity > 0.;
     }
 
-    /// Bytes that the cells of this rank hold for the internal forces.
+    /// Memory of this rank's cells for the internal forces, bytes.
     std::size_t memory_consumption() const;
 
   private:
