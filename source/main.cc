@@ -136,8 +136,8 @@ namespace
     return simulation.run(line.output.empty() ? scene.output : line.output, line.resume) ? 0 : 130;
   }
 
-  /// One line in all for what all ranks find; otherwise each rank that fails speaks and ends the others,
-  /// which may wait for it forever.
+  /// An error found by all ranks is printed once. Otherwise each failing rank prints its error and ends the
+  /// others, which might wait for it forever.
   int fail(const std::string &what, const int code, const MPI_Comm errors)
   {
     std::string text = what;

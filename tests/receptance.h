@@ -50,9 +50,9 @@ namespace tread::tests
     }
   };
 
-  /// What is asked for: lines of frequency, and a decay (1/s). Force and displacement are taken times
-  /// exp(-decay t), so that nothing is cut off at the end of a record, and the beam answers the frequency
-  /// omega - i decay, which is the same exactly.
+  /// The lines of frequency to be evaluated, and a decay (1/s). Force and displacement are multiplied by
+  /// exp(-decay t), so that the record is not truncated at its end, and the beam is evaluated at the complex
+  /// frequency omega - i decay, which is exactly equivalent.
   struct Lines
   {
     double       lowest, step; ///< Hz
@@ -97,9 +97,9 @@ namespace tread::tests
     return result;
   }
 
-  /// What a section gives way between its mean and the pad's points, m/N: foot and web bend and are dented,
-  /// which a beam does not know; it is in series with the pad. Measured at rest. @param rail on three
-  /// supports, loaded along all of it
+  /// Compliance of a section between its mean position and the points of the pad, m/N: bending and
+  /// indentation of foot and web, which a beam does not have. It acts in series with the pad. Measured at
+  /// rest. @param rail on three supports, loaded along its whole length
   inline double foot_compliance(const RailForTrack &three_spans, const TrackParameters &track)
   {
     DynamicsParameters parameters;

@@ -87,7 +87,7 @@ namespace tread
     if (before - after < 16)
       throw too_short(before - after);
     double begin = *after, end = *(before - 1);
-    // At both ends an interval may be missing.
+    // One interval may be missing at either end.
     const double missing = std::max(of_run.length, of_twin.length);
     if (of_twin.middle.front() > begin + missing || of_twin.middle.back() < end - missing)
       throw std::invalid_argument(

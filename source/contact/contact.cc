@@ -340,7 +340,7 @@ namespace tread
   void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
   {
     const unsigned int n_ranks = involved_of_rank.size();
-    // As seldom as the normals: speeds change little in between.
+    // Measured as rarely as the normals are updated, because speeds change little in between.
     const bool            measures = steps_since_normals == 0;
     std::array<double, 2> largest  = measures ? largest_speeds(v) : std::array<double, 2>{{0., 0.}};
     for (std::size_t k = 0; k < own_involved.size(); ++k)
@@ -481,7 +481,7 @@ namespace tread
         force[of_node.local] += (1. / time_step) * p;
         if (of_node.owned)
           {
-            // Of the force that the node was given, not of the impulse that it was meant to be given.
+            // The work is that of the force actually applied to the node, not of the impulse intended.
             const Row given = time_step * (force[of_node.local] - before);
             work.on_nodes -= 0.5 * dot(given, velocity_before[of_node.node] + predicted[of_node.node] +
                                                 of_node.inverse_mass * given);

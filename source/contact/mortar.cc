@@ -152,7 +152,8 @@ namespace tread
       }
     };
 
-    /// Of two convex quadrilaterals each edge of one adds at most a corner to what is left of the other.
+    /// The intersection of two convex quadrilaterals: each edge of one adds at most one corner to the
+    /// remainder of the other.
     using Polygon = boost::container::static_vector<Plane2, 8>;
 
     /// The subject cut by the inner side of each edge of the other (Sutherland & Hodgman 1974).
@@ -203,7 +204,7 @@ namespace tread
     using BoxPoint = bg::model::point<double, 3, bg::cs::cartesian>;
     using Box      = bg::model::box<BoxPoint>;
     using Entry    = std::pair<Box, unsigned int>;
-    /// Of a face moved to and fro by some way.
+    /// Bounding box of a face that moves back and forth by a given distance.
     const auto box_of = [&](const ContactSurfaces::Face &face, const Row way) {
       Row low = x[face.nodes[0]], high = low;
       for (const unsigned int i : face.nodes)
@@ -555,7 +556,8 @@ namespace tread
           if (std::abs(entry.coefficient) > 1e-10 * sum.area)
             coupling.entries.push_back({entry.node, entry.coefficient / sum.area});
         row.end = coupling.entries.size();
-        // What was dropped and round-off go to the slave node: forces balance to the last bit or two.
+        // Dropped entries and round-off are added to the slave node, so that forces balance to the last one
+        // or two bits.
         double excess = 0.;
         for (std::size_t i = row.begin; i < row.end; ++i)
           excess += coupling.entries[i].coefficient;

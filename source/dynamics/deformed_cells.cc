@@ -32,9 +32,9 @@ namespace tread
       return J;
     }
 
-    /// By how much the principal stretches of F can speed a cell up: stiffness grows with the square of the
-    /// largest one where stress refers to undeformed areas (St. Venant and Kirchhoff's law), and with the
-    /// inverse square of the smallest one where it refers to deformed ones.
+    /// Largest factor by which the principal stretches of F can raise the frequency of a cell. Stiffness
+    /// grows with the square of the largest stretch if stress refers to undeformed areas (St. Venant and
+    /// Kirchhoff's law), and with the inverse square of the smallest one if it refers to deformed areas.
     double largest_change_of_stretch(const Tensor<2, 3> &F)
     {
       const dealii::SymmetricTensor<2, 3> C = dealii::symmetrize(dealii::transpose(F) * F);

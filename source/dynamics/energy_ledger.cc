@@ -64,8 +64,8 @@ namespace tread
 
   void ExplicitDynamics::end_damping_sample()
   {
-    // What a force does in a step of central differences it does with the mean of the velocities before and
-    // after it. The step is already counted.
+    // In central differences a force works in a step with the mean of the velocities before and after it. The
+    // step has already been counted.
     double after = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
       after -= dot(v[i], sampled_damping[i]);
@@ -111,7 +111,7 @@ namespace tread
 
   double ExplicitDynamics::body_potential() const
   {
-    // At the instant of the velocities, half a step back: so far work is counted.
+    // Evaluated at the instant of the velocities, half a step back, up to which work is counted.
     const double compensation = this->compensation();
     double       potential    = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)

@@ -175,7 +175,7 @@ namespace tread
 
   void ExplicitDynamics::count_local_damping(const unsigned int due)
   {
-    // With the mean of the velocities before and after the step, as the work of all prescribed forces.
+    // The work uses the mean of the velocities before and after the step, as for all prescribed forces.
     for (const DampedNode &damped : damped_nodes)
       if (const unsigned int i = damped.node; level_of_node[i] <= due && mesh.shared_nodes.is_owned(i))
         totals.damping -= time_step * dot(damped.load, v[i] + (0.5 * time_step * inverse_mass[i]) * force[i]);
@@ -398,7 +398,7 @@ namespace tread
       supports->add_forces(force.data());
     times.internal_forces += watch.lap();
     mesh.shared_nodes.sum(force.data());
-    // Not before: the sums of nodes that are not due must stay zero.
+    // These loads are added after the sum, because the sums of nodes that are not due must remain zero.
     for (const LoadOfShared &shared : loads_of_shared)
       if (shared.level <= due)
         force[shared.node] += shared.load;

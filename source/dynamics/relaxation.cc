@@ -65,9 +65,9 @@ namespace tread
         }
     const double hub_load = hub ? hub->static_force() : 0.;
 
-    // By far the slowest is the whole wheel as it sinks into the contact. Shifts of it get this much more
-    // acceleration by the force on all of it: inverse masses M^-1 + lightness r r^T / (r^T M r), which no
-    // cell feels, as K r = 0.
+    // The slowest motion by far is that of the whole wheel sinking into the contact. Its rigid shift is given
+    // this much more acceleration by the total force: inverse masses M^-1 + lightness r r^T / (r^T M r). The
+    // shift strains no cell, as K r = 0.
     const double lightness  = hub && contact ? 16. : 0.;
     double       wheel_mass = 0., wheel_load = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -221,7 +221,7 @@ namespace tread
                                        std::to_string(iteration) + " iterations");
             if (after_measurement)
               after_measurement(iteration, share);
-            // Not yet, if what was called has changed the contact.
+            // The iteration continues if the callback has changed the contact.
             if (share <= tolerance && !(contact && contact->refresh_due()))
               {
                 // Balanced with the coupling of where nodes were many iterations ago? Then not yet.

@@ -132,7 +132,8 @@ namespace tread
   {
     if (critical_step > 0.)
       return critical_step;
-    // Not where the nodes are now, but free of stress: small strain changes it by less than the margin.
+    // The stress-free reference configuration is used instead of the present one: small strain changes the
+    // result by less than the margin.
     NodalField reference(v.size());
     for (unsigned int i = 0; i < v.size(); ++i)
       reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};

@@ -196,8 +196,8 @@ namespace tread
     for (const Body &body : bodies)
       body_names.push_back(body.name);
 
-    // Of all nodes that this rank can see, ghost cells included: parents of hanging nodes may belong to those
-    // only. By their places in the set of relevant ones.
+    // Positions of all nodes visible to this rank, including those of ghost cells, to which parents of
+    // hanging nodes may belong. They are stored by index in the set of relevant nodes.
     constexpr unsigned int                       unknown = std::numeric_limits<unsigned int>::max();
     std::vector<dealii::Point<3>>                position(relevant.n_elements());
     std::vector<char>                            has_position(position.size(), false);

@@ -26,7 +26,7 @@ namespace tread
 
       // The coarse grid starts at x = 0 where it can, so that a symmetric zone gets a symmetric mesh.
       const double anchor = (box.x_begin <= 0. && 0. <= box.x_end) ? 0. : 0.5 * (box.x_begin + box.x_end);
-      // Where rows may be longer than others all rows of cubes are regular anyway.
+      // If rows may be longer than others, all rows of cubes are regular anyway.
       std::vector<CoarseSide> sides{{box.half_width, zone.reach()}, {box.depth, zone.depth}};
       if (zone.path_stretch <= 1.)
         {

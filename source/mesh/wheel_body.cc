@@ -66,7 +66,7 @@ namespace tread
       };
     }
 
-    /// Of the row that a point lies in.
+    /// Stretch of the row in which a point lies.
     std::function<double(const dealii::Point<3> &)> stretch_around(const WheelAxis &axis,
                                                                    const double     radius,
                                                                    const PathLines &path)

@@ -76,7 +76,7 @@ namespace tread
         return p;
       }
 
-      /// Of the head: the top of the web, then the underside.
+      /// Lower boundary of the head: the top of the web, then the underside.
       Point2 bottom(const double s) const
       {
         if (s <= chart.half_web)
@@ -92,8 +92,8 @@ namespace tread
         return {side[0] * s / chart.half_web, side[1]};
       }
 
-      /// Beside the middle of the foot, u outwards, v down: between upper side and base, with the curved
-      /// edge.
+      /// Point of the foot beside its middle (u outwards, v down), between the upper side and the base, with
+      /// the curved edge.
       Point2 flange(const double u, const double v) const
       {
         const Point2 upper =

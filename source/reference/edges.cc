@@ -36,7 +36,8 @@ namespace tread::reference
 
   Edges pressure_edges(const Grid &grid, const std::vector<double> &pressure)
   {
-    // What the area of Hertz's ellipse is too large by without it, in elements of the edge (0.05 to 0.1).
+    // Amount, in elements along the edge, by which the area of Hertz's ellipse would be too large without it
+    // (0.05 to 0.1).
     constexpr double          excess = 0.07;
     std::vector<unsigned int> in_column(grid.n_x, 0);
     Edges                     edges;

@@ -72,7 +72,7 @@ namespace tread::reference
       {
         sigma[k]     = r * sigma[k] + fixed[k] + c_x;
         sigma[n + k] = r * sigma[n + k] + fixed[n + k] + c_y;
-        // With a compliance r must be the smaller one of a softer element, the same in both directions.
+        // With a compliance r must be the smaller value of a softer element, and the same in both directions.
         const double soft = 1. / (1. + std::max(softness[k], softness[n + k]));
         const double s_x  = soft * (sigma[k] + softness[k] * v[k]),
                      s_y  = soft * (sigma[n + k] + softness[n + k] * v[n + k]);

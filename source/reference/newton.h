@@ -62,7 +62,7 @@ namespace tread::reference
     unsigned int linear_iterations = 0;
     double       violation         = 0.; ///< of the last state
 
-    /// Of the last state: slip (two blocks), and whether an element slips.
+    /// Slip of the last state (two blocks), and whether an element slips.
     std::vector<double> slip() const;
     bool                slips(const std::size_t k) const
     {

@@ -56,7 +56,7 @@ namespace tread::reference
       }
 
     private:
-      /// Where an element is on a scale that goes through zero linearly at the border of adhesion.
+      /// Level of an element on a scale that passes through zero linearly at the border of the adhesion area.
       double level(const std::size_t e) const
       {
         const double left = std::max(0., bound[e] - std::hypot(r.shear_x[e], r.shear_y[e]));

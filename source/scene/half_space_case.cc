@@ -148,7 +148,7 @@ namespace tread
     summary.set("friction_coefficient", scene.friction);
     summary.set("first_contact_y_m", scene.first_contact().y);
 
-    // Beside a wheel in the air stands the patch of the static load.
+    // A wheel that has lifted off is compared with the patch of the static load.
     const reference::HertzEllipse ellipse = hertz(scene, normal > 0. ? normal : scene.static_load());
     const auto with_hertz = [&](const char *name, const char *label, const double scale, const double value,
                                 const double reference) {

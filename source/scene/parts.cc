@@ -202,7 +202,8 @@ namespace tread
   Mesh::CellCost cell_cost(const Scene &scene)
   {
     const double wave_speed = scene.rail_material.si().pressure_wave_speed() / std::sqrt(scene.density_scale);
-    // Of the smallest cells' waves, with what damping and Courant number take.
+    // Number of steps from the travel time of waves through the smallest cells; the factor accounts for
+    // damping and Courant number.
     const double steps = 1.2 * scene.rolled_mm / scene.speed() * wave_speed / scene.finest_mm;
     return [steps, type = solid_parameters(scene).element_type, zones = plastic_zones(scene)](
              const unsigned int body, const auto &corners, const unsigned int level) {

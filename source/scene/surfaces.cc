@@ -198,7 +198,7 @@ namespace tread
     const reference::HertzEllipse hertz =
       reference::hertz_ellipse(0.5 / radius, 0.5 / lateral_radius(), pair.hertz_modulus(), load);
 
-    // As far to each side as the running surfaces are known, if the ellipse is not small.
+    // The range extends to each side as far as the running surfaces are known, unless the ellipse is small.
     const double       half_width = surfaces().half_width;
     const double       most       = 4. * std::max(hertz.semi_axis_x, hertz.semi_axis_y);
     const unsigned int n_x        = 12;

@@ -244,7 +244,7 @@ namespace tread
       measure_free_rolling();
     relaxation_seconds = progress.seconds() - began;
     check_rim();
-    // What wheels before this one have deformed may be slower or faster than it was.
+    // Cells deformed by earlier wheels may have become slower or faster.
     if (!passages.empty())
       dynamics.renew_critical_time_step();
     progress.say(

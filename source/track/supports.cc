@@ -69,7 +69,7 @@ namespace tread
     reference::SupportLayers l;
     l.pad_stiffness = pad_stiffness;
     l.pad_damping   = pad_damping;
-    // Of n equal points in the middles of n parts.
+    // Radius of gyration of n equal points at the centres of n parts.
     const double n = points_along;
     l.pad_radius   = pad_length * std::sqrt((1. - 1. / (n * n)) / 12.);
     if (two_layers)
@@ -180,7 +180,7 @@ namespace tread
             shares  = share;
           }
       }
-    // Where ranks meet several hold a face: the lowest one has the point.
+    // Where the parts of ranks meet, several of them hold a face; the lowest rank takes the point.
     const double best = dealii::Utilities::MPI::max(highest, mesh.comm);
     if (best == std::numeric_limits<double>::lowest())
       throw std::invalid_argument("no face of the body lies at x = " + std::to_string(1e3 * x) +

@@ -236,7 +236,7 @@ int main(int argc, char **argv)
     std::printf("message after %u steps: %s\n", unsigned(dynamics.n_steps), message.c_str());
     check.that("Courant number 1.3 ends with a message", message.find("Courant number") != std::string::npos);
     check.that("and not before the first step", dynamics.n_steps > 0);
-    // What is no number must not pass as slow.
+    // A velocity that is not a number must not pass as slow.
     std::fill(dynamics.v.begin(), dynamics.v.end(), Row{});
     dynamics.v.back()[1] = std::nan("");
     message.clear();

@@ -74,7 +74,7 @@ namespace
         check.below("cone of the rail's slope: lift, um", 1e6 * cone.lift, 1e-3);
         check.relative("cone of the rail's slope: lateral radius, mm", 1e3 * cone.lateral_radius, 300., 5e-3);
 
-        // Nothing overlaps, and it touches, for any shift of the tread.
+        // For any shift of the tread the surfaces touch without overlapping.
         for (const double shift : {-6., -3., 0., 2., 8.})
           {
             surfaces.tread_offset = [shift, tread = tread_offset("S1002", 0.)](const double y) {
@@ -218,7 +218,7 @@ namespace
       check.absolute("S1002 from .prw at " + std::to_string(y) + " mm, um", 1e6 * tread(1e-3 * y),
                      1e6 * s1002_offset(1e-3 * y), 2.);
 
-    // What may be wrong: what is said names the file and the line.
+    // Invalid files: the error names the file and the line.
     const auto says = [&](const std::string &what, const std::string &said,
                           const std::vector<std::string> &words) {
       bool all = !said.empty();

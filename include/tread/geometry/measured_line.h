@@ -15,7 +15,7 @@ namespace tread
   public:
     MeasuredLine(const std::vector<double> &x, const std::vector<double> &z);
 
-    /// Beside the ends: the value there.
+    /// Beyond the ends the value at the end is returned.
     double operator()(const double x) const;
 
     double begin() const; ///< (m)

@@ -22,7 +22,7 @@ namespace tread
     double gap(const double y) const;
   };
 
-  /// Where an unloaded wheel first touches.
+  /// Point at which an unloaded wheel first touches.
   struct FirstContact
   {
     double y;              ///< lateral position on the smooth rail (m)

@@ -9,8 +9,8 @@
 
 namespace tread
 {
-  /// What yielding adds to an elastic material: von Mises, with linear isotropic hardening and any of up to
-  /// three backstresses (Chaboche 1986). SI units.
+  /// Plastic properties in addition to an elastic material: von Mises, with linear isotropic hardening and up
+  /// to three backstresses (Chaboche 1986). SI units.
   struct PlasticMaterial
   {
     /// da = (2/3) C de_p - gamma a dp: linear kinematic hardening for gamma = 0 (Prager 1956), else that of
@@ -57,7 +57,7 @@ namespace tread
     }
   };
 
-  /// What a step of plastic flow did; 0 in lanes that did not yield.
+  /// Result of a step of plastic flow; 0 in lanes that did not yield.
   struct Flow
   {
     Lanes strain; ///< increment of the equivalent plastic strain

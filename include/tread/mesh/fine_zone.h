@@ -72,20 +72,21 @@ namespace tread
     std::vector<double> lines;
     double              size;
 
-    /// Of the row that x lies in.
+    /// Stretch of the row that contains x.
     double stretch(double x) const;
   };
 
-  /// From begin to end: rows of the given size between cubes_begin and cubes_end of the zone; from there they
-  /// grow by up to 1.4 a row to at most path_stretch times the size along the path, and to far_stretch
-  /// times the size beside it (m). Where neither allows longer rows: coarse_lines.
+  /// Lines from begin to end. Rows have the given size between cubes_begin and cubes_end of the zone. From
+  /// there they grow by a factor of up to 1.4 per row to at most path_stretch times the size along the path,
+  /// and to far_stretch times the size outside it (m). If neither allows longer rows, the lines are those of
+  /// coarse_lines.
   PathLines path_lines(double begin, double end, double size, const FineZone &zone, double far_stretch);
 
-  /// How far from the anchor the rows of coarse_lines have exactly the size, on a side that is
+  /// Distance from the anchor over which the rows of coarse_lines have exactly the size, on a side that is
   /// `length` long (m).
   double regular_length(double length, double size);
 
-  /// One side of one axis: its length from the anchor, and how much of it must have regular rows (m).
+  /// One side of one axis: its length from the anchor, and the part of it that must have regular rows (m).
   struct CoarseSide
   {
     double length;

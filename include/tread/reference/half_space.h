@@ -55,10 +55,10 @@ namespace tread::reference
     steady     ///< steady rolling (T = 3)
   };
 
-  /// The tangential problem: slip s = w + (u - u')/step with the rigid slip w = (xi - phi y, eta + phi x),
-  /// and what else is given, the displacement u here and u' where the particle was a step ago (at x + step;
-  /// not moved for a shift, where step counts as 1); |p| <= f pn; s = 0 where |p| < f pn, else
-  /// p = -f pn s/|s|.
+  /// The tangential problem: slip s = w + (u - u')/step with the rigid slip w = (xi - phi y, eta + phi x) and
+  /// any additional prescribed slip, where u is the displacement at the element and u' that of the particle
+  /// one step earlier (at x + step; at the same place for a shift, where step counts as 1); |p| <= f pn; s =
+  /// 0 where |p| < f pn, else p = -f pn s/|s|.
   struct TangentialProblem
   {
     Motion motion   = Motion::steady;

@@ -46,7 +46,7 @@ namespace tread::reference
     double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
   };
 
-  /// Where an element of the grid is.
+  /// State of an element of the grid.
   enum class ElementState : unsigned char
   {
     exterior = 0, ///< no contact

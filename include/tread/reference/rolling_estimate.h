@@ -6,7 +6,7 @@
 
 namespace tread::reference
 {
-  /// A value and how far the limit of small elements may be from it.
+  /// A value with the uncertainty of its distance from the limit of small elements.
   struct Estimate
   {
     double value       = 0.;

@@ -17,8 +17,8 @@ namespace tread::reference
     double rotary_inertia    = 0.;                                      ///< rho I, kg m
   };
 
-  /// What lies between a rail and the ground at one sleeper: a pad, and in the two-layer track a sleeper on
-  /// ballast.
+  /// The support between a rail and the ground at one sleeper: a pad and, in the two-layer track, a sleeper
+  /// on ballast.
   struct SupportLayers
   {
     double pad_stiffness     = 0.; ///< N/m
