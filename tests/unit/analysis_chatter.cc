@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Slip chatter: none where each point's slip is a straight line over its place in the patch, what was put in
-// where it is not.
+// Slip chatter: zero if the slip of each point is linear in its position in the patch, and equal to the
+// prescribed chatter otherwise.
 #include <tread/analysis/contact_patch.h>
 
 #include <deal.II/base/numbers.h>

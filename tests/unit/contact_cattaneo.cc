@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cattaneo and Mindlin: a sphere pressed on a flat and then sheared slowly; slip eats its way in from the
-// edge.
+// Cattaneo and Mindlin: a sphere pressed on a flat and then sheared slowly; the slip area grows inwards from
+// the edge.
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/reference/cattaneo_mindlin.h>
 #include <tread/reference/hertz.h>

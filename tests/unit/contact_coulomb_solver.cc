@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The solver for impulses alone, on random problems: do the results satisfy Signorini's conditions and
-// Coulomb's law, and is it the same when ranks share the constraints?
+// The solver for impulses alone, on random problems: the results must satisfy Signorini's conditions and
+// Coulomb's law, and must not change when ranks share the constraints.
 #include <tread/contact/coulomb_solver.h>
 
 #include <deal.II/base/mpi.h>

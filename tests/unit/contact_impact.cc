@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A quarter of an elastic sphere strikes a rigid plane: duration, largest force and approach against Hertz's
-// impact in closed form, and what is left of the speed.
+// A quarter of an elastic sphere strikes a rigid plane: duration, largest force and approach compared with
+// the closed form of Hertz's impact, and the rebound speed.
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/reference/hertz.h>
 
@@ -196,8 +196,8 @@ int main(int argc, char **argv)
   check.relative("closed form at 1 m/s: largest force (N)", known.max_force, 2300.9, 2e-4);
 
   // Six cells across the largest contact radius. Hertz's half-space leaves out that the sphere is finite:
-  // a share of the order of a/R, 0.01 here, and the strain, of the order of p0/E: 0.5 %. At 0.3 m/s the force is
-  // 1.2 % larger.
+  // a share of the order of a/R, 0.01 here, and the strain, of the order of p0/E: 0.5 %. At 0.3 m/s the force
+  // is 1.2 % larger.
   constexpr double speed = 0.03;
   const auto       hertz = reference::hertz_impact(mass, radius, modulus, speed);
   const double     h = hertz.contact_radius / 6., reach = 1.3 * hertz.contact_radius;

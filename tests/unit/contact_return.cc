@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A block on a plane is pushed aside and released: after stick it returns, after slip it stays where it got
-// to.
+// A block on a plane is pushed aside and released: after stick it returns, after slip it remains at its new
+// position.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

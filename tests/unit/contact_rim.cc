@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A round block falls onto a plate that may be touched on a strip only: inside it, at its border, beside it.
+// A round block falls onto a plate that has contact faces on a strip only: inside the strip, at its border
+// and outside it.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cells that deform much: one that is turned inside out stops the run and says where; a time step that is no
-// longer stable does so too, and neither speaks when all is well.
+// Large deformation of cells: an inverted cell stops the run with an error that gives its position, a time
+// step that is no longer stable stops it as well, and neither check reports anything for valid states.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Nothing acts from outside: linear and angular momentum must stay to rounding, energy within the bounds of
-// central differences, for a vibrating block with hanging nodes and for a spinning ring.
+// Without external forces linear and angular momentum must be conserved to round-off and energy within the
+// bounds of central differences, for a vibrating block with hanging nodes and for a spinning ring.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Damping takes what it should: a cube that swells and shrinks has one frequency and decays at a rate that is
-// known for damping in proportion to stiffness and to mass; the ledger counts just what the motion loses.
+// Damping dissipates the correct energy: a pulsating cube has one frequency and decays at a rate that is
+// known for damping in proportion to stiffness and to mass; the ledger counts exactly the energy that the
+// motion loses.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The energy ledger must close: work of prescribed forces and weight = kinetic + strain + hourglass + what
-// damping took.
+// The energy ledger must close: the work of prescribed forces and weight equals kinetic, strain and hourglass
+// energy plus the energy dissipated by damping.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Levels of time steps: stable over 1e5 steps, momentum kept, the ledger closes, a loaded body stays at rest,
-// and the answer is that of one step for all.
+// Levels of time steps: they are stable over 1e5 steps, conserve momentum and close the ledger, a loaded body
+// remains at rest, and the answer is that of a single step for all cells.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The same history on any number of ranks: what all ranks compute together against what each computes alone.
+// The same history on any number of ranks: the result that all ranks compute together is compared with that
+// of each rank alone.
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Warnings at the end of a run: none for a good one, one for each measure that is large, none where there is
-// nothing to compare with.
+// Warnings at the end of a run: none for a good run, one for each measure that is too large, and none if
+// there is nothing to compare with.
 #include <tread/output/quality.h>
 
 #include "check.h"

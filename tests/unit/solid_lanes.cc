@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cells are computed n_lanes at a time: the place of a cell in a batch, its neighbours there and an
-// incomplete last batch must not show in the forces.
+// Cells are computed n_lanes at a time: the position of a cell in a batch, its neighbours there and an
+// incomplete last batch must not affect the forces.
 #include <tread/solid/solid.h>
 
 #include <deal.II/base/mpi.h>

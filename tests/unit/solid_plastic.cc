@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cells that yield: rotation leaves them alone, their energies balance, small strain is elastic.
+// Cells that yield: they are unaffected by rotation, their energies balance, and small strain is elastic.
 #include <tread/solid/solid.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A wheel turns through any angle: rigid motion must cost nothing, and a deformed state must keep its
-// energy and forces when it turns.
+// A wheel rotates through any angle: rigid motion must store no energy, and a deformed state must keep its
+// energy and forces when it rotates.
 #include <tread/solid/solid.h>
 
 #include <deal.II/base/mpi.h>

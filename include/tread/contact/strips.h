@@ -10,14 +10,15 @@
 
 namespace tread
 {
-  /// How the ranks share the constraints of a contact problem: each has a strip of some that follow each
-  /// other, and the velocities of the nodes between two strips pass to and fro during a sweep.
+  /// Division of the constraints of a contact problem among the ranks: each has a strip of consecutive
+  /// constraints, and the velocities of the nodes between two strips are exchanged during a sweep.
   ///
-  /// In a sweep a rank first changes the constraints that have nodes in common with the strip before its own
-  /// and sends these nodes' velocities there, then those between, and those with nodes of the next strip when
-  /// it has them from there. So no two ranks change a node at the same time, none waits while all have as
-  /// much to do, and the sweep is one of Gauss-Seidel in another order. Where strips would be too thin for
-  /// that there are fewer of them than ranks.
+  /// In a sweep a rank first treats the constraints that share nodes with the previous strip and sends the
+  /// velocities of these nodes there. The constraints in between follow. Those that share nodes with the next
+  /// strip come last, when their velocities have been received from there. No two ranks therefore change a
+  /// node at the same time, no rank waits while all have the same amount of work, and the sweep is
+  /// Gauss-Seidel in a different order. If strips would be too thin for this, there are fewer strips than
+  /// ranks.
   class Strips
   {
   public:
