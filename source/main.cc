@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/version.h>
-#include <tread/tools/dynamic_force_files.h>
-#include <tread/tools/reference_only.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/simulation.h>
+#include <tread/tools/dynamic_force_files.h>
+#include <tread/tools/reference_only.h>
 
 #include <deal.II/base/mpi.h>
 
