@@ -10,13 +10,10 @@ are not repeated; remove RESULTS to measure anew.
 import argparse
 import functools
 import os
-import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
-
-from doc_tables import (ROOT, available_ranks, dry_run, fill, in_turn, markdown, number, provenance, run_scene,
+from tread.tables import (ROOT, available_ranks, dry_run, fill, in_turn, markdown, number, provenance, run_scene,
                         run_script)
-from run_data import DataError
+from tread.runs import DataError
 
 # Rolled twice as far as shipped, as the changes looked for are small.
 ROLLED = {"Motion/Rolled distance (mm)": 60, "Output/Write volume": "false"}

@@ -12,11 +12,8 @@ import argparse
 import functools
 import os
 import statistics
-import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
-
-from doc_tables import ROOT, fill, in_turn, markdown, number, provenance, run_scene, run_script, steps_seconds
+from tread.tables import ROOT, fill, in_turn, markdown, number, provenance, run_scene, run_script, steps_seconds
 
 # The same contact in ever more cells of 0.33 mm around it. The start is left rough: what counts is the pace.
 SIZE_SCENE = "verification/half-space-0.33-mu0.30.prm"

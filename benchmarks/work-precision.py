@@ -12,16 +12,13 @@ results are not repeated; remove RESULTS to measure anew.
 import argparse
 import functools
 import os
-import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "plot"))
-
-from doc_tables import (ROOT, available_ranks, contact_measures, fill, in_turn, markdown, number, provenance, run_scene,
+from tread.tables import (ROOT, available_ranks, contact_measures, fill, in_turn, markdown, number, provenance, run_scene,
                         run_script, steps_seconds)
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.

@@ -18,7 +18,7 @@ import sys
 
 import numpy as np
 
-from run_data import DataError, read_contact, read_patch, read_summary, read_table, reference_value
+from tread.runs import DataError, read_contact, read_patch, read_summary, read_table, reference_value
 
 
 def neighbours_in_contact(patch):

@@ -12,8 +12,8 @@ import fnmatch
 import glob
 import os
 
-from doc_tables import ROOT, available_ranks, fill, markdown, number, provenance, run_scene, run_script
-from run_data import DataError, read_summary
+from tread.tables import ROOT, available_ranks, fill, markdown, number, provenance, run_scene, run_script
+from tread.runs import DataError, read_summary
 
 # (heading, key, factor, what is large: include/tread/output/quality.h)
 MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),

@@ -19,7 +19,7 @@ import sys
 
 import numpy as np
 
-from run_data import DataError, read_parameters, read_table
+from tread.runs import DataError, read_parameters, read_table
 
 SHEAR_COEFFICIENT = 10 * 1.3 / (12 + 11 * 0.3)  # of a rectangle, nu = 0.3 (Cowper 1966)
 

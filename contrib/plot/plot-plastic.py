@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from run_data import DataError, read_patch, read_summary, read_table
+from tread.runs import DataError, read_patch, read_summary, read_table
 
 SECTIONS_MM = (-4.3, 5.7)
 DEPTH_MM = 0.7

@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from run_data import DataError, read_table
+from tread.runs import DataError, read_table
 
 PLACES = {"sleeper": "over a sleeper", "mid_span": "at mid-span"}
 FORCES = {"section": "force on a cross-section", "spread": "on 120 mm of the rail", "top": "on the rail top"}

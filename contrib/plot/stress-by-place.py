@@ -15,8 +15,8 @@ import os
 
 import numpy as np
 
-from doc_tables import markdown, run_script
-from run_data import DataError, read_parameters, read_summary, read_table
+from tread.tables import markdown, run_script
+from tread.runs import DataError, read_parameters, read_summary, read_table
 
 STRAIN = "equivalent_plastic_strain_percent"
 

@@ -16,7 +16,7 @@ import sys
 
 import numpy as np
 
-from run_data import DataError, read_parameters, read_table
+from tread.runs import DataError, read_parameters, read_table
 
 COLUMNS = {"normal_force_N": "contact", "support_1_pad_N": "pad", "support_1_ballast_N": "ballast"}
 

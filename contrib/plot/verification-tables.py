@@ -12,8 +12,8 @@ import glob
 import math
 import os
 
-from doc_tables import ROOT, contact_measures, fill, is_complete, markdown, number, run_scene, run_script
-from run_data import read_patch, read_summary, reference_value
+from tread.tables import ROOT, contact_measures, fill, is_complete, markdown, number, run_scene, run_script
+from tread.runs import read_patch, read_summary, reference_value
 
 # Errors allowed by cell size: (key of compare-contact.py, row, factor, unit, 0.63 mm, 0.33 mm).
 MEASURES = (("max_pressure_relative_difference", "largest pressure", 100, "%", 1.2, 0.8),

@@ -8,9 +8,10 @@ import subprocess
 import sys
 import time
 
-from run_data import DataError, read_summary
+from .runs import DataError, read_summary
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# contrib/python/tread, which the folders of commands have links to
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3))
 PROGRAM = os.path.join(ROOT, "build/source/tread")
 
 

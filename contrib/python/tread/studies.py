@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Run a parameter variation of a scene and tabulate it.
+
+    contrib/study.py STUDY [--output DIR] [--processes N] [--ranks N] [--program FILE] [--dry-run]
+
+A study is a text file in the format of the scenes:
+
+    set Scene       = ../smooth-rolling.prm        # to vary, seen from the study's folder
+    set Settings    = Mesh/Finest cell (mm)=1.3    # for all runs, several separated by |
+    set Combination = product                      # of the values below; or zip: first with first, ...
+    set Figures     = max_pressure_Pa | max(normal_force_N)
+    set Smooth twin =                              # settings that take the defect away, separated by |
+    set Directory   = results/my-study             # seen from where the study is started
+    set Processes   = 1                            # runs at a time
+    set Ranks       = 1                            # of each run
+    subsection Vary
+      set Motion/Speed (km per h) = 70 | 100 | 140
+    end
+
+Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv, or of another
+table, as in max(strip.csv:von_mises_MPa); at(strip.csv:von_mises_MPa:x_mm), which is x_mm in the row where von_mises_MPa is
+largest; and, with a smooth twin, dynamic(...) and frequency(...) of a force: the peak of what the defect adds, and its
+strongest vibration.
+
+Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
+interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. Ctrl-C ends the runs with a
+checkpoint. The table is study.csv in the study's folder. Exit code 0: all complete; 1: something failed; 130: interrupted.
+"""
+
+import argparse
+import csv
+import io
+import itertools
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+
+from . import tables
+from .runs import DataError, read_summary, read_table
+
+DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
+            "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
+            "Processes": "1", "Ranks": "1"}
+COMPLETE = "complete"
+
+
+class Interruption(Exception):
+    pass
+
+
+def values_of(text):
+    return [value.strip() for value in text.split("|") if value.strip()]
+
+
+def settings_of(text, where):
+    """{"Section/Name": value} of "Section/Name=value | ..."."""
+    result = {}
+    for setting in values_of(text):
+        name, equals, value = setting.partition("=")
+        if not equals or "/" not in name:
+            raise DataError(f"{where}: '{setting}' must be Section/Name=value")
+        result[name.strip()] = value.strip()
+    return result
+
+
+class Study:
+    """What the file asks for."""
+
+    def __init__(self, path):
+        entries, self.vary = self.read(path)
+        self.scene = os.path.join(os.path.dirname(os.path.abspath(path)), entries["Scene"])
+        self.settings = settings_of(entries["Settings"], f"{path}: 'Settings'")
+        self.without_defect = settings_of(entries["Smooth twin"], f"{path}: 'Smooth twin'")
+        self.figures = values_of(entries["Figures"])
+        for figure in self.figures:
+            kind = re.match(r"(\w+)\(", figure)
+            if kind and kind[1] not in ("max", "min", "last", "at", "dynamic", "frequency"):
+                raise DataError(f"{path}: 'Figures': no '{kind[1]}(...)'; there are max, min, last, at, dynamic, frequency")
+            if kind and kind[1] == "at" and figure.count(":") != 2:
+                raise DataError(f"{path}: 'Figures': {figure} must be at(TABLE.csv:COLUMN:OTHER COLUMN)")
+            if kind and kind[1] in ("dynamic", "frequency") and not self.without_defect:
+                raise DataError(f"{path}: 'Figures': {figure} needs a 'Smooth twin'")
+        self.directory = entries["Directory"] or os.path.join(
+            "results", os.path.splitext(os.path.basename(path))[0])
+        self.processes, self.ranks = (self.count(path, entries, name) for name in ("Processes", "Ranks"))
+        lists = [values_of(text) for text in self.vary.values()]
+        for name, values in zip(self.vary, lists):
+            if not values:
+                raise DataError(f"{path}: 'Vary/{name}' has no value")
+        if entries["Combination"] == "zip" and len({len(values) for values in lists}) > 1:
+            raise DataError(f"{path}: 'Combination' zip needs as many values of each parameter; there are "
+                            + ", ".join(f"{len(values)} of '{name}'" for name, values in zip(self.vary, lists)))
+        if entries["Combination"] not in ("product", "zip"):
+            raise DataError(f"{path}: 'Combination' cannot be '{entries['Combination']}'; allowed: product, zip")
+        combined = itertools.product(*lists) if entries["Combination"] == "product" else zip(*lists)
+        self.members = [dict(zip(self.vary, values)) for values in combined]
+        seen = {}
+        for member in self.members:
+            for same in (folder_name(member), tuple(map(number_or_text, member.values()))):
+                other = seen.setdefault(same, member)
+                if other is not member:
+                    raise DataError(f"{path}: two runs have the same values: {folder_name(other)} and {folder_name(member)}")
+
+    @staticmethod
+    def read(path):
+        try:
+            with open(path, encoding="utf-8") as stream:
+                lines = [line.split("#")[0].strip() for line in stream]
+        except (OSError, UnicodeDecodeError) as error:
+            raise DataError(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+        entries, vary, inside = dict(DEFAULTS), {}, False
+        for number, line in enumerate(lines, 1):
+            where = f"{path}, line {number}"
+            found = re.fullmatch(r"set\s+([^=]+?)\s*=\s*(.*)", line)
+            if found and inside:
+                if "/" not in found[1]:
+                    raise DataError(f"{where}: '{found[1]}' must be Section/Name")
+                vary[found[1]] = found[2]
+            elif found:
+                if found[1] not in DEFAULTS:
+                    raise DataError(f"{where}: no entry '{found[1]}'; there are {', '.join(DEFAULTS)} and subsection Vary")
+                entries[found[1]] = found[2]
+            elif re.fullmatch(r"subsection\s+Vary", line) and not inside:
+                inside = True
+            elif line == "end" and inside:
+                inside = False
+            elif line:
+                raise DataError(f"{where}: cannot read '{line}'")
+        if inside:
+            raise DataError(f"{path}: 'subsection Vary' has no end")
+        if not entries["Scene"]:
+            raise DataError(f"{path}: 'Scene' is missing")
+        if not vary:
+            raise DataError(f"{path}: 'subsection Vary' names no parameter")
+        return entries, vary
+
+    @staticmethod
+    def count(path, entries, name):
+        if not re.fullmatch(r"[1-9]\d*", entries[name]):
+            raise DataError(f"{path}: '{name}' cannot be '{entries[name]}'; allowed: 1, 2, ...")
+        return int(entries[name])
+
+
+def number_or_text(value):
+    """1 and 1.0 are the same."""
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
+def folder_name(values):
+    """Of the values alone, so that a study that grows finds what it has: speed-100_depth-0.2."""
+    last = [name.rpartition("/")[2] for name in values]
+    parts = []
+    for (name, value), short in zip(values.items(), last):
+        text = (name if last.count(short) > 1 else short).partition(" (")[0] + "-" + value
+        parts.append(re.sub(r"[^A-Za-z0-9.+-]+", "-", text).strip("-").lower())
+    return "_".join(parts)
+
+
+class Run:
+    """One run of the program with its folder."""
+
+    def __init__(self, study, root, name, settings, arguments):
+        self.folder = os.path.join(root, name)
+        self.name, self.state, self.process = name, "", None
+        line = [study.scene]
+        for parameter, value in settings.items():
+            line += ["-s", f"{parameter}={value}"]
+        self.line, self.ranks, self.program = line, arguments.ranks or study.ranks, arguments.program
+        with open(study.scene, encoding="utf-8") as stream:
+            self.input = {"settings": settings, "scene": stream.read()}
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def same_input(self):
+        try:
+            with open(self.path("input.json"), encoding="utf-8") as stream:
+                return json.load(stream) == self.input
+        except (OSError, ValueError):
+            return False
+
+    def begin(self):
+        """Start it unless its results are complete."""
+        known = self.same_input()
+        if known and tables.is_complete(self.folder):
+            self.state = COMPLETE
+            return
+        resume = known and os.path.exists(self.path("checkpoint.last"))
+        os.makedirs(self.folder, exist_ok=True)
+        with open(self.path("input.json"), "w", encoding="utf-8") as stream:
+            json.dump(self.input, stream, indent=1)
+        line = tables.command(self.line + ["--output", self.folder] + (["--resume"] if resume else []), self.ranks,
+                                  self.program)
+        print(f"{self.name}: {'goes on' if resume else 'begins'}", flush=True)
+        with open(self.path("output.txt"), "a" if resume else "w", encoding="utf-8") as output:
+            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
+            self.process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT,
+                                            start_new_session=True)
+
+    def ended(self):
+        """Whether it has ended; then its state says how."""
+        if self.process is None:
+            return True
+        code = self.process.poll()
+        if code is None:
+            return False
+        self.process = None
+        if code == 0 and tables.is_complete(self.folder):
+            self.state = COMPLETE
+        elif code == 130:
+            self.state = "interrupted"
+        else:
+            with open(self.path("output.txt"), encoding="utf-8", errors="replace") as stream:
+                said = [line.strip() for line in stream if line.startswith("tread: ")]
+            self.state = "failed: " + (said[-1][len("tread: "):] if said else f"exit code {code}, see {self.path('output.txt')}")
+        print(f"{self.name}: {self.state}", flush=True)
+        return True
+
+
+def environment():
+    # mpirun kills its ranks a second after Ctrl-C, too soon for a large checkpoint.
+    return dict(tables.environment(), OMPI_MCA_odls_base_sigkill_timeout="60")
+
+
+def run_all(runs, processes):
+    """Every run, so many at a time. @raises Interruption when all have ended with a checkpoint."""
+    waiting, active = list(runs), []
+    try:
+        while waiting or active:
+            active = [run for run in active if not run.ended()]
+            while waiting and len(active) < processes:
+                waiting[0].begin()
+                active.append(waiting.pop(0))
+            time.sleep(0.05)
+    except KeyboardInterrupt:
+        for run in active:
+            if run.process is not None:
+                run.process.send_signal(signal.SIGINT)
+        try:
+            while not all([run.ended() for run in active]):
+                time.sleep(0.05)
+        except KeyboardInterrupt:
+            for run in active:
+                if run.process is not None:
+                    os.killpg(run.process.pid, signal.SIGKILL)
+        raise Interruption from None
+
+
+def add_dynamic_force(member, twin):
+    """dynamic.json of a member, unless it is newer than both runs."""
+    if twin.state != COMPLETE:
+        member.state = f"failed: its smooth twin {twin.name} {twin.state}"
+        return
+    result = member.path("dynamic.json")
+    if os.path.exists(result) and os.path.getmtime(result) >= max(
+            os.path.getmtime(run.path("summary.json")) for run in (member, twin)):
+        return
+    answer = subprocess.run([member.program, "--dynamic-force", member.folder, "--smooth-twin", twin.folder],
+                            env=environment(), capture_output=True, text=True)
+    if answer.returncode != 0:
+        member.state = "failed: " + answer.stderr.strip().replace("tread: ", "")
+
+
+def figure_of(run, figure):
+    """A number. @raises DataError"""
+    kind = re.fullmatch(r"(\w+)\((.+)\)", figure)
+    if kind is None:
+        summary = read_summary(run.folder)
+        if not isinstance(summary.get(figure), (int, float)):
+            raise DataError(f"{run.name}: summary.json has no figure '{figure}'")
+        return float(summary[figure])
+    if kind[1] in ("max", "min", "last", "at"):
+        names = kind[2].split(":")
+        table = names.pop(0) if len(names) > 1 else "history.csv"
+        columns = read_table(run.path(table), tuple(names))
+        column = columns[names[0]]
+        return float({"max": column.max, "min": column.min, "last": lambda: column[-1],
+                      "at": lambda: columns[names[1]][column.argmax()]}[kind[1]]())
+    with open(run.path("dynamic.json"), encoding="utf-8") as stream:
+        force = json.load(stream)["forces"].get(kind[2])
+    if force is None:
+        raise DataError(f"{run.name}: dynamic.json has no force '{kind[2]}'")
+    if kind[1] == "dynamic":
+        return force["peak_N"]
+    return force["oscillations"][0]["frequency_Hz"] if force["oscillations"] else float("nan")
+
+
+def tabulate(study, root, runs):
+    """study.csv, and the same on the terminal. @returns whether every figure of the complete runs was found."""
+    rows, missing = [], []
+    for member, run in zip(study.members, runs):
+        figures = []
+        for figure in study.figures:
+            try:
+                figures.append(f"{figure_of(run, figure):.8g}" if run.state == COMPLETE else "")
+            except DataError as error:
+                figures.append("")
+                missing.append(str(error))
+        rows.append(list(member.values()) + figures + [run.state or "not begun"])
+    header = list(study.vary) + study.figures + ["state"]
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([header] + rows)
+    part = os.path.join(root, "study.csv.part")
+    with open(part, "w", encoding="utf-8") as stream:
+        stream.write(text.getvalue())
+    os.replace(part, os.path.join(root, "study.csv"))
+
+    widths = [max(len(row[i]) for row in [header] + rows) for i in range(len(header) - 1)]
+    print()
+    for row in [header] + rows:
+        print("  ".join([f"{cell:>{width}}" for cell, width in zip(row, widths)] + [row[-1]]))
+    print("\n".join([""] + missing) if missing else "")
+    print(f"{sum(run.state == COMPLETE for run in runs)} of {len(runs)} runs complete. Table in {os.path.join(root, 'study.csv')}")
+    return not missing
+
+
+def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", metavar="STUDY")
+    parser.add_argument("--output", help="folder of the study, instead of 'Directory'")
+    parser.add_argument("--processes", type=int, help="runs at a time, instead of 'Processes'")
+    parser.add_argument("--ranks", type=int, help="of each run, instead of 'Ranks'")
+    parser.add_argument("--program", default=tables.PROGRAM, help="tread itself")
+    parser.add_argument("--dry-run", action="store_true", help="list the runs and run nothing")
+    arguments = parser.parse_args()
+    study = Study(arguments.study)
+    for path, what in ((study.scene, "scene"), (arguments.program, "program; build it or name it with --program")):
+        if not os.path.isfile(path):
+            raise DataError(f"{path}: no such {what}")
+    root = arguments.output or study.directory
+
+    members, twins = [], {}
+    for values in study.members:
+        no_defect = study.without_defect.get("Defect/Shape") == "none"
+        left = {name: value for name, value in values.items()
+                if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
+        name = "smooth-twin" + ("_" + folder_name(left) if left else "")
+        if study.without_defect and name not in twins:
+            twins[name] = Run(study, root, name, {**study.settings, **left, **study.without_defect}, arguments)
+        members.append((Run(study, root, folder_name(values), {**study.settings, **values}, arguments), twins.get(name)))
+    runs = [run for run, _ in members] + list(twins.values())
+    if arguments.dry_run:
+        for run in runs:
+            print(f"{run.name}: " + ", ".join(f"{name}={value}" for name, value in run.input["settings"].items()))
+        return 0
+
+    os.makedirs(root, exist_ok=True)
+    try:
+        run_all(runs, arguments.processes or study.processes)
+        for member, twin in members:
+            if twin is not None and member.state == COMPLETE:
+                add_dynamic_force(member, twin)
+    except Interruption:
+        tabulate(study, root, [run for run, _ in members])
+        print("INTERRUPTED: the same command goes on")
+        return 130
+    found = tabulate(study, root, [run for run, _ in members])
+    return 0 if found and all(run.state == COMPLETE for run, _ in members) else 1
