@@ -11,9 +11,10 @@ import argparse
 import functools
 import os
 
-from tread.tables import (ROOT, available_ranks, dry_run, fill, in_turn, markdown, number, provenance, run_scene,
-                        run_script)
-from tread.runs import DataError
+from tread.commands import run_command
+from tread.measured_runs import available_ranks, dry_run, in_turn, run_scene
+from tread.runs import ROOT, DataError
+from tread.tables import fill, markdown, number, provenance
 
 # Rolled twice as far as shipped, as the changes looked for are small.
 ROLLED = {"Motion/Rolled distance (mm)": 60, "Output/Write volume": "false"}
@@ -108,4 +109,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run_script(main)
+    run_command(main)

@@ -13,7 +13,10 @@ import functools
 import os
 import statistics
 
-from tread.tables import ROOT, fill, in_turn, markdown, number, provenance, run_scene, run_script, steps_seconds
+from tread.commands import run_command
+from tread.measured_runs import in_turn, run_scene, steps_seconds
+from tread.runs import ROOT
+from tread.tables import fill, markdown, number, provenance
 
 # The same contact in ever more cells of 0.33 mm around it. The start is left rough: what counts is the pace.
 SIZE_SCENE = "verification/half-space-0.33-mu0.30.prm"
@@ -128,4 +131,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run_script(main)
+    run_command(main)

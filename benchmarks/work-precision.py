@@ -18,8 +18,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from tread.tables import (ROOT, available_ranks, contact_measures, fill, in_turn, markdown, number, provenance, run_scene,
-                        run_script, steps_seconds)
+from tread.commands import run_command
+from tread.measured_runs import available_ranks, contact_measures, in_turn, run_scene, steps_seconds
+from tread.runs import ROOT
+from tread.tables import fill, markdown, number, provenance
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.
 BLUE, SKY, ORANGE, GREEN, RED, PURPLE, YELLOW = (
@@ -129,4 +131,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run_script(main)
+    run_command(main)

@@ -12,8 +12,10 @@ import fnmatch
 import glob
 import os
 
-from tread.tables import ROOT, available_ranks, fill, markdown, number, provenance, run_scene, run_script
-from tread.runs import DataError, read_summary
+from tread.commands import run_command
+from tread.measured_runs import available_ranks, run_scene
+from tread.runs import ROOT, DataError, read_summary
+from tread.tables import fill, markdown, number, provenance
 
 # (heading, key, factor, what is large: include/tread/output/quality.h)
 MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
@@ -98,4 +100,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run_script(main)
+    run_command(main)

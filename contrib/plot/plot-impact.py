@@ -38,8 +38,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tread.tables import PROGRAM, environment
-from tread.runs import DataError, read_parameters, read_table
+from tread.runs import PROGRAM, DataError, environment, read_parameters, read_table
 
 BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, "black")

@@ -19,7 +19,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tread.runs import DataError, read_patch, read_summary, read_table
+from tread.patches import read_patch
+from tread.runs import DataError, read_summary, read_table
 
 SECTIONS_MM = (-4.3, 5.7)
 DEPTH_MM = 0.7

@@ -26,7 +26,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch as Swatch
 
-from tread.runs import DataError, read_contact, read_patch, read_summary, read_table, reference_value
+from tread.patches import read_contact, read_patch
+from tread.runs import DataError, read_summary, read_table, reference_value
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.
 BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"

@@ -15,8 +15,9 @@ import os
 
 import numpy as np
 
-from tread.tables import markdown, run_script
+from tread.commands import run_command
 from tread.runs import DataError, read_parameters, read_summary, read_table
+from tread.tables import markdown
 
 STRAIN = "equivalent_plastic_strain_percent"
 
@@ -74,4 +75,4 @@ def main():
     print("version: " + ", ".join(sorted({read_summary(run)["version"] for run in arguments.runs})))
 
 
-run_script(main)
+run_command(main)

@@ -12,8 +12,11 @@ import glob
 import math
 import os
 
-from tread.tables import ROOT, contact_measures, fill, is_complete, markdown, number, run_scene, run_script
-from tread.runs import read_patch, read_summary, reference_value
+from tread.commands import run_command
+from tread.measured_runs import contact_measures, run_scene
+from tread.patches import read_patch
+from tread.runs import ROOT, is_complete, read_summary, reference_value
+from tread.tables import fill, markdown, number
 
 # Errors allowed by cell size: (key of compare-contact.py, row, factor, unit, 0.63 mm, 0.33 mm).
 MEASURES = (("max_pressure_relative_difference", "largest pressure", 100, "%", 1.2, 0.8),
@@ -283,4 +286,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run_script(main)
+    run_command(main)

@@ -38,8 +38,7 @@ import signal
 import subprocess
 import time
 
-from . import tables
-from .runs import DataError, read_summary, read_table
+from .runs import PROGRAM, DataError, command, environment, is_complete, read_summary, read_table
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
@@ -188,19 +187,19 @@ class Run:
     def begin(self):
         """Start it unless its results are complete."""
         known = self.same_input()
-        if known and tables.is_complete(self.folder):
+        if known and is_complete(self.folder):
             self.state = COMPLETE
             return
         resume = known and os.path.exists(self.path("checkpoint.last"))
         os.makedirs(self.folder, exist_ok=True)
         with open(self.path("input.json"), "w", encoding="utf-8") as stream:
             json.dump(self.input, stream, indent=1)
-        line = tables.command(self.line + ["--output", self.folder] + (["--resume"] if resume else []), self.ranks,
+        line = command(self.line + ["--output", self.folder] + (["--resume"] if resume else []), self.ranks,
                                   self.program)
         print(f"{self.name}: {'goes on' if resume else 'begins'}", flush=True)
         with open(self.path("output.txt"), "a" if resume else "w", encoding="utf-8") as output:
             # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
-            self.process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT,
+            self.process = subprocess.Popen(line, env=patient_environment(), stdout=output, stderr=subprocess.STDOUT,
                                             start_new_session=True)
 
     def ended(self):
@@ -211,7 +210,7 @@ class Run:
         if code is None:
             return False
         self.process = None
-        if code == 0 and tables.is_complete(self.folder):
+        if code == 0 and is_complete(self.folder):
             self.state = COMPLETE
         elif code == 130:
             self.state = "interrupted"
@@ -223,9 +222,9 @@ class Run:
         return True
 
 
-def environment():
+def patient_environment():
     # mpirun kills its ranks a second after Ctrl-C, too soon for a large checkpoint.
-    return dict(tables.environment(), OMPI_MCA_odls_base_sigkill_timeout="60")
+    return dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="60")
 
 
 def run_all(runs, processes):
@@ -262,7 +261,7 @@ def add_dynamic_force(member, twin):
             os.path.getmtime(run.path("summary.json")) for run in (member, twin)):
         return
     answer = subprocess.run([member.program, "--dynamic-force", member.folder, "--smooth-twin", twin.folder],
-                            env=environment(), capture_output=True, text=True)
+                            env=patient_environment(), capture_output=True, text=True)
     if answer.returncode != 0:
         member.state = "failed: " + answer.stderr.strip().replace("tread: ", "")
 
@@ -328,7 +327,7 @@ def main():
     parser.add_argument("--output", help="folder of the study, instead of 'Directory'")
     parser.add_argument("--processes", type=int, help="runs at a time, instead of 'Processes'")
     parser.add_argument("--ranks", type=int, help="of each run, instead of 'Ranks'")
-    parser.add_argument("--program", default=tables.PROGRAM, help="tread itself")
+    parser.add_argument("--program", default=PROGRAM, help="tread itself")
     parser.add_argument("--dry-run", action="store_true", help="list the runs and run nothing")
     arguments = parser.parse_args()
     study = Study(arguments.study)

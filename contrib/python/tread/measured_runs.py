@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs of shipped scenes whose results and costs are kept: what the tables of doc/ are made of."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+
+from .runs import ROOT, DataError, arguments_of, command, environment, is_complete, read_summary
+
+
+def available_ranks():
+    return min(2, os.cpu_count() or 1)
+
+
+def run_scene(scene, folder, settings=None, ranks=None):
+    """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command and
+    the same scene.
+
+    Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
+    the memory of its largest process.
+    """
+    line = command(arguments_of(scene, settings or {}) + ["--output", folder], ranks or available_ranks())
+    cost_file = os.path.join(folder, "cost.json")
+    cost = {}
+    if is_complete(folder) and os.path.exists(cost_file):
+        with open(cost_file, encoding="utf-8") as stream:
+            cost = json.load(stream)
+    with open(os.path.join(ROOT, "prm", scene), encoding="utf-8") as stream:
+        scene_text = stream.read()
+    if cost.get("command") != line or cost.get("scene") != scene_text:
+        print(" ".join(line), flush=True)
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as output:
+            began = time.time()
+            process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT)
+            _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            with open(output.name, encoding="utf-8") as stream:
+                said = [text.strip() for text in stream if text.startswith("tread: ")]
+            raise DataError(f"{scene} ended with {process.returncode} ({' '.join(said)}), see {output.name}")
+        cost = {"command": line, "scene": scene_text, "peak_bytes": 1024 * usage.ru_maxrss,
+                "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began}
+        with open(cost_file, "w", encoding="utf-8") as stream:
+            json.dump(cost, stream, indent=2)
+    return dict(read_summary(folder), **cost)
+
+
+def in_turn(turns, runs, time_of=lambda summary: summary["seconds"]):
+    """The fastest summary of each run(turn) of a dictionary, all runs made one after the other so many times: where
+    other programs take their part of a machine, the least time is the nearest to the run's own."""
+    summaries = [{name: run(turn) for name, run in runs.items()} for turn in range(turns)]
+    return {name: min((of_turn[name] for of_turn in summaries), key=time_of) for name in runs}
+
+
+def steps_seconds(summary):
+    """Of all time steps, without start, end and output."""
+    return sum(summary[f"wall_s_{part}"] for part in ("internal_forces", "contact", "communication", "nodes"))
+
+
+def dry_run(scene, settings, ranks=1):
+    """What --dry-run says: {what: number}."""
+    line = command(arguments_of(scene, settings) + ["--dry-run"], ranks)
+    result = subprocess.run(line, env=environment(), capture_output=True, text=True)
+    if result.returncode != 0:
+        raise DataError(f"{' '.join(line)} ended with {result.returncode}: {result.stderr.strip()}")
+    found = {what.strip(): float(value) for what, value in
+             re.findall(r"^(\S[^\d\n]*?)\s{2,}([\d.eE+-]+)", result.stdout, re.MULTILINE)}
+    gain = re.search(r"fall to 1/([\d.]+)", result.stdout)
+    found["ideal gain of levels"] = float(gain[1]) if gain else 1.0
+    return found
+
+
+def contact_measures(run, traction, scale=1.0):
+    """The measures of compare-contact.py against CONTACT at a traction coefficient, as doc/ states them; scale: of
+    CONTACT's load."""
+    contact = os.path.join(ROOT, f"contrib/reference/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")
+    measures = os.path.join(run, "contact.json")
+    subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/compare-contact.py"), run, contact,
+                    "--scale", str(scale), "--json", measures], check=True, stdout=subprocess.DEVNULL)
+    summary = read_summary(run)
+    with open(measures, encoding="utf-8") as stream:
+        found = json.load(stream)
+    # The summary's share is the mean over rolling one cell: finer than the nodes of one instant. Its ripple
+    # is that of every step, not of the means in history.csv.
+    found["adhesion_share_difference_points"] += 100 * (summary["adhesion_share"] - found["adhesion_share"])
+    found["normal_force_ripple_last_10_mm"] = summary["normal_force_ripple_share"]
+    return found

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Contact patches: patch.csv of a run, and surface files of CONTACT."""
+
+import numpy as np
+
+from .runs import DataError, read_table
+
+
+class Patch:
+    """Tractions and slip of the nodes (or elements) of a contact patch. mm, MPa, m/s.
+
+    Shear is that on the wheel, slip that of the wheel's surface relative to the rail's.
+    """
+
+    fields = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y")
+
+    def __init__(self, path, table, names):
+        self.path = path
+        self.x, self.y = table["x_mm"], table["y_mm"]
+        for field, name in zip(self.fields, names):
+            setattr(self, field, table.get(name, np.zeros(len(self.x))))
+        state = table["state"]
+        unknown = set(state) - {"adhesion", "slip", "exterior", "separated", "none"}
+        if unknown:
+            raise DataError(f"{path}: unknown state '{sorted(unknown)[0]}' (adhesion, slip or exterior)")
+        inside = (state == "adhesion") | (state == "slip")
+        self.adhesion = (state == "adhesion")[inside]
+        for field in ("x", "y") + self.fields:
+            setattr(self, field, getattr(self, field)[inside])
+        if not inside.any():
+            raise DataError(f"{path}: no node in contact")
+        if not all(np.isfinite(getattr(self, field)).all() for field in ("x", "y") + self.fields):
+            raise DataError(f"{path}: a value is not finite")
+        self.size_x, self.size_y = spacing(self.x), spacing(self.y)
+        area = table.get("area_mm2")
+        self.area = np.full(len(self.x), self.size_x * self.size_y) if area is None else area[inside]
+
+    @property
+    def shear(self):
+        return np.hypot(self.shear_x, self.shear_y)
+
+    @property
+    def slip(self):
+        return np.hypot(self.slip_x, self.slip_y)
+
+    @property
+    def adhesion_share(self):
+        return self.area[self.adhesion].sum() / self.area.sum()
+
+    def centroid(self):
+        """Centre of pressure."""
+        weight = self.pressure * self.area
+        return (weight * self.x).sum() / weight.sum(), (weight * self.y).sum() / weight.sum()
+
+    def friction_coefficient(self):
+        """What the slipping nodes that carry load say; None without any."""
+        loaded = ~self.adhesion & (self.pressure > 0.2 * self.pressure.max())
+        return float(np.median(self.shear[loaded] / self.pressure[loaded])) if loaded.any() else None
+
+    def grid(self, values):
+        """(x lines, y lines, values[y, x]) on the grid of the nodes, with one empty line around."""
+        columns, x0, n_x = grid_index(self.x, self.size_x)
+        rows, y0, n_y = grid_index(self.y, self.size_y)
+        result = np.full((n_y, n_x), np.nan)
+        result[rows, columns] = values
+        return x0 + self.size_x * np.arange(n_x), y0 + self.size_y * np.arange(n_y), result
+
+    def sampled(self, values, x, y):
+        """Bilinear interpolation between the nodes at the points (x, y); zero outside the patch."""
+        gx, gy, grid = self.grid(values)
+        grid = np.nan_to_num(grid)
+        i = np.clip(((x - gx[0]) / self.size_x).astype(int), 0, len(gx) - 2)
+        j = np.clip(((y - gy[0]) / self.size_y).astype(int), 0, len(gy) - 2)
+        s, t = (x - gx[i]) / self.size_x, (y - gy[j]) / self.size_y
+        value = ((1 - s) * (1 - t) * grid[j, i] + s * (1 - t) * grid[j, i + 1]
+                 + (1 - s) * t * grid[j + 1, i] + s * t * grid[j + 1, i + 1])
+        outside = (x < gx[0]) | (x > gx[-1]) | (y < gy[0]) | (y > gy[-1])
+        return np.where(outside, 0.0, value)
+
+
+def spacing(values):
+    """The distance of the grid lines to which the coordinates belong."""
+    points = np.unique(np.round(values, 6))
+    gaps = np.diff(points)
+    if not len(gaps):
+        return 1.0
+    # Nodes of one line differ a little: its place is their mean.
+    lines = [line.mean() for line in np.split(points, np.nonzero(gaps > 0.3 * gaps.max())[0] + 1)]
+    extent = lines[-1] - lines[0]
+    return float(extent / max(1, round(extent / np.median(np.diff(lines)))))
+
+
+def grid_index(values, size):
+    index = np.round((values - values.min()) / size).astype(int)
+    offset = float(np.mean(values - size * index))
+    return index + 1, offset - size, index.max() + 3
+
+
+def read_patch(path):
+    """patch.csv of a run, or a file with the same columns."""
+    names = ("pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s")
+    return Patch(path, read_table(path, ("x_mm", "y_mm", "state") + names), names)
+
+
+def read_contact(path):
+    """A surface file of CONTACT: elements that are not listed carry no traction."""
+    names = ("pn_MPa", "px_MPa", "py_MPa", "sx_m_s", "sy_m_s")
+    return Patch(path, read_table(path, ("x_mm", "y_mm", "pn_MPa", "px_MPa", "sx_m_s", "state")), names)
