@@ -1,2 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs of tread from Python."""
+"""Runs of tread from Python: tread.run() rolls a scene, tread.Run reads what a run left in its folder."""
+
+from .runs import DataError, Error, ProgramError, Run, run
+
+__all__ = ["DataError", "Error", "ProgramError", "Run", "run"]

@@ -1,18 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What commands have in common."""
+"""What commands have in common. Import it first: it says in one line that a Python without numpy will not do."""
 
+import argparse
+import importlib.util
 import os
-import subprocess
 import sys
 
-from .runs import DataError
+from .runs import Error
+
+NAME = os.path.basename(sys.argv[0])
+
+if importlib.util.find_spec("numpy") is None:
+    sys.exit(f"{NAME}: {sys.executable} has no numpy; /usr/bin/python3 has it (contrib/install-debian.sh)")
+
+
+def command_parser(description):
+    return argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
 def run_command(main):
-    """main(), with what goes wrong on one line."""
+    """End with the exit code that main() returns, none being 0, or with what went wrong on one line."""
     try:
-        main()
-    except (DataError, OSError) as error:
-        sys.exit(f"{os.path.basename(sys.argv[0])}: {error}")
-    except subprocess.CalledProcessError as error:
-        sys.exit(f"{os.path.basename(sys.argv[0])}: {' '.join(map(str, error.cmd))} ended with {error.returncode}")
+        sys.exit(main())
+    except Error as error:
+        sys.exit(f"{NAME}: {error}")
+    except OSError as error:
+        sys.exit(f"{NAME}: {error.filename}: {error.strerror}" if error.filename else f"{NAME}: {error}")

@@ -5,10 +5,16 @@ import json
 import os
 import re
 import subprocess
-import sys
 import time
 
-from .runs import ROOT, DataError, arguments_of, command, environment, is_complete, read_summary
+from .comparison import compare
+from .runs import (ROOT, ProgramError, arguments_of, command, environment, execute, is_complete, must_end_well, own_line,
+                   read_summary)
+
+
+def shipped(scene):
+    """The path of a scene of prm/."""
+    return os.path.join(ROOT, "prm", scene)
 
 
 def available_ranks():
@@ -22,13 +28,13 @@ def run_scene(scene, folder, settings=None, ranks=None):
     Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
     the memory of its largest process.
     """
-    line = command(arguments_of(scene, settings or {}) + ["--output", folder], ranks or available_ranks())
+    line = command(arguments_of(shipped(scene), settings or {}, folder), ranks or available_ranks())
     cost_file = os.path.join(folder, "cost.json")
     cost = {}
     if is_complete(folder) and os.path.exists(cost_file):
         with open(cost_file, encoding="utf-8") as stream:
             cost = json.load(stream)
-    with open(os.path.join(ROOT, "prm", scene), encoding="utf-8") as stream:
+    with open(shipped(scene), encoding="utf-8") as stream:
         scene_text = stream.read()
     if cost.get("command") != line or cost.get("scene") != scene_text:
         print(" ".join(line), flush=True)
@@ -40,8 +46,8 @@ def run_scene(scene, folder, settings=None, ranks=None):
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             with open(output.name, encoding="utf-8") as stream:
-                said = [text.strip() for text in stream if text.startswith("tread: ")]
-            raise DataError(f"{scene} ended with {process.returncode} ({' '.join(said)}), see {output.name}")
+                said = own_line(stream.read()) or "it did not say why"
+            raise ProgramError(f"{scene} ended with {process.returncode} ({said}), see {output.name}", process.returncode)
         cost = {"command": line, "scene": scene_text, "peak_bytes": 1024 * usage.ru_maxrss,
                 "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began}
         with open(cost_file, "w", encoding="utf-8") as stream:
@@ -63,10 +69,7 @@ def steps_seconds(summary):
 
 def dry_run(scene, settings, ranks=1):
     """What --dry-run says: {what: number}."""
-    line = command(arguments_of(scene, settings) + ["--dry-run"], ranks)
-    result = subprocess.run(line, env=environment(), capture_output=True, text=True)
-    if result.returncode != 0:
-        raise DataError(f"{' '.join(line)} ended with {result.returncode}: {result.stderr.strip()}")
+    result = must_end_well(execute([*arguments_of(shipped(scene), settings), "--dry-run"], ranks))
     found = {what.strip(): float(value) for what, value in
              re.findall(r"^(\S[^\d\n]*?)\s{2,}([\d.eE+-]+)", result.stdout, re.MULTILINE)}
     gain = re.search(r"fall to 1/([\d.]+)", result.stdout)
@@ -75,15 +78,14 @@ def dry_run(scene, settings, ranks=1):
 
 
 def contact_measures(run, traction, scale=1.0):
-    """The measures of compare-contact.py against CONTACT at a traction coefficient, as doc/ states them; scale: of
+    """The measures of comparison.py against CONTACT at a traction coefficient, as doc/ states them; scale: of
     CONTACT's load."""
     contact = os.path.join(ROOT, f"contrib/reference/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")
-    measures = os.path.join(run, "contact.json")
-    subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/compare-contact.py"), run, contact,
-                    "--scale", str(scale), "--json", measures], check=True, stdout=subprocess.DEVNULL)
+    found = compare(run, contact, scale)
+    with open(os.path.join(run, "contact.json"), "w", encoding="utf-8") as stream:
+        json.dump(found, stream, indent=2)
+        stream.write("\n")
     summary = read_summary(run)
-    with open(measures, encoding="utf-8") as stream:
-        found = json.load(stream)
     # The summary's share is the mean over rolling one cell: finer than the nodes of one instant. Its ripple
     # is that of every step, not of the means in history.csv.
     found["adhesion_share_difference_points"] += 100 * (summary["adhesion_share"] - found["adhesion_share"])

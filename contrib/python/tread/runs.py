@@ -1,51 +1,188 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads what a run of tread leaves in its folder, and surface files of CONTACT."""
+"""Start the program, and read what a run leaves in its folder.
+
+    import tread
+
+    run = tread.run("prm/smooth-rolling.prm", {"Mesh/Finest cell (mm)": 1.3}, ranks=2, output="results/coarse")
+    run.summary["normal_force_N"], run.history["position_m"], run.patch.pressure
+
+numpy is imported where columns are read: without it programs can be started, and commands say in one line that it is missing.
+"""
 
 import csv
+import functools
 import gzip
 import json
 import os
-import sys
+import shutil
+import signal
+import subprocess
 
-try:
-    import numpy as np
-except ModuleNotFoundError:
-    sys.exit(f"{os.path.basename(sys.argv[0])}: {sys.executable} has no numpy; /usr/bin/python3 has it "
-             "(contrib/install-debian.sh)")
-
-
-class DataError(Exception):
-    """A file that is missing or cannot be understood; the message is one line for the user."""
-
-
-# contrib/python/tread, which the folders of commands have links to
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3))
+# This file is contrib/python/tread/runs.py, to which folders of commands have links; installed by pip it has no such root.
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *3 * [os.pardir]))
 PROGRAM = os.path.join(ROOT, "build/source/tread")
+if not os.path.isdir(os.path.join(ROOT, "prm")):
+    PROGRAM = shutil.which("tread") or "tread"
 
 
-def command(arguments, ranks, program=PROGRAM):
-    """The program on so many ranks; one rank needs no mpirun."""
-    launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
-    return launch + [program] + arguments
+class Error(Exception):
+    """What went wrong, in one line for the user."""
 
 
-def environment():
+class DataError(Error):
+    """A file is missing or cannot be understood."""
+
+
+class ProgramError(Error):
+    """The program ended with an exit code that is not 0: 1 for wrong input, 2 for a failure, 130 when interrupted. The message
+    is the line the program itself says why in."""
+
+    def __init__(self, message, exit_code):
+        super().__init__(message)
+        self.exit_code = exit_code
+
+
+def own_line(text):
+    """The last line in which the program says what went wrong, without its name; None if there is none."""
+    said = [line.strip() for line in text.splitlines() if line.startswith("tread: ")]
+    return said[-1][len("tread: "):] if said else None
+
+
+def environment(**more):
+    """The variables of this process with those that runs need, as contrib/environment.sh sets and explains them, and more."""
     settings = {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
                 "OMPI_MCA_pml": "ob1"}
     if os.getuid() == 0:
         settings.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    return dict(os.environ, **settings)
+    return {**os.environ, **settings, **more}
 
 
-def arguments_of(scene, settings):
-    result = [os.path.join(ROOT, "prm", scene)]
-    for name, value in settings.items():
-        result += ["-s", f"{name}={value}"]
+def patient_environment():
+    """Of runs that Ctrl-C may end: mpirun kills its ranks a second later, too soon for a large checkpoint."""
+    return environment(OMPI_MCA_odls_base_sigkill_timeout="60")
+
+
+def command(arguments, ranks=1, program=PROGRAM):
+    """The program on so many ranks; one rank needs no mpirun."""
+    launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
+    return [*launch, program, *arguments]
+
+
+def arguments_of(scene, settings=(), output=None):
+    """What follows the program's name. @param scene a path from the current folder, or from prm/ of the source tree
+    @param settings {"Section/Name": value}, or a list of "Section/Name=value" """
+    scene = os.fspath(scene)
+    if not os.path.exists(scene) and os.path.exists(os.path.join(ROOT, "prm", scene)):
+        scene = os.path.join(ROOT, "prm", scene)
+    if hasattr(settings, "items"):
+        settings = [f"{name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in settings.items()]
+    arguments = [scene]
+    for setting in settings:
+        arguments += ["-s", setting]
+    return arguments + (["--output", output] if output else [])
+
+
+def execute(arguments, ranks=1, program=PROGRAM, **options):
+    """The ended process (subprocess.CompletedProcess), whatever its exit code, with what it wrote as text."""
+    return subprocess.run(command(arguments, ranks, program), **{"env": environment(), "capture_output": True, "text": True, **options})
+
+
+def must_end_well(result):
+    """@raises ProgramError unless the exit code of an ended process is 0"""
+    if result.returncode:
+        last = result.stderr.strip().splitlines()[-1:] or ["it said nothing"]
+        what = "interrupted" if result.returncode == 130 else f"ended with exit code {result.returncode}: {last[0]}"
+        raise ProgramError(own_line(result.stderr) or what, result.returncode)
     return result
 
 
+def run(scene, settings=None, *, ranks=1, output=None, options=(), program=PROGRAM, show=False):
+    """Roll a scene to its end.
+
+    scene     path of a parameter file, from the current folder or from prm/ of the source tree
+    settings  {"Section/Name": value}, in the units that the names state, such as {"Mesh/Finest cell (mm)": 1.3}
+    ranks     MPI processes
+    output    folder of the results; by default that of the scene, 'Output/Directory', seen from the current folder
+    options   more of the program's, such as ["--resume"] or ["--reference-only"]
+    show      let the terminal have what the program prints
+
+    Returns the Run. Raises ProgramError if the exit code is not 0. Ctrl-C ends the program with a checkpoint, from which
+    options=["--resume"] goes on.
+    """
+    if shutil.which(program) is None:
+        raise Error(f"{program}: no such program; build it or name it with program=")
+    if output is None:
+        asked = must_end_well(execute([*arguments_of(scene, settings or {}), "--print-parameters"], program=program)).stdout
+        output = parameters_in(asked.splitlines())["Output/Directory"] + ("-reference" if "--reference-only" in options else "")
+    line = command([*arguments_of(scene, settings or {}, os.fspath(output)), *options], ranks, program)
+    # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
+    with subprocess.Popen(line, env=patient_environment(), stdout=None if show else subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          text=True, start_new_session=True) as process:
+        try:
+            errors = process.communicate()[1]
+        except KeyboardInterrupt:
+            process.send_signal(signal.SIGINT)
+            process.communicate()
+            raise
+    must_end_well(subprocess.CompletedProcess(line, process.returncode, stderr=errors))
+    return Run(output)
+
+
+def dynamic_force(folder, twin, program=PROGRAM):
+    """Write dynamic.csv, spectrum.csv and dynamic.json: what a defect adds to the forces of the run in a folder, beside its
+    smooth twin in another."""
+    must_end_well(execute(["--dynamic-force", folder, "--smooth-twin", twin], program=program))
+
+
+class Run:
+    """What a run left in its folder. Files are read when they are asked for, once. @raises DataError"""
+
+    def __init__(self, folder):
+        self.folder = os.fspath(folder)
+
+    def __repr__(self):
+        return f"{type(self).__name__}({self.folder!r})"
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def has(self, name):
+        return os.path.exists(self.path(name))
+
+    def table(self, name, required=(), text=("state",)):
+        """{column: (rows,) array} of a CSV file in the folder; names of columns state their units."""
+        return read_table(self.path(name), required, text)
+
+    @functools.cached_property
+    def summary(self):
+        """The figures of summary.json: SI, units in their names."""
+        return read_summary(self.folder)
+
+    @functools.cached_property
+    def history(self):
+        """{column: (rows,) array} of history.csv: SI, such as time_s, position_m, normal_force_N; a row is the mean over the
+        interval that ends with it."""
+        return self.table("history.csv")
+
+    @functools.cached_property
+    def patch(self):
+        """The contact patch at the end, a patches.Patch: x, y (mm), pressure, shear_x, shear_y (MPa), slip_x, slip_y (m/s),
+        area (mm2), adhesion (bool), each a (nodes in contact,) array."""
+        from .patches import read_patch
+
+        return read_patch(self.path("patch.csv"))
+
+    @functools.cached_property
+    def parameters(self):
+        """{"Section/Name": text} of parameters.prm; empty if there is none."""
+        return read_parameters(self.path("parameters.prm"))
+
+
 def read_table(path, required=(), text=("state",)):
-    """A CSV file (also .gz; lines that start with # are comments) as {column: numpy array}."""
+    """A CSV file (also .gz; lines that start with # are comments) as {column: (rows,) array}, of numbers but for the columns
+    `text`; other columns that are not numbers are left out, or refused if they are required. @raises DataError"""
+    import numpy as np
+
     try:
         opener = gzip.open if path.endswith(".gz") else open
         with opener(path, "rt", encoding="utf-8", newline="") as stream:
@@ -75,8 +212,9 @@ def read_table(path, required=(), text=("state",)):
     return table
 
 
-def read_summary(run):
-    path = os.path.join(run, "summary.json")
+def read_summary(folder):
+    """summary.json of a run, read anew. @raises DataError"""
+    path = os.path.join(folder, "summary.json")
     try:
         with open(path, encoding="utf-8") as stream:
             summary = json.load(stream)
@@ -90,28 +228,34 @@ def read_summary(run):
 
 
 def is_complete(folder):
+    """Whether a folder has the results of a run that came to its end."""
     try:
         return read_summary(folder).get("completed") is True
     except DataError:
         return False
 
 
-def read_parameters(path):
-    """{"Section/Name": value} of a parameter file, empty if there is none."""
+def parameters_in(lines):
+    """{"Section/Name": text} of the lines of a parameter file."""
     result, section = {}, []
-    if not os.path.exists(path):
-        return result
-    with open(path, encoding="utf-8") as stream:
-        for line in stream:
-            line = line.split("#")[0].strip()
-            if line.startswith("subsection "):
-                section.append(line[len("subsection "):].strip())
-            elif line == "end" and section:
-                section.pop()
-            elif line.startswith("set "):
-                name, _, value = line[len("set "):].partition("=")
-                result["/".join(section + [name.strip()])] = value.strip()
+    for line in lines:
+        line = line.split("#")[0].strip()
+        if line.startswith("subsection "):
+            section.append(line[len("subsection "):].strip())
+        elif line == "end" and section:
+            section.pop()
+        elif line.startswith("set "):
+            name, _, value = line[len("set "):].partition("=")
+            result["/".join(section + [name.strip()])] = value.strip()
     return result
+
+
+def read_parameters(path):
+    """The same of a file, empty if there is none."""
+    if not os.path.exists(path):
+        return {}
+    with open(path, encoding="utf-8") as stream:
+        return parameters_in(stream)
 
 
 def reference_value(summary, key, source=""):

@@ -27,7 +27,6 @@ interrupted one goes on from its last checkpoint, and one that fails leaves the 
 checkpoint. The table is study.csv in the study's folder. Exit code 0: all complete; 1: something failed; 130: interrupted.
 """
 
-import argparse
 import csv
 import io
 import itertools
@@ -38,7 +37,9 @@ import signal
 import subprocess
 import time
 
-from .runs import PROGRAM, DataError, command, environment, is_complete, read_summary, read_table
+from .commands import command_parser, run_command
+from .runs import (PROGRAM, DataError, ProgramError, Run, arguments_of, command, dynamic_force, is_complete, own_line,
+                   patient_environment)
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
@@ -161,21 +162,16 @@ def folder_name(values):
     return "_".join(parts)
 
 
-class Run:
-    """One run of the program with its folder."""
+class Member(Run):
+    """One run of a study."""
 
     def __init__(self, study, root, name, settings, arguments):
-        self.folder = os.path.join(root, name)
+        super().__init__(os.path.join(root, name))
         self.name, self.state, self.process = name, "", None
-        line = [study.scene]
-        for parameter, value in settings.items():
-            line += ["-s", f"{parameter}={value}"]
-        self.line, self.ranks, self.program = line, arguments.ranks or study.ranks, arguments.program
+        self.line = arguments_of(study.scene, settings, self.folder)
+        self.ranks, self.program = arguments.ranks or study.ranks, arguments.program
         with open(study.scene, encoding="utf-8") as stream:
             self.input = {"settings": settings, "scene": stream.read()}
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def same_input(self):
         try:
@@ -190,12 +186,11 @@ class Run:
         if known and is_complete(self.folder):
             self.state = COMPLETE
             return
-        resume = known and os.path.exists(self.path("checkpoint.last"))
+        resume = known and self.has("checkpoint.last")
         os.makedirs(self.folder, exist_ok=True)
         with open(self.path("input.json"), "w", encoding="utf-8") as stream:
             json.dump(self.input, stream, indent=1)
-        line = command(self.line + ["--output", self.folder] + (["--resume"] if resume else []), self.ranks,
-                                  self.program)
+        line = command(self.line + (["--resume"] if resume else []), self.ranks, self.program)
         print(f"{self.name}: {'goes on' if resume else 'begins'}", flush=True)
         with open(self.path("output.txt"), "a" if resume else "w", encoding="utf-8") as output:
             # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
@@ -216,15 +211,10 @@ class Run:
             self.state = "interrupted"
         else:
             with open(self.path("output.txt"), encoding="utf-8", errors="replace") as stream:
-                said = [line.strip() for line in stream if line.startswith("tread: ")]
-            self.state = "failed: " + (said[-1][len("tread: "):] if said else f"exit code {code}, see {self.path('output.txt')}")
+                said = own_line(stream.read())
+            self.state = "failed: " + (said or f"exit code {code}, see {self.path('output.txt')}")
         print(f"{self.name}: {self.state}", flush=True)
         return True
-
-
-def patient_environment():
-    # mpirun kills its ranks a second after Ctrl-C, too soon for a large checkpoint.
-    return dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="60")
 
 
 def run_all(runs, processes):
@@ -260,24 +250,23 @@ def add_dynamic_force(member, twin):
     if os.path.exists(result) and os.path.getmtime(result) >= max(
             os.path.getmtime(run.path("summary.json")) for run in (member, twin)):
         return
-    answer = subprocess.run([member.program, "--dynamic-force", member.folder, "--smooth-twin", twin.folder],
-                            env=patient_environment(), capture_output=True, text=True)
-    if answer.returncode != 0:
-        member.state = "failed: " + answer.stderr.strip().replace("tread: ", "")
+    try:
+        dynamic_force(member.folder, twin.folder, member.program)
+    except ProgramError as error:
+        member.state = f"failed: {error}"
 
 
 def figure_of(run, figure):
     """A number. @raises DataError"""
     kind = re.fullmatch(r"(\w+)\((.+)\)", figure)
     if kind is None:
-        summary = read_summary(run.folder)
-        if not isinstance(summary.get(figure), (int, float)):
+        if not isinstance(run.summary.get(figure), (int, float)):
             raise DataError(f"{run.name}: summary.json has no figure '{figure}'")
-        return float(summary[figure])
+        return float(run.summary[figure])
     if kind[1] in ("max", "min", "last", "at"):
         names = kind[2].split(":")
         table = names.pop(0) if len(names) > 1 else "history.csv"
-        columns = read_table(run.path(table), tuple(names))
+        columns = run.table(table, names)
         column = columns[names[0]]
         return float({"max": column.max, "min": column.min, "last": lambda: column[-1],
                       "at": lambda: columns[names[1]][column.argmax()]}[kind[1]]())
@@ -322,7 +311,7 @@ def tabulate(study, root, runs):
 def main():
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
     signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("study", metavar="STUDY")
     parser.add_argument("--output", help="folder of the study, instead of 'Directory'")
     parser.add_argument("--processes", type=int, help="runs at a time, instead of 'Processes'")
@@ -343,8 +332,8 @@ def main():
                 if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
         name = "smooth-twin" + ("_" + folder_name(left) if left else "")
         if study.without_defect and name not in twins:
-            twins[name] = Run(study, root, name, {**study.settings, **left, **study.without_defect}, arguments)
-        members.append((Run(study, root, folder_name(values), {**study.settings, **values}, arguments), twins.get(name)))
+            twins[name] = Member(study, root, name, {**study.settings, **left, **study.without_defect}, arguments)
+        members.append((Member(study, root, folder_name(values), {**study.settings, **values}, arguments), twins.get(name)))
     runs = [run for run, _ in members] + list(twins.values())
     if arguments.dry_run:
         for run in runs:
@@ -363,3 +352,8 @@ def main():
         return 130
     found = tabulate(study, root, [run for run, _ in members])
     return 0 if found and all(run.state == COMPLETE for run, _ in members) else 1
+
+
+def command_line():
+    """What contrib/study.py and tread-study do."""
+    run_command(main)
