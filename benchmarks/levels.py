@@ -7,13 +7,12 @@ Runs the smooth scene and the long rail with 1 to 4 levels, in turn, of which th
 are not repeated; remove RESULTS to measure anew.
 """
 
-import argparse
 import functools
 import os
 
-from tread.commands import run_command
+from tread.commands import command_parser, run_command
 from tread.measured_runs import available_ranks, dry_run, in_turn, run_scene
-from tread.runs import ROOT, DataError
+from tread.runs import ROOT, Error
 from tread.tables import fill, markdown, number, provenance
 
 # Rolled twice as far as shipped, as the changes looked for are small.
@@ -52,7 +51,7 @@ def rolling_seconds(summary):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/levels"))
     parser.add_argument("--long", action="store_true", help="runs over 1e5 steps too")
     arguments = parser.parse_args()
@@ -91,7 +90,7 @@ def main():
             try:
                 summary = run(name, levels, changes, f"{name} 1e5 steps")
                 summaries.append(summary)
-            except DataError as error:  # a scheme that is not stable shows here
+            except Error as error:  # a scheme that is not stable shows here
                 print(error)
                 rows.append(row + ["-"] * 8 + ["**FAIL**: did not end"])
                 continue

@@ -8,12 +8,11 @@ turn; the fastest of each counts, and of ratios the median. Runs that have compl
 RESULTS to measure anew.
 """
 
-import argparse
 import functools
 import os
 import statistics
 
-from tread.commands import run_command
+from tread.commands import command_parser, run_command
 from tread.measured_runs import in_turn, run_scene, steps_seconds
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
@@ -112,7 +111,7 @@ def agreement(run):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/scaling"))
     parser.add_argument("--large", action="store_true", help="a mesh of five million cells too")
     arguments = parser.parse_args()

@@ -9,23 +9,14 @@ of a size are made in turn, several times but for the finest, and the fastest of
 results are not repeated; remove RESULTS to measure anew.
 """
 
-import argparse
 import functools
 import os
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-from tread.commands import run_command
+from tread.commands import command_parser, run_command
 from tread.measured_runs import available_ranks, contact_measures, in_turn, run_scene, steps_seconds
+from tread.plots import BLUE, GREEN, GRID, ORANGE, PURPLE, RED, SKY, YELLOW, plt, save
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
-
-# Okabe and Ito's colours, which the colour-blind can tell apart.
-BLUE, SKY, ORANGE, GREEN, RED, PURPLE, YELLOW = (
-    "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#F0E442")
 
 # Cells of 2.6 mm are larger than those scenes have: the scene of 1.3 mm, with more room beside the patch.
 SIZES = {2.6: ("verification/half-space-1.3-mu0.30.prm",
@@ -109,16 +100,16 @@ def draw(found, file):
         for numbers in (axis.xaxis, axis.yaxis):
             numbers.set_major_formatter("{x:g}")
             numbers.set_minor_formatter(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "235" else "")
-        axis.grid(True, which="both", color="#E3E3E3", lw=0.6)
+        axis.grid(True, which="both", color=GRID, lw=0.6)
         axis.spines[["top", "right"]].set_visible(False)
     axes[0].set_title("difference from CONTACT; to the left and down is better", fontsize=9, loc="left")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, frameon=False, fontsize=9)
     figure.tight_layout(rect=(0, 0.12, 1, 1))
-    figure.savefig(file, dpi=130)
+    save(figure, file, dpi=130)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?",
                         default=os.path.join(ROOT, "results/work-precision"))
     parser.add_argument("--fine", action="store_true", help="cells of 0.33 mm too")

@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Error measures of a run of tread against a fine surface file of CONTACT: tread/comparison.py."""
 
-import argparse
 import json
 import os
-import sys
 
 from tread import comparison
-from tread.runs import DataError
+from tread.commands import command_parser, run_command
 
 LINES = (("largest pressure", "max_pressure_relative_difference", "{:+.2%}"),
          ("pressure, RMS over largest", "pressure_rms_over_max", "{:.2%}"),
@@ -28,29 +26,24 @@ LINES = (("largest pressure", "max_pressure_relative_difference", "{:+.2%}"),
 
 
 def main():
-    parser = argparse.ArgumentParser(description=comparison.__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(comparison.__doc__)
     parser.add_argument("run", metavar="RUN_DIR")
     parser.add_argument("contact", metavar="CONTACT.csv", help="surface file of CONTACT, also .csv.gz")
     parser.add_argument("--scale", metavar="S", type=float, default=1.0, help="of CONTACT's load; the default is 1")
     parser.add_argument("--json", metavar="FILE", help="write the measures to this file too")
     arguments = parser.parse_args()
-    try:
-        result = comparison.compare(arguments.run, arguments.contact, arguments.scale)
-        print(f"{arguments.run} against {os.path.basename(arguments.contact)}: {result['nodes_in_contact']} nodes in "
-              f"contact, {result['node_distance_mm']:.3g} mm apart, shifted by "
-              f"({result['shift_x_mm']:.3f}, {result['shift_y_mm']:.3f}) mm")
-        for label, key, template in LINES:
-            if key in result:
-                print(f"  {label:34s} {template.format(result[key])}")
-        if arguments.json:
-            with open(arguments.json, "w", encoding="utf-8") as stream:
-                json.dump(result, stream, indent=2)
-                stream.write("\n")
-    except DataError as error:
-        sys.exit(f"compare-contact.py: {error}")
-    except OSError as error:
-        sys.exit(f"compare-contact.py: {error.filename}: {error.strerror}")
+    result = comparison.compare(arguments.run, arguments.contact, arguments.scale)
+    print(f"{arguments.run} against {os.path.basename(arguments.contact)}: {result['nodes_in_contact']} nodes in "
+          f"contact, {result['node_distance_mm']:.3g} mm apart, shifted by "
+          f"({result['shift_x_mm']:.3f}, {result['shift_y_mm']:.3f}) mm")
+    for label, key, template in LINES:
+        if key in result:
+            print(f"  {label:34s} {template.format(result[key])}")
+    if arguments.json:
+        with open(arguments.json, "w", encoding="utf-8") as stream:
+            json.dump(result, stream, indent=2)
+            stream.write("\n")
 
 
 if __name__ == "__main__":
-    main()
+    run_command(main)

@@ -10,43 +10,35 @@ Reads RUN/history.csv and REFERENCE/transient.csv and prints the traction coeffi
 ends with exit code 1 if a difference beyond --from (2 mm) is larger, in per cent of the half-space's value.
 """
 
-import argparse
-import csv
 import os
-import sys
+
+import numpy as np
+
+from tread.commands import command_parser, run_command
+from tread.runs import DataError, Run
 
 
-def read(path, *names):
-    with open(path, encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    if len(rows) < 2:
-        raise SystemExit(f"{path}: fewer than two rows")
-    return [[float(row[name]) for row in rows] for name in names]
-
-
-def interpolated(x, y, at):
-    """Linear between rows; `at` within them."""
-    k = next(i for i in range(1, len(x)) if x[i] >= at or i == len(x) - 1)
-    return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1])
+def columns(folder, table, *names):
+    found = Run(folder).table(table, names)
+    if len(found[names[0]]) < 2:
+        raise DataError(f"{os.path.join(folder, table)}: fewer than two rows")
+    return [found[name] for name in names]
 
 
 def compare(run, reference):
     """Rows of rolled distance in mm, traction coefficient of the run and of the half-space, difference in %."""
-    time, position, traction = read(os.path.join(run, "history.csv"), "time_s", "position_m", "traction_coefficient")
+    time, position, traction = columns(run, "history.csv", "time_s", "position_m", "traction_coefficient")
     speed = (position[-1] - position[0]) / (time[-1] - time[0])
     # A row is the mean over the interval that ends with it: it belongs to the interval's middle.
-    rolled = [1e3 * speed * 0.5 * (begin + end) for begin, end in zip([0.] + time[:-1], time)]
-    distance, expected = read(os.path.join(reference, "transient.csv"), "rolled_mm", "traction_coefficient")
-    rows = []
-    for s, own in zip(rolled, traction):
-        if distance[0] < s <= distance[-1]:
-            there = interpolated(distance, expected, s)
-            rows.append((s, own, there, 100. * (own / there - 1.)))
-    return rows
+    rolled = 1e3 * speed * 0.5 * (np.append(0.0, time[:-1]) + time)
+    distance, expected = columns(reference, "transient.csv", "rolled_mm", "traction_coefficient")
+    both = (rolled > distance[0]) & (rolled <= distance[-1])
+    there = np.interp(rolled[both], distance, expected)
+    return list(zip(rolled[both], traction[both], there, 100 * (traction[both] / there - 1)))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("run")
     parser.add_argument("reference")
     parser.add_argument("--within", type=float, metavar="PERCENT")
@@ -55,7 +47,7 @@ def main():
     arguments = parser.parse_args()
     rows = compare(arguments.run, arguments.reference)
     if not rows:
-        raise SystemExit("no rolled distance that both have")
+        raise DataError("no rolled distance that both have")
     print(f"{'rolled, mm':>10} {'run':>9} {'half-space':>10} {'diff.':>8}")
     last = -1e300
     for s, own, there, difference in rows:
@@ -64,13 +56,11 @@ def main():
             last = s
     beyond = [(abs(row[3]), row[0]) for row in rows if row[0] >= arguments.begin]
     if not beyond:
-        raise SystemExit(f"the run does not reach {arguments.begin} mm")
+        raise DataError(f"the run does not reach {arguments.begin} mm")
     worst, where = max(beyond)
     print(f"largest difference from {arguments.begin:g} mm on: {worst:.2f} % at {where:.2f} mm")
-    if arguments.within is not None and worst > arguments.within:
-        return 1
-    return 0
+    return 1 if arguments.within is not None and worst > arguments.within else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_command(main)

@@ -7,14 +7,13 @@ are run first, one after the other; --rolled shortens their paths (results of ot
 Scenes without results are left out and named.
 """
 
-import argparse
 import fnmatch
 import glob
 import os
 
-from tread.commands import run_command
-from tread.measured_runs import available_ranks, run_scene
-from tread.runs import ROOT, DataError, read_summary
+from tread.commands import command_parser, run_command
+from tread.measured_runs import available_ranks, run_scene, shipped
+from tread.runs import ROOT, DataError, Error, read_summary
 from tread.tables import fill, markdown, number, provenance
 
 # (heading, key, factor, what is large: include/tread/output/quality.h)
@@ -34,7 +33,7 @@ def scenes(pattern):
 
 def parameter(scene, name):
     """The number behind 'set NAME = ' in a scene of prm/, None if it is not set."""
-    with open(os.path.join(ROOT, "prm", scene), encoding="utf-8") as stream:
+    with open(shipped(scene), encoding="utf-8") as stream:
         for line in stream:
             left, _, right = line.partition("=")
             if left.split() == ["set"] + name.split():
@@ -65,7 +64,7 @@ def cell(summary, key, factor, large):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results", "energy"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no such results yet")
     parser.add_argument("--rolled", metavar="MM", type=float, help="roll no farther than this")
@@ -79,7 +78,7 @@ def main():
         try:
             summary = run_scene(scene, folder, settings_of(scene, arguments.rolled), arguments.ranks) if arguments.run \
                 else read_summary(folder)
-        except DataError as error:
+        except Error as error:
             print(f"note: {error}")
             missing.append(scene)
             continue

@@ -13,13 +13,12 @@ Jenkins et al. (1974): P2 = P0 + 2 alpha V sqrt(Mu/(Mu + Mt)) (1 - pi Ct/(4 sqrt
 to the dynamic stiffness of the same beam under the joint between 10 Hz and the frequency at which wheel and track swing.
 """
 
-import argparse
 import os
-import sys
 
 import numpy as np
 
-from tread.runs import DataError, read_parameters, read_table
+from tread.commands import command_parser, run_command
+from tread.runs import DataError, Run
 
 SHEAR_COEFFICIENT = 10 * 1.3 / (12 + 11 * 0.3)  # of a rectangle, nu = 0.3 (Cowper 1966)
 
@@ -262,7 +261,7 @@ def largest_behind(x, force, place):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("run")
     parser.add_argument("--profiles", default="prm/verification", help="folder of the profile")
     parser.add_argument("--picture")
@@ -270,9 +269,9 @@ def main():
     parser.add_argument("--mean", type=float, default=100, help="of the path, mm; about a period of the contact's vibration")
     parser.add_argument("--step", type=float, default=3, help="us")
     arguments = parser.parse_args()
-    parameters = read_parameters(os.path.join(arguments.run, "parameters.prm"))
-    track, wheel = Track(parameters, 1e-3 * arguments.element), Wheel(parameters, arguments.profiles)
-    history = read_table(os.path.join(arguments.run, "history.csv"), ("position_m", "normal_force_N"))
+    run = Run(arguments.run)
+    track, wheel = Track(run.parameters, 1e-3 * arguments.element), Wheel(run.parameters, arguments.profiles)
+    history = run.table("history.csv", ("position_m", "normal_force_N"))
     x, force = history["position_m"], history["normal_force_N"]
     beam_x, beam_force = integrate(track, wheel, x[-1], 1e-6 * arguments.step)
     width = 1e-3 * arguments.mean
@@ -298,24 +297,18 @@ def main():
               f"{1e-3 * model_values[model_place > x[0]].min():.1f}, {1e-3 * model_values.max():.1f} | "
               f"at most {1e-3 * abs(off).max():.2f}, RMS {1e-3 * np.sqrt(np.mean(off**2)):.2f} kN | | |")
     if arguments.picture:
-        import matplotlib
-        matplotlib.use("Agg")
-        import matplotlib.pyplot as plt
+        from tread.plots import BLUE, GRID, RED, plt, save
+
         figure, axis = plt.subplots(figsize=(8, 3.6))
-        axis.plot(1e3 * (x - wheel.joint), 1e-3 * force, color="#0072B2", label="cells")
+        axis.plot(1e3 * (x - wheel.joint), 1e-3 * force, color=BLUE, label="cells")
         shown = beam_x > x[0]
-        axis.plot(1e3 * (beam_x[shown] - wheel.joint), 1e-3 * beam_force[shown], "--", color="#D55E00", label="lumped model")
+        axis.plot(1e3 * (beam_x[shown] - wheel.joint), 1e-3 * beam_force[shown], "--", color=RED, label="lumped model")
         axis.axhline(1e-3 * formula, color="grey", linewidth=0.8, label="Jenkins' formula")
         axis.set(xlabel="wheel behind the joint, mm", ylabel="normal force, kN")
-        axis.grid(True, color="#E3E3E3")
+        axis.grid(True, color=GRID)
         axis.legend(frameon=False)
-        figure.savefig(arguments.picture, dpi=120, bbox_inches="tight")
-
-
+        save(figure, arguments.picture, dpi=120, bbox_inches="tight")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except DataError as error:
-        sys.exit(str(error))
+    run_command(main)

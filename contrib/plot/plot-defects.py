@@ -7,18 +7,16 @@
 Each file has columns x and z in mm; lines that start with # are passed over.
 """
 
-import argparse
 import os
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
+
+from tread.commands import command_parser, run_command
+from tread.plots import plt, save
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("files", nargs="+")
     parser.add_argument("--output", default="defects.png")
     arguments = parser.parse_args()
@@ -31,7 +29,8 @@ def main():
     axis.grid(linewidth=0.3)
     axis.legend()
     figure.tight_layout()
-    figure.savefig(arguments.output, dpi=110)
+    save(figure, arguments.output, dpi=110)
 
 
-main()
+if __name__ == "__main__":
+    run_command(main)

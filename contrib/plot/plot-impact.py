@@ -24,56 +24,43 @@ Twins are those of the runs in the same order; one serves runs that share it. Wi
 is drawn.
 """
 
-import argparse
 import json
 import os
 import re
-import subprocess
-import sys
 from xml.etree import ElementTree
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
-from tread.runs import PROGRAM, DataError, environment, read_parameters, read_table
+from tread.commands import command_parser, run_command
+from tread.plots import BLUE, COLOURS, ORANGE, RED, plt, save, use_style
+from tread.runs import PROGRAM, DataError, Run, dynamic_force
 
-BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"
-COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, "black")
 # Second moments of area about the lateral axis, m4 (EN 13674-1).
 SECOND_MOMENT = {"54E1": 2337.9e-8, "60E1": 3038.3e-8}
 CONTACT = "normal_force_N"
 
-plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "legend.fontsize": 8, "axes.grid": True, "axes.axisbelow": True, "grid.color": "#E3E3E3",
-                     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.3,
-                     "savefig.dpi": 120, "savefig.bbox": "tight"})
+use_style({"legend.fontsize": 8, "lines.linewidth": 1.3, "savefig.dpi": 120, "savefig.bbox": "tight"})
 
 
-class Run:
-    """What a run left in its folder. Positions in mm, forces in kN, m/s."""
+class Impact(Run):
+    """A run over a defect. Positions in mm, forces in kN, m/s."""
 
     def __init__(self, folder, twin=None, program=PROGRAM):
-        self.folder = folder
-        self.history = read_table(os.path.join(folder, "history.csv"), ("time_s", "position_m", CONTACT))
+        super().__init__(folder)
+        self.history = self.table("history.csv", ("time_s", "position_m", CONTACT))
         self.x = 1e3 * self.history["position_m"]
         if len(self.x) < 2:
             raise DataError(f"{folder}/history.csv: fewer than two rows")
         self.speed = np.ptp(self.history["position_m"]) / np.ptp(self.history["time_s"])
         self.label = f"{3.6 * self.speed:.0f} km/h"
-        self.parameters = read_parameters(os.path.join(folder, "parameters.prm"))
         self.twin, self.dynamic, self.figures = None, None, None
         if twin is not None:
-            self.twin = Run(twin)
-            answer = subprocess.run([program, "--dynamic-force", folder, "--smooth-twin", twin], env=environment(),
-                                    capture_output=True, text=True)
-            if answer.returncode != 0:
-                raise DataError(answer.stderr.strip().replace("tread: ", ""))
-        if os.path.exists(os.path.join(folder, "dynamic.csv")):
-            self.dynamic = read_table(os.path.join(folder, "dynamic.csv"), ("time_s", "position_m", CONTACT))
-            self.spectrum = read_table(os.path.join(folder, "spectrum.csv"), ("frequency_Hz", CONTACT))
-            with open(os.path.join(folder, "dynamic.json"), encoding="utf-8") as stream:
+            self.twin = Impact(twin)
+            dynamic_force(folder, twin, program)
+        if self.has("dynamic.csv"):
+            self.dynamic = self.table("dynamic.csv", ("time_s", "position_m", CONTACT))
+            self.spectrum = self.table("spectrum.csv", ("frequency_Hz", CONTACT))
+            with open(self.path("dynamic.json"), encoding="utf-8") as stream:
                 self.figures = json.load(stream)
 
     def force(self, column):
@@ -135,10 +122,9 @@ def draw_contact_force(run):
 
 def draw_patches(run):
     """Six contact surfaces around the largest force."""
-    path = os.path.join(run.folder, "surface.pvd")
-    if not os.path.exists(path):
+    if not run.has("surface.pvd"):
         return None
-    entries = [(float(entry.get("timestep")), entry.get("file")) for entry in ElementTree.parse(path).iter("DataSet")]
+    entries = [(float(entry.get("timestep")), entry.get("file")) for entry in ElementTree.parse(run.path("surface.pvd")).iter("DataSet")]
     if len(entries) < 2:
         return None
     import vtk
@@ -151,7 +137,7 @@ def draw_patches(run):
     pictures = []
     for when, name in entries:
         reader = vtk.vtkXMLUnstructuredGridReader()
-        reader.SetFileName(os.path.join(run.folder, name))
+        reader.SetFileName(run.path(name))
         reader.Update()
         grid = reader.GetOutput()
         points = 1e3 * vtk_to_numpy(grid.GetPoints().GetData())
@@ -173,10 +159,9 @@ def draw_patches(run):
 
 
 def draw_strip(run):
-    path = os.path.join(run.folder, "strip.csv")
-    if not os.path.exists(path):
+    if not run.has("strip.csv"):
         return None
-    strip = read_table(path, ("x_mm", "von_mises_MPa", "depth_mm", "surface_von_mises_MPa", "equivalent_plastic_strain_percent"))
+    strip = run.table("strip.csv", ("x_mm", "von_mises_MPa", "depth_mm", "surface_von_mises_MPa", "equivalent_plastic_strain_percent"))
     if len(strip["x_mm"]) < 2:
         return None
     yields = strip["equivalent_plastic_strain_percent"].max() > 0
@@ -196,10 +181,9 @@ def draw_strip(run):
 
 
 def draw_cells(run):
-    path = os.path.join(run.folder, "cells.csv")
-    if not os.path.exists(path):
+    if not run.has("cells.csv"):
         return None
-    table = read_table(path, ("time_s", "position_m", "cell_1_von_mises_Pa"))
+    table = run.table("cells.csv", ("time_s", "position_m", "cell_1_von_mises_Pa"))
     figure, axes = plt.subplots(2, 1, figsize=(8, 5.5), sharex=True)
     numbers = sorted(int(match[1]) for match in (re.fullmatch(r"cell_(\d+)_von_mises_Pa", name) for name in table) if match)
     for i, number in enumerate(numbers):
@@ -213,10 +197,9 @@ def draw_cells(run):
 
 
 def draw_residual(run):
-    path = os.path.join(run.folder, "rail_cells.csv")
-    if not os.path.exists(path):
+    if not run.has("rail_cells.csv"):
         return None
-    cells = read_table(path, ("x_mm", "y_mm", "z_mm", "von_mises_MPa", "equivalent_plastic_strain_percent"))
+    cells = run.table("rail_cells.csv", ("x_mm", "y_mm", "z_mm", "von_mises_MPa", "equivalent_plastic_strain_percent"))
     strip = (abs(cells["y_mm"]) < 1.01 * abs(cells["y_mm"]).min()) & (abs(cells["z_mm"]) < 1.5 * abs(cells["z_mm"]).min())
     order = np.argsort(cells["x_mm"][strip])
     figure, axes = plt.subplots(2, 1, figsize=(8, 5.5), sharex=True)
@@ -398,7 +381,7 @@ def draw_speeds(runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("runs", metavar="RUN", nargs="+")
     parser.add_argument("--smooth-twin", metavar="TWIN", nargs="+", default=[])
     parser.add_argument("--output", help="folder of the pictures; default: pictures/ in the first run")
@@ -409,26 +392,21 @@ def main():
     if len(twins) not in (0, 1, len(arguments.runs)):
         raise DataError(f"{len(arguments.runs)} runs and {len(twins)} smooth twins: one for each or one for all")
     twins = (twins * len(arguments.runs) if len(twins) == 1 else twins) or [None] * len(arguments.runs)
-    runs = [Run(folder, twin, arguments.program) for folder, twin in zip(arguments.runs, twins)]
+    runs = [Impact(folder, twin, arguments.program) for folder, twin in zip(arguments.runs, twins)]
     if arguments.zimmermann:
         for run in runs:
             print_zimmermann(run)
         return
-    folder = arguments.output or os.path.join(runs[0].folder, "pictures")
-    os.makedirs(folder, exist_ok=True)
+    folder = arguments.output or runs[0].path("pictures")
     pictures = [("contact-force", draw_contact_force), ("patches", draw_patches), ("strip", draw_strip), ("cells", draw_cells),
                 ("residual", draw_residual), ("dynamic-force", draw_dynamic_force), ("supports", draw_supports), ("distribution", draw_distribution),
                 ("zimmermann", draw_zimmermann)]
     drawn = [(name, draw(runs[0])) for name, draw in pictures] + [("speeds", draw_speeds(runs))]
     for name, figure in drawn:
         if figure is not None:
-            figure.savefig(os.path.join(folder, f"{name}.png"))
-            plt.close(figure)
+            save(figure, os.path.join(folder, f"{name}.png"))
     print(f"{folder}: " + ", ".join(f"{name}.png" for name, figure in drawn if figure is not None))
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (DataError, OSError) as error:
-        sys.exit(f"plot-impact.py: {error}")
+    run_command(main)

@@ -9,19 +9,16 @@ Needs the first volume picture of a run, volume-0000.vtu. Writes
   path.png      the rail's cells under the middle of the path, and the height of its top
 """
 
-import argparse
 import base64
 import os
-import sys
 import xml.etree.ElementTree
 import zlib
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+
+from tread.commands import command_parser, run_command
+from tread.plots import plt, save
 
 RAIL, WHEEL = 0, 1
 TYPES = {"Float64": np.float64, "Float32": np.float32, "Int32": np.int32, "UInt8": np.uint8}
@@ -76,18 +73,14 @@ def draw(axis, polygons, scale=(1., 1.), width=0.3):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("run")
     parser.add_argument("--output")
     parser.add_argument("--from", dest="begin", type=float, help="x in mm of the picture along the path")
     parser.add_argument("--to", dest="end", type=float)
     arguments = parser.parse_args()
     output = arguments.output or os.path.join(arguments.run, "pictures")
-    try:
-        cells, bodies = read_cells(os.path.join(arguments.run, "volume-0000.vtu"))
-    except OSError as error:
-        sys.exit(f"plot-mesh.py: {error}")
-    os.makedirs(output, exist_ok=True)
+    cells, bodies = read_cells(os.path.join(arguments.run, "volume-0000.vtu"))
     rail, wheel = cells[bodies == RAIL], cells[bodies == WHEEL]
 
     # Where the smallest cells are, and the end.
@@ -105,7 +98,7 @@ def main():
         axis.set_xlabel("y, mm")
     axes[0].set_ylabel("z, mm")
     figure.tight_layout()
-    figure.savefig(os.path.join(output, "section.png"), dpi=130)
+    save(figure, os.path.join(output, "section.png"), dpi=130)
 
     figure, axes = plt.subplots(2, 1, figsize=(9, 5), sharex=True)
     begin = rail[:, :, 0].min() if arguments.begin is None else arguments.begin
@@ -125,8 +118,9 @@ def main():
     axes[1].set_xlabel("x, mm")
     axes[1].set_xlim(begin, end)
     figure.tight_layout()
-    figure.savefig(os.path.join(output, "path.png"), dpi=130)
+    save(figure, os.path.join(output, "path.png"), dpi=130)
     print(f"{len(rail)} cells of the rail and {len(wheel)} of the wheel; pictures in {output}")
 
 
-main()
+if __name__ == "__main__":
+    run_command(main)

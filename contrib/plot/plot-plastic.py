@@ -11,27 +11,22 @@ Both runs need 'Output/Table depth (mm)' above 0. Writes pictures and prints the
 
 import argparse
 import os
-import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
-from tread.patches import read_patch
-from tread.runs import DataError, read_summary, read_table
+from tread.commands import run_command
+from tread.plots import plt, save
+from tread.runs import Run
 
 SECTIONS_MM = (-4.3, 5.7)
 DEPTH_MM = 0.7
 
 
-class Run:
-    def __init__(self, path):
-        self.summary = read_summary(path)
-        self.patch = read_patch(os.path.join(path, "patch.csv"))
-        self.cells = read_table(os.path.join(path, "rail_cells.csv"), ("x_mm", "y_mm", "z_mm", "von_mises_MPa"))
-        self.surface = read_table(os.path.join(path, "rail_surface.csv"), ("x_mm", "y_mm", "u_z_um"))
+class Tables(Run):
+    def __init__(self, folder):
+        super().__init__(folder)
+        self.cells = self.table("rail_cells.csv", ("x_mm", "y_mm", "z_mm", "von_mises_MPa"))
+        self.surface = self.table("rail_surface.csv", ("x_mm", "y_mm", "u_z_um"))
 
     def along(self, values, y=0.0):
         """x from the foremost to the last node of the line of nodes nearest to y, and the values there."""
@@ -171,23 +166,18 @@ def main():
     parser.add_argument("--behind", type=float, default=-25.0, help="x (mm) where what remains is read")
     arguments = parser.parse_args()
     folder = arguments.output or os.path.join(arguments.plastic, "pictures")
-    try:
-        plastic, elastic = Run(arguments.plastic), Run(arguments.elastic)
-        os.makedirs(folder, exist_ok=True)
-        runs = [("elasto-plastic", plastic, "-"), ("elastic", elastic, "--")]
-        for name, draw in (("patch", draw_patch), ("material", draw_material)):
-            figure, axes = draw(runs)
-            for axis in np.ravel(axes):
-                if axis.get_legend_handles_labels()[0]:
-                    axis.legend(fontsize=8)
-                axis.grid(alpha=0.3)
-            figure.tight_layout()
-            figure.savefig(os.path.join(folder, f"plastic-{name}.png"), dpi=80)
-            plt.close(figure)
-        print("\n".join(figures(plastic, elastic, arguments.behind)))
-    except DataError as error:
-        sys.exit(f"plot-plastic.py: {error}")
+    plastic, elastic = Tables(arguments.plastic), Tables(arguments.elastic)
+    runs = [("elasto-plastic", plastic, "-"), ("elastic", elastic, "--")]
+    for name, draw in (("patch", draw_patch), ("material", draw_material)):
+        figure, axes = draw(runs)
+        for axis in np.ravel(axes):
+            if axis.get_legend_handles_labels()[0]:
+                axis.legend(fontsize=8)
+            axis.grid(alpha=0.3)
+        figure.tight_layout()
+        save(figure, os.path.join(folder, f"plastic-{name}.png"), dpi=80)
+    print("\n".join(figures(plastic, elastic, arguments.behind)))
 
 
 if __name__ == "__main__":
-    main()
+    run_command(main)

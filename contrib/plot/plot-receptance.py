@@ -8,22 +8,18 @@
 Columns of the file: frequency_Hz, then PLACE_FORCE_MODEL_nm_N; the models are cells, beam and beam_and_foot.
 """
 
-import argparse
 import re
-import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
+from tread.commands import command_parser, run_command
+from tread.plots import BLUE, GREEN, RED, SKY, plt, save, use_style
 from tread.runs import DataError, read_table
 
 PLACES = {"sleeper": "over a sleeper", "mid_span": "at mid-span"}
 FORCES = {"section": "force on a cross-section", "spread": "on 120 mm of the rail", "top": "on the rail top"}
 MODELS = {"cells": "cells", "beam": "Timoshenko beam", "beam_and_foot": "beam, foot in series with the pads"}
-STYLES = {"cells": dict(color="#0072B2"), "beam": dict(color="#D55E00", ls="--"), "beam_and_foot": dict(color="#009E73", ls=":")}
+STYLES = {"cells": dict(color=BLUE), "beam": dict(color=RED, ls="--"), "beam_and_foot": dict(color=GREEN, ls=":")}
 
 
 def extremes(frequency, amplitude):
@@ -39,7 +35,7 @@ def extremes(frequency, amplitude):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("file")
     parser.add_argument("--picture", help="where to draw; default: none")
     arguments = parser.parse_args()
@@ -58,23 +54,19 @@ def main():
         print(f"| {PLACES[place]} | {FORCES[force]} | {MODELS[model]} | {row} |")
     if not arguments.picture:
         return
-    plt.rcParams.update({"font.size": 10, "axes.grid": True, "axes.axisbelow": True, "grid.color": "#E3E3E3", "axes.spines.top": False,
-                         "axes.spines.right": False, "legend.frameon": False, "legend.fontsize": 8})
+    use_style({"axes.titlesize": "large", "legend.fontsize": 8})
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
     for axis, place in zip(axes, PLACES):
         for model, style in STYLES.items():
             if (place, "section", model) in columns:
                 axis.loglog(frequency, columns[place, "section", model], label=MODELS[model], **style)
         if (place, "top", "cells") in columns:
-            axis.loglog(frequency, columns[place, "top", "cells"], color="#56B4E9", lw=0.8, label="cells, force on the rail top")
+            axis.loglog(frequency, columns[place, "top", "cells"], color=SKY, lw=0.8, label="cells, force on the rail top")
         axis.set(title=PLACES[place], xlabel="frequency [Hz]", xlim=(100, frequency[-1]))
         axis.legend(loc="lower left")
     axes[0].set_ylabel("receptance [nm/N]")
-    figure.savefig(arguments.picture, dpi=110, bbox_inches="tight")
+    save(figure, arguments.picture, dpi=110, bbox_inches="tight")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (DataError, OSError) as error:
-        sys.exit(f"plot-receptance.py: {error}")
+    run_command(main)

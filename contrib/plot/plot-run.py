@@ -15,47 +15,38 @@ history.csv (tread --reference-only) has no pictures over time.
 
 import argparse
 import os
-import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch as Swatch
+from matplotlib.ticker import MaxNLocator
 
+from tread.commands import run_command
 from tread.patches import read_contact, read_patch
-from tread.runs import DataError, read_summary, read_table, reference_value
+from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, plt, save, use_style
+from tread.runs import Run, reference_value
 
-# Okabe and Ito's colours, which the colour-blind can tell apart.
-BLUE, SKY, ORANGE, GREEN, RED, PURPLE = "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7"
 GREY, ADHESION, SLIP = "#666666", "#A9CBE3", "#F3B77E"
 
-plt.rcParams.update({
-    "font.size": 10, "axes.titlesize": 10, "axes.labelsize": 10, "legend.fontsize": 9,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#E3E3E3",
-    "grid.linewidth": 0.7, "axes.axisbelow": True, "legend.frameon": False, "lines.linewidth": 1.6,
-    "figure.dpi": 100, "savefig.dpi": 160, "savefig.bbox": "tight", "font.family": "DejaVu Sans"})
+use_style({"axes.labelsize": 10, "legend.fontsize": 9, "grid.linewidth": 0.7, "lines.linewidth": 1.6, "figure.dpi": 100,
+           "savefig.dpi": 160, "savefig.bbox": "tight", "font.family": "DejaVu Sans"})
 
 
-class Run:
+class Pictured(Run):
     """All that the pictures need."""
 
     def __init__(self, folder, contact_file):
-        self.summary = read_summary(folder)
-        self.patch = read_patch(os.path.join(folder, "patch.csv"))
+        super().__init__(folder)
         self.half_space_only = self.summary.get("method") == "half-space solver"
         self.label = "half-space solver" if self.half_space_only else "tread"
         self.averaged = self.reference = self.history = self.depths = None
         if self.half_space_only:
-            self.depths = read_table(os.path.join(folder, "subsurface.csv"),
-                                     ("x_mm", "depth_mm", "von_mises_MPa"), text=("body", "line"))
+            self.depths = self.table("subsurface.csv", ("x_mm", "depth_mm", "von_mises_MPa"), text=("body", "line"))
         else:
-            self.averaged = self.optional(folder, "patch_averaged.csv")
-            self.reference = self.optional(folder, "reference_patch.csv")
-            self.history = read_table(os.path.join(folder, "history.csv"), ("time_s",))
+            self.averaged = self.optional("patch_averaged.csv")
+            self.reference = self.optional("reference_patch.csv")
+            self.history = self.table("history.csv", ("time_s",))
             # A single row is a point, not a line.
             self.marker = "o" if len(self.history["time_s"]) < 3 else None
         self.references = []  # (label, patch, colour, line style)
@@ -76,11 +67,9 @@ class Run:
         self.missing = []
         self.friction = self.summary.get("friction_coefficient") or self.patch.friction_coefficient()
 
-    @staticmethod
-    def optional(folder, name):
-        path = os.path.join(folder, name)
-        if os.path.exists(path):
-            return read_patch(path)
+    def optional(self, name):
+        if self.has(name):
+            return read_patch(self.path(name))
         print(f"note: no {name}; drawn without")
         return None
 
@@ -233,7 +222,7 @@ def draw_vectors(run):
         patch_axes(axis, run)
         adhesion_border(axis, source, colors=GREEN, linewidths=1.6)
         bar = figure.colorbar(image, ax=axis, shrink=0.8, pad=0.02, boundaries=np.linspace(0, largest, 200),
-                              ticks=matplotlib.ticker.MaxNLocator(6))
+                              ticks=MaxNLocator(6))
         bar.set_label(f"magnitude [{unit}]")
         axis.set_title(f"{what}\nlargest {largest:.3g} {unit}", loc="left", pad=20)
         rolling_arrow(axis)
@@ -358,30 +347,21 @@ def main():
     parser.add_argument("run", metavar="RUN_DIR")
     parser.add_argument("--contact", metavar="FILE", help="surface file of CONTACT (.csv or .csv.gz) to compare with")
     arguments = parser.parse_args()
-    try:
-        run = Run(arguments.run, arguments.contact)
-        folder = os.path.join(arguments.run, "pictures")
-        os.makedirs(folder, exist_ok=True)
-        pictures = [("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors)]
-        if run.half_space_only:
-            pictures += [("depth", draw_depth)]
-        elif len(run.history["time_s"]):
-            pictures += [("forces", draw_forces), ("energies", draw_energies)]
-        else:
-            print("note: history.csv has no rows; drawn without forces and energies")
-        for name, draw in pictures:
-            path = os.path.join(folder, name + ".png")
-            figure = draw(run)
-            figure.savefig(path)
-            plt.close(figure)
-            print(path)
-        if run.missing:
-            print(f"note: history.csv has no {', '.join(run.missing)}; drawn without")
-    except DataError as error:
-        sys.exit(f"plot-run.py: {error}")
-    except OSError as error:
-        sys.exit(f"plot-run.py: {error.filename}: {error.strerror}")
+    run = Pictured(arguments.run, arguments.contact)
+    pictures = [("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors)]
+    if run.half_space_only:
+        pictures += [("depth", draw_depth)]
+    elif len(run.history["time_s"]):
+        pictures += [("forces", draw_forces), ("energies", draw_energies)]
+    else:
+        print("note: history.csv has no rows; drawn without forces and energies")
+    for name, draw in pictures:
+        path = run.path(os.path.join("pictures", name + ".png"))
+        save(draw(run), path)
+        print(path)
+    if run.missing:
+        print(f"note: history.csv has no {', '.join(run.missing)}; drawn without")
 
 
 if __name__ == "__main__":
-    main()
+    run_command(main)

@@ -10,13 +10,12 @@ its place and the depth of its centre, the same for the cells at the surface, an
 the end of the run with its place and depth, in all cells and in those of the first layer in the fine part of the mesh. Write the option with =, as the first number may be negative.
 """
 
-import argparse
 import os
 
 import numpy as np
 
-from tread.commands import run_command
-from tread.runs import DataError, read_parameters, read_summary, read_table
+from tread.commands import command_parser, run_command
+from tread.runs import DataError, Run
 from tread.tables import markdown
 
 STRAIN = "equivalent_plastic_strain_percent"
@@ -33,16 +32,14 @@ def parts_of(text):
 
 
 def rows_of(run, parts):
-    parameters = read_parameters(os.path.join(run, "parameters.prm"))
-    begin = float(parameters["Defect/Position (mm)"])
-    strip = read_table(os.path.join(run, "strip.csv"), ("x_mm", "von_mises_MPa", "depth_mm", "surface_von_mises_MPa"))
-    cells_path = os.path.join(run, "rail_cells.csv")
-    cells = read_table(cells_path, ("x_mm", "z_mm", STRAIN)) if os.path.exists(cells_path) else None
+    begin = float(run.parameters["Defect/Position (mm)"])
+    strip = run.table("strip.csv", ("x_mm", "von_mises_MPa", "depth_mm", "surface_von_mises_MPa"))
+    cells = run.table("rail_cells.csv", ("x_mm", "z_mm", STRAIN)) if run.has("rail_cells.csv") else None
     # Centres of the first layer lie half a finest cell deep, those of the second one and a half, below the defect's surface.
-    first_layer = float(parameters["Mesh/Finest cell (mm)"])
+    first_layer = float(run.parameters["Mesh/Finest cell (mm)"])
     for first, last in parts:
         inside = (strip["x_mm"] >= begin + first) & (strip["x_mm"] < begin + last)
-        row = [os.path.basename(os.path.normpath(run)), f"{first:g} to {last:g}"]
+        row = [os.path.basename(os.path.normpath(run.folder)), f"{first:g} to {last:g}"]
         if not inside.any():
             yield row + ["-"] * 4
             continue
@@ -65,14 +62,16 @@ def strain_of(cells, chosen, begin):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("runs", nargs="+", metavar="RUN")
     parser.add_argument("--parts", required=True, help="sections of the path, mm from the beginning of the defect")
     arguments = parser.parse_args()
     parts = parts_of(arguments.parts)
-    rows = [row for run in arguments.runs for row in rows_of(run, parts)]
+    runs = [Run(folder) for folder in arguments.runs]
+    rows = [row for run in runs for row in rows_of(run, parts)]
     print(markdown(["run", "part of the path, mm", "von Mises stress, MPa", "at the surface, MPa", "plastic strain, %", "in the first layer, %"], rows))
-    print("version: " + ", ".join(sorted({read_summary(run)["version"] for run in arguments.runs})))
+    print("version: " + ", ".join(sorted({run.summary["version"] for run in runs})))
 
 
-run_command(main)
+if __name__ == "__main__":
+    run_command(main)

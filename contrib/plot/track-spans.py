@@ -9,32 +9,31 @@ of forces over the position of the wheel from --from on (the beginning of the de
 value and its root mean square; the range of the reference stands in the first row.
 """
 
-import argparse
 import glob
 import os
-import sys
 
 import numpy as np
 
-from tread.runs import DataError, read_parameters, read_table
+from tread.commands import command_parser, run_command
+from tread.runs import DataError, Run
 
 COLUMNS = {"normal_force_N": "contact", "support_1_pad_N": "pad", "support_1_ballast_N": "ballast"}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("study")
     parser.add_argument("--from", dest="begin", type=float, default=0.0, help="position of the wheel, mm")
     arguments = parser.parse_args()
     runs = []
     for path in sorted(glob.glob(os.path.join(arguments.study, "*", "summary.json"))):
-        folder = os.path.dirname(path)
-        p = read_parameters(os.path.join(folder, "parameters.prm"))
+        run = Run(os.path.dirname(path))
+        p = run.parameters
         length, spacing = 1e-3 * float(p["Rail/Length (mm)"]), float(p["Track/Sleeper spacing (m)"])
         ends = p["Rail/Ends"]
         if ends == "absorbing":
             ends += f", {float(p['Rail/Absorbing length (m)']):g} m"
-        runs.append((length / spacing, ends, read_table(os.path.join(folder, "history.csv"), ["position_m", *COLUMNS])))
+        runs.append((length / spacing, ends, run.table("history.csv", ["position_m", *COLUMNS])))
     if len(runs) < 2:
         raise DataError(f"{arguments.study}: fewer than two complete runs")
     reference = max(runs, key=lambda run: run[0])
@@ -53,7 +52,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except DataError as error:
-        sys.exit(str(error))
+    run_command(main)

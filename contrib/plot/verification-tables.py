@@ -7,12 +7,11 @@ prm/thesis/3.1-*.prm; results go to RESULTS/<name of the parameter file>). Table
 text; --tables chooses some.
 """
 
-import argparse
 import glob
 import math
 import os
 
-from tread.commands import run_command
+from tread.commands import command_parser, run_command
 from tread.measured_runs import contact_measures, run_scene
 from tread.patches import read_patch
 from tread.runs import ROOT, is_complete, read_summary, reference_value
@@ -271,7 +270,7 @@ TABLES = {"half-space": half_space_table, "low-strain": low_strain_table, "strai
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no results yet")
     parser.add_argument("--tables", metavar="NAME", nargs="+", choices=TABLES, default=list(TABLES),
