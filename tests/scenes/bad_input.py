@@ -5,11 +5,11 @@ and the results of an earlier run untouched."""
 
 import fcntl
 import os
-import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, command, environment
+from tread.runs import ROOT, execute
+from tread_runner import Check
 
 program = sys.argv[1]
 scene = os.path.join(ROOT, "prm", "smooth-rolling.prm")
@@ -144,8 +144,7 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write("kept")
 
     def must_fail(what, arguments, words, ranks=1):
-        result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True,
-                                timeout=120)
+        result = execute(arguments, ranks, program, timeout=120)
         lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
         check.that(f"{what}: exit code not 0", result.returncode not in (0,) and result.returncode > 0)
         if not check.that(f"{what}: one line", len(lines) == 1):
@@ -221,8 +220,7 @@ with tempfile.TemporaryDirectory() as folder:
         must_fail(f"folder cannot be written, {ranks} rank(s)", [scene, "--output", os.path.join(blocked, "results")] + coarse,
                   ["Output/Directory"], ranks)
 
-    printed = subprocess.run(command(program, ["--print-parameters", "-s", "Motion/Speed (km per h)=123"]), env=environment(),
-                             capture_output=True, text=True)
+    printed = execute(["--print-parameters", "-s", "Motion/Speed (km per h)=123"], program=program)
     check.that("--print-parameters without a scene shows what was set", "set Speed (km per h) " in printed.stdout and "= 123" in printed.stdout)
 
 check.exit()

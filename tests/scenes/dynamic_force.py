@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The dynamic force of a run over its smooth twin, from histories that are known."""
 
-import csv
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, command, environment
+from tread.runs import execute
+from tread_runner import Check, rows_of, script
 
 program = sys.argv[1]
 check = Check()
@@ -45,7 +44,7 @@ def write_parameters(folder, settings):
     arguments = ["--print-parameters"]
     for setting in settings:
         arguments += ["-s", setting]
-    printed = subprocess.run(command(program, arguments), env=environment(), check=True, capture_output=True, text=True)
+    printed = execute(arguments, program=program, check=True)
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "parameters.prm"), "w", encoding="utf-8") as stream:
         stream.write(printed.stdout)
@@ -73,7 +72,7 @@ def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_f
 
 
 def fails(name, arguments, words, code=1):
-    result = subprocess.run(command(program, arguments), env=environment(), capture_output=True, text=True)
+    result = execute(arguments, program=program)
     lines = result.stderr.splitlines()
     if not check.that(name, result.returncode == code and len(lines) == 1 and all(word in lines[0] for word in words)):
         print(result.returncode, result.stderr)
@@ -85,7 +84,7 @@ with tempfile.TemporaryDirectory() as folder:
     write(path("run"), 2000, defect=True)
     write(path("twin"), 2000, shift=0.4 * ROW)
     both = ["--dynamic-force", path("run"), "--smooth-twin", path("twin")]
-    result = subprocess.run(command(program, both), env=environment(), capture_output=True, text=True)
+    result = execute(both, program=program)
     if not check.that("a run and its twin: exit code 0", result.returncode == 0):
         print(result.stdout, result.stderr)
         check.exit()
@@ -95,14 +94,13 @@ with tempfile.TemporaryDirectory() as folder:
 
     with open(path("run/dynamic.json"), encoding="utf-8") as stream:
         figures = json.load(stream)
-    with open(path("run/dynamic.csv"), encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
+    rows = rows_of(path("run"), "dynamic.csv")
     contact, pad = figures["forces"]["normal_force_N"], figures["forces"]["support_1_pad_N"]
     check.that("dynamic.json says how rows were interpolated", figures["interpolation"] == "linear in time")
     # Means over an interval h differ from the value in its middle by (2 pi f h)^2/24, 1.5e-4 at 1061 Hz; so does what
     # lies between two rows of the twin. The onset is a kink of slope k, of which a mean misses up to k h/8.
-    errors = [(abs(float(row["normal_force_N"]) - blow((float(row["position_m"]) - BEGIN) / SPEED)),
-               abs(float(row["position_m"]) - BEGIN)) for row in rows]
+    errors = [(abs(row["normal_force_N"] - blow((row["position_m"] - BEGIN) / SPEED)),
+               abs(row["position_m"] - BEGIN)) for row in rows]
     check.below("contact: worst error of a row, kN", max(error for error, away in errors if away > ROW) / 1e3, 0.02)
     slope = sum(a * 2 * math.pi * f for a, f in zip(AMPLITUDES, FREQUENCIES))
     check.below("contact: error at the onset, kN", max(error for error, away in errors if away <= ROW) / 1e3,
@@ -127,16 +125,14 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"contact: {frequency:.0f} Hz: wavelength x frequency over speed",
                        line["wavelength_m"] * line["frequency_Hz"] / SPEED, 1.0, 1e-6)
         check.relative(f"contact: {frequency:.0f} Hz: decrement", line["logarithmic_decrement"] or math.nan, decrement, 0.10)
-    with open(path("run/spectrum.csv"), encoding="utf-8") as stream:
-        spectrum = list(csv.DictReader(stream))
-    largest = max(spectrum, key=lambda row: float(row["normal_force_N"]))
+    spectrum = rows_of(path("run"), "spectrum.csv")
+    largest = max(spectrum, key=lambda row: row["normal_force_N"])
     check.absolute("spectrum.csv: largest amplitude, distance to the first vibration in values",
-                   (float(largest["frequency_Hz"]) - contact["oscillations"][0]["frequency_Hz"]) / figures["frequency_interval_Hz"],
+                   (largest["frequency_Hz"] - contact["oscillations"][0]["frequency_Hz"]) / figures["frequency_interval_Hz"],
                    0.0, 0.51)
-    check.relative("spectrum.csv: its amplitude", float(largest["normal_force_N"]), contact["oscillations"][0]["amplitude_N"], 0.01)
+    check.relative("spectrum.csv: its amplitude", largest["normal_force_N"], contact["oscillations"][0]["amplitude_N"], 0.01)
 
-    subprocess.run(command(program, both + ["--window", "Hann", "--from", "-100", "--to", "100", "--output", path("section")]),
-                   env=environment(), check=True, capture_output=True)
+    execute(both + ["--window", "Hann", "--from", "-100", "--to", "100", "--output", path("section")], program=program, check=True)
     with open(path("section/dynamic.json"), encoding="utf-8") as stream:
         section = json.load(stream)
     check.absolute("a section: begins, mm", 1e3 * section["from_m"], -100, 1e3 * ROW)
@@ -147,13 +143,11 @@ with tempfile.TemporaryDirectory() as folder:
     # straight line misses up to (2 pi f h)^2/8 of a wave, the mean of a row (2 pi f h)^2/24.
     write(path("steps-run"), 2000, defect=True, steps=26.4e-6)
     write(path("steps-twin"), 2000, steps=24.8e-6)
-    result = subprocess.run(command(program, ["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")]),
-                            env=environment(), capture_output=True, text=True)
+    result = execute(["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")], program=program)
     if check.that("a twin with other time steps: exit code 0", result.returncode == 0):
-        with open(path("steps-run/dynamic.csv"), encoding="utf-8") as stream:
-            rows = list(csv.DictReader(stream))
-        worst = max(abs(float(row["normal_force_N"]) - blow((float(row["position_m"]) - BEGIN) / SPEED)) for row in rows
-                    if abs(float(row["position_m"]) - BEGIN) > 1.2 * ROW)
+        rows = rows_of(path("steps-run"), "dynamic.csv")
+        worst = max(abs(row["normal_force_N"] - blow((row["position_m"] - BEGIN) / SPEED)) for row in rows
+                    if abs(row["position_m"] - BEGIN) > 1.2 * ROW)
         check.below("a twin with other time steps: worst error of a row, kN", worst / 1e3,
                     sum(a * (2 * math.pi * f * 1.1 * ROW / SPEED) ** 2 / 6 for a, f in zip(AMPLITUDES, FREQUENCIES)) / 1e3)
     else:
@@ -161,9 +155,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     write(path("fast-run"), 2000, speed=1.4 * SPEED, defect=True, settings=["Motion/Speed (km per h)=140"])
     write(path("fast-twin"), 2000, speed=1.4 * SPEED, settings=["Motion/Speed (km per h)=140.0"])
-    drawn = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("run"), path("fast-run"),
-                            "--smooth-twin", path("twin"), path("fast-twin"), "--program", program, "--output", path("pictures")],
-                           env=environment(), capture_output=True, text=True)
+    drawn = script("plot/plot-impact.py", path("run"), path("fast-run"), "--smooth-twin", path("twin"), path("fast-twin"),
+                   "--program", program, "--output", path("pictures"))
     if not check.that("pictures of two speeds", drawn.returncode == 0 and set(os.listdir(path("pictures"))) == {
             f"{name}.png" for name in ("contact-force", "dynamic-force", "supports", "distribution", "speeds")}):
         print(drawn.stdout, drawn.stderr)
@@ -174,8 +167,7 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write("subsection Rail\nset Profile = 54E1\nset Young's modulus (GPa) = 210\nend\nsubsection Track\n"
                      "set Foundation = two-layer\nset Sleeper spacing (m) = 0.6\nset Support 0 (mm) = -500\n"
                      "set Pad stiffness (MN per m) = 1300\nset Ballast stiffness (MN per m) = 45\nend\n")
-    table = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("on-track"), "--zimmermann"],
-                           env=environment(), capture_output=True, text=True).stdout
+    table = script("plot/plot-impact.py", path("on-track"), "--zimmermann").stdout
     rows = [[float(cell.split()[0]) for cell in line.strip("| ").split("|")] for line in table.splitlines()[2:]]
     check.that("Zimmermann: two instants", len(rows) == 2)
     for row, at, distance in zip(rows, (-200.0, 25.0), (0.3, 0.075)):
@@ -199,8 +191,7 @@ with tempfile.TemporaryDirectory() as folder:
     write(path("stopped"), 1500)
     stopped = ["--dynamic-force", path("run"), "--smooth-twin", path("stopped"), "--output", path("stopped-section")]
     fails("a twin that stopped before the run", stopped, ["stopped", "to 74.", "does not cover", "to 199."])
-    check.that("a section that it covers", subprocess.run(command(program, stopped + ["--to", "70"]), env=environment(),
-                                                          capture_output=True).returncode == 0)
+    check.that("a section that it covers", execute(stopped + ["--to", "70"], program=program).returncode == 0)
     fails("a section of a few rows", both + ["--from", "10", "--to", "11"], ["4 intervals", "at least 16"])
     write(path("contact"), 2000, columns=("normal_force_N",))
     fails("a column that the twin has not", ["--dynamic-force", path("run"), "--smooth-twin", path("contact")],
@@ -220,7 +211,7 @@ with tempfile.TemporaryDirectory() as folder:
     write_parameters(path("run"), ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1", "Defect/Position (mm)=-40",
                                    "Output/History interval (mm)=0.5", "Scene/Title=a dip", "Motion/Speed (km per h)=140"])
     write_parameters(path("twin"), ["Motion/Speed (km per h)=140.0"])
-    allowed = subprocess.run(command(program, both), env=environment(), capture_output=True, text=True)
+    allowed = execute(both, program=program)
     if not check.that("defect, output and title differ, and 140 is 140.0", allowed.returncode == 0):
         print(allowed.stderr)
     for setting, before in (("Motion/Speed (km per h)=100", "140"), ("Contact/Friction coefficient=0.4", "0.5"),

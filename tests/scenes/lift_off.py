@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A wheel that leaves the rail over a deep dip and lands again, and what is recorded under it."""
 
-import csv
 import os
-import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, environment, run
+from tread_runner import Check, run, script, table
 
 program = sys.argv[1]
 check = Check()
@@ -16,12 +14,6 @@ SCENE = os.path.join("tutorial", "dip.prm")
 COARSE = ["Mesh/Finest cell (mm)=2.2", "Mesh/Path cell (mm)=3.3", "Output/Write volume=false", "Rail/Plastic depth (mm)=8",
           "Rail/Yield stress (MPa)=1000", "Output/Cells=-17,0,1; -70,1,3"]
 DEEP = COARSE + ["Motion/Speed (km per h)=200", "Defect/Depth (mm)=3"]
-
-
-def table(folder, name):
-    with open(os.path.join(folder, name), encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    return {key: [float(row[key]) for row in rows] for key in rows[0]}
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -69,8 +61,7 @@ with tempfile.TemporaryDirectory() as folder:
                    strip["equivalent_plastic_strain_percent"][nearest] >= (1. - 1e-9) * 100. * strain[-1])
     check.that("the rail has yielded", max(strip["equivalent_plastic_strain_percent"]) > 0.01)
 
-    pictures = subprocess.run([sys.executable, os.path.join(ROOT, "contrib/plot/plot-impact.py"), path("deep"), "--program", program],
-                              env=environment(), capture_output=True, text=True)
+    pictures = script("plot/plot-impact.py", path("deep"), "--program", program)
     if not check.that("strip and cells are drawn", pictures.returncode == 0 and
                       {"strip.png", "cells.png"} <= set(os.listdir(path("deep/pictures")))):
         print(pictures.stdout, pictures.stderr)

@@ -6,11 +6,11 @@ import csv
 import json
 import os
 import resource
-import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, command, environment, run
+from tread.runs import ROOT, arguments_of, execute
+from tread_runner import Check, rows_of, run, script
 
 program = sys.argv[1]
 check = Check()
@@ -18,9 +18,9 @@ SCENE = "smooth-rolling.prm"
 CONTACT = os.path.join(ROOT, "contrib", "reference")
 
 
-def script(name, *arguments):
-    result = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", *name.split("/")), *arguments],
-                            capture_output=True, text=True)
+def printed(name, *arguments):
+    """script() with what it wrote printed."""
+    result = script(name, *arguments)
     print(result.stdout, result.stderr)
     return result
 
@@ -65,7 +65,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.below(f"{name}: processor time, s", seconds, 2.)
 
         measures = path("measures.json")
-        compared = script("plot/compare-contact.py", path(mu), os.path.join(CONTACT, row["file"]), "--json", measures)
+        compared = printed("plot/compare-contact.py", path(mu), os.path.join(CONTACT, row["file"]), "--json", measures)
         check.that(f"{name}: compare-contact.py reads it", compared.returncode == 0)
         with open(measures, encoding="utf-8") as stream:
             fields = json.load(stream)
@@ -97,24 +97,22 @@ with tempfile.TemporaryDirectory() as folder:
     files = sorted(os.listdir(path("0.30")))
     check.that("the files of a run", files == ["parameters.prm", "patch.csv", "subsurface.csv", "summary.json",
                                                "surface-0000.vtu", "surface.pvd"])
-    check.that("plot-run.py draws it", script("plot/plot-run.py", path("0.30")).returncode == 0 and
+    check.that("plot-run.py draws it", printed("plot/plot-run.py", path("0.30")).returncode == 0 and
                sorted(os.listdir(os.path.join(path("0.30"), "pictures"))) == ["axis.png", "depth.png", "map.png", "vectors.png"])
-    paraview = script("paraview/tread.py", path("0.30"))
+    paraview = printed("paraview/tread.py", path("0.30"))
     check.that("tread.py reads it", paraview.returncode == 0 and "pressure_MPa" in paraview.stdout)
     results = path("results")
     os.mkdir(results)
     with open(os.path.join(results, "summary.json"), "w", encoding="utf-8") as stream:
         stream.write("kept")
-    subprocess.run(command(program, [os.path.join(ROOT, "prm", SCENE), "--reference-only", "-s", f"Output/Directory={results}"]),
-                   env=environment(), check=True, capture_output=True)
+    execute(arguments_of(SCENE, [f"Output/Directory={results}"]) + ["--reference-only"], program=program, check=True)
     with open(os.path.join(results, "summary.json"), encoding="utf-8") as stream:
         check.that("without --output a run's results are kept", stream.read() == "kept")
     check.that("without --output it writes beside them", os.path.exists(results + "-reference/summary.json"))
 
     # From a start without tractions: the way to steady rolling, at the creepage of the scene.
     transient = reference_only("Motion/Rolled distance (mm)=60", scene="verification/transient-low-strain.prm", output=path("transient"))
-    with open(path("transient/transient.csv"), encoding="utf-8") as stream:
-        way = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+    way = rows_of(path("transient"), "transient.csv")
     check.relative("transient: it ends at the distance rolled, mm", way[-1]["rolled_mm"], 60., 1e-6)
     check.below("transient: traction coefficient at the start", way[0]["traction_coefficient"], 1e-12)
     check.relative("transient: traction coefficient at the end", way[-1]["traction_coefficient"], transient["traction_coefficient"], 0.003)
@@ -172,8 +170,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Bad input: one line, no files.
     def must_fail(what, arguments, words):
         output = path("bad")
-        result = subprocess.run(command(program, [os.path.join(ROOT, "prm", SCENE), "--reference-only", "--output", output]
-                                        + arguments), env=environment(), capture_output=True, text=True)
+        result = execute([*arguments_of(SCENE, output=output), "--reference-only", *arguments], program=program)
         lines = result.stderr.strip().splitlines()
         check.that(f"{what}: exit code not 0", result.returncode in (1, 2))
         check.that(f"{what}: one line that names it", len(lines) == 1 and all(word in lines[0] for word in words))

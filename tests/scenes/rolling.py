@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Rolling scenes on the 1.3 mm mesh: ranks, interruption and resuming, torque, energies, drives."""
 
-import csv
-import json
 import os
 import re
 import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, arguments_of, command, environment, press_ctrl_c, run
+from tread.runs import ROOT, arguments_of, command, environment, execute, read_summary
+from tread_runner import Check, press_ctrl_c, rows_of, run, script, table
 
 program, what = sys.argv[1], sys.argv[2]
 check = Check()
@@ -34,23 +33,17 @@ def same(name, a, b, allowed, damping_allowed=None):
 def interrupt(output, settings, ranks=1, rows=12, more=()):
     """Start a run, press Ctrl-C when its history has so many rows; the ended process and what it wrote to stderr."""
     # mpirun waits a second, tells its ranks to end, and kills them a second later: too soon on a busy machine.
-    patient = dict(environment(), OMPI_MCA_odls_base_sigkill_timeout="3")
-    process = subprocess.Popen(command(program, arguments_of(SCENE, output, settings) + list(more), ranks), env=patient,
+    patient = environment(OMPI_MCA_odls_base_sigkill_timeout="3")
+    process = subprocess.Popen(command(arguments_of(SCENE, settings, output) + list(more), ranks, program), env=patient,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     press_ctrl_c(process, os.path.join(output, "history.csv"), rows)
     _, errors = process.communicate(timeout=120)
     return process, errors
 
 
-def read_summary(output):
-    with open(os.path.join(output, "summary.json"), encoding="utf-8") as stream:
-        return json.load(stream)
-
-
 def fails(name, arguments, words, ranks=1):
     """One line with these words, and an exit code that says so; a run that hangs ends the test."""
-    result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True,
-                            timeout=600)
+    result = execute(arguments, ranks, program, timeout=600)
     lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
     if not check.that(name, result.returncode > 0 and len(lines) == 1 and all(word in lines[0] for word in words)):
         print(result.returncode, result.stderr)
@@ -60,9 +53,9 @@ with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
 
     def identical(name, parts, whole):
-        for table in ("history.csv", "patch.csv", "patch_averaged.csv"):
-            a, b = (open(os.path.join(path(run), table), encoding="utf-8").read() for run in (parts, whole))
-            check.that(f"{name}: {table} is the same to the last digit", a == b and a.count("\n") > 10)
+        for file in ("history.csv", "patch.csv", "patch_averaged.csv"):
+            a, b = (open(os.path.join(path(run), file), encoding="utf-8").read() for run in (parts, whole))
+            check.that(f"{name}: {file} is the same to the last digit", a == b and a.count("\n") > 10)
 
     if what == "ranks":
         # Ranks add forces in another order: differences start at 1e-16 and are damped, not amplified,
@@ -77,8 +70,7 @@ with tempfile.TemporaryDirectory() as folder:
         one_of_levels = run(program, "smooth-rolling.prm", path("levels-1"), levels)
         two_of_levels = run(program, "smooth-rolling.prm", path("levels-2"), levels, 2)
         same("levels of time steps, 2 ranks against 1", two_of_levels, one_of_levels, 1e-8)
-        dry = subprocess.run(command(program, arguments_of(SCENE, path("dry"), levels) + ["--dry-run"]), env=environment(),
-                             capture_output=True, text=True)
+        dry = execute(arguments_of(SCENE, levels, path("dry")) + ["--dry-run"], program=program)
         gain = float(re.search(r"cell updates fall to 1/([\d.]+)", dry.stdout)[1])
         check.that("levels: most cells wait", gain > 1.5)
         for ranks, summary in ((1, one_of_levels), (2, two_of_levels)):
@@ -106,15 +98,14 @@ with tempfile.TemporaryDirectory() as folder:
         same("resumed on 4 ranks against never stopped on 1",
              run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 1e-4, 3e-3)
 
-        again = subprocess.run(command(program, arguments_of(SCENE, path("parts"), settings) + ["--resume"]), env=environment(),
-                               capture_output=True, text=True)
+        again = execute(arguments_of(SCENE, settings, path("parts")) + ["--resume"], program=program)
         check.that("a complete run is left as it is", again.returncode == 0 and "complete" in again.stdout
                    and read_summary(path("parts")) == resumed)
         fails("other parameters are refused and named",
-              arguments_of(SCENE, path("other-parameters"), settings) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
+              arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
         fails("other columns of the history are refused",
-              arguments_of(SCENE, path("other-parameters"), settings) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])
+              arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])
         for name, word in (("damaged", "damaged"), ("foreign", "version")):
             with open(os.path.join(path(name), "checkpoint.last"), encoding="utf-8") as stream:
                 checkpoint = os.path.join(path(name), stream.read().strip())
@@ -122,7 +113,7 @@ with tempfile.TemporaryDirectory() as folder:
                 stream.seek(-200 if name == "damaged" else 0, os.SEEK_END if name == "damaged" else os.SEEK_SET)
                 stream.write(b"another program's")
             fails(f"a {name} checkpoint is refused on all ranks in one line",
-                  arguments_of(SCENE, path(name), settings) + ["--resume"], [word], ranks=2)
+                  arguments_of(SCENE, settings, path(name)) + ["--resume"], [word], ranks=2)
 
         # Every group of steps ends a row of the history, so every interruption comes at the end of a row.
         every = COARSE + ["Motion/Rolled distance (mm)=20", "Scene/Density scale=1", "Output/History interval (mm)=0.001",
@@ -155,13 +146,12 @@ with tempfile.TemporaryDirectory() as folder:
         torque = run(program, "smooth-rolling.prm", path("torque"), settings + ["Motion/Drive=torque"], 2)
         creep = run(program, "smooth-rolling.prm", path("creepage"),
                     COARSE + [f"Motion/Creepage={torque['creepage']}"], 2)
-        with open(os.path.join(path("torque"), "history.csv"), encoding="utf-8") as stream:
-            rows = [row for row in csv.DictReader(stream) if float(row["position_m"]) > -20e-3]
-        worst = max(rows, key=lambda row: abs(float(row["traction_coefficient"]) - 0.3))
+        rows = [row for row in rows_of(path("torque"), "history.csv") if row["position_m"] > -20e-3]
+        worst = max(rows, key=lambda row: abs(row["traction_coefficient"] - 0.3))
         # Shear waves in the rail head ring on for a while: the mean must fit, and no row may stray by more than 1 %.
-        mean = sum(float(row["traction_coefficient"]) for row in rows) / len(rows)
+        mean = sum(row["traction_coefficient"] for row in rows) / len(rows)
         check.relative("traction coefficient, mean over the last 20 mm", mean, 0.3, 0.01)
-        check.relative("traction coefficient, worst in the last 20 mm", float(worst["traction_coefficient"]), 0.3, 0.01)
+        check.relative("traction coefficient, worst in the last 20 mm", worst["traction_coefficient"], 0.3, 0.01)
         for key in ("max_pressure_Pa", "patch_area_m2", "max_shear_Pa"):
             check.relative(f"torque against creepage: {key}", torque[key], creep[key], 0.01)
         check.absolute("torque against creepage: adhesion share", torque["adhesion_share"], creep["adhesion_share"], 0.01)
@@ -183,10 +173,8 @@ with tempfile.TemporaryDirectory() as folder:
             check.relative(f"start from predicted tractions, 30 mm, against none, 80 mm: {key}", predicted[key], built_up[key],
                            0.005)
         for name, expected, allowed in (("predicted", 0.3, 0.01), ("built-up", 0., 0.05)):
-            with open(os.path.join(path(name), "history.csv"), encoding="utf-8") as stream:
-                first = next(csv.DictReader(stream))
-            check.absolute(f"{name}: traction coefficient in the first row", float(first["traction_coefficient"]), expected,
-                           allowed)
+            first = table(path(name), "history.csv")["traction_coefficient"][0]
+            check.absolute(f"{name}: traction coefficient in the first row", first, expected, allowed)
         brake = run(program, "smooth-rolling.prm", path("brake"), base + ["Motion/Traction coefficient=-0.3"], 2)
         # Wheel and rail are not the same body, hence not exactly the opposite.
         check.relative("braking: traction coefficient", brake["traction_coefficient"], -0.3, 0.02)
@@ -227,10 +215,7 @@ with tempfile.TemporaryDirectory() as folder:
         few = run(program, "smooth-rolling.prm", path("few"), SHORT + ["Contact/Largest number of sweeps=2"], 2)
         check.that("two sweeps: steps that do not converge are warned of", few["contact_unconverged_share"] > 0.01
                    and any("tolerance" in line for line in few["warnings"]))
-        unstable = subprocess.run(command(program, [os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--output", path("unstable"),
-                                                    "-s", SHORT[0], "-s", SHORT[1], "-s", SHORT[2],
-                                                    "-s", "Time stepping/Courant number=1.3"]),
-                                  env=environment(), capture_output=True, text=True)
+        unstable = execute(arguments_of(SCENE, SHORT + ["Time stepping/Courant number=1.3"], path("unstable")), program=program)
         check.that("Courant number 1.3 stops with a clear line",
                    unstable.returncode == 2 and "Courant number" in unstable.stderr)
 
@@ -239,14 +224,14 @@ with tempfile.TemporaryDirectory() as folder:
         settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Contact/Tolerance=1e-12", "Motion/Passages=2",
                             "Output/Write volume=false", "Rail/Yield stress (MPa)=500", "Wheel/Yield stress (MPa)=500",
                             "Rail/Hardening=Armstrong-Frederick", "Rail/Plastic zones=-7:-5:8:350:10"]
-        rows = lambda name: list(csv.DictReader(open(os.path.join(path(name), "passages.csv"), encoding="utf-8")))
+        passages = lambda name: rows_of(path(name), "passages.csv")
         whole = run(program, "smooth-rolling.prm", path("whole"), settings)
         check.energy("", whole, 0.01)
         check.that("work is lost to friction and to plastic strain",
                    whole["plastic_work_J"] > 0. and whole["frictional_work_J"] > 0.)
-        first, second = rows("whole")
+        first, second = passages("whole")
         check.that("the second wheel adds less settlement than the first",
-                   0. < float(second["settlement_um"]) - float(first["settlement_um"]) < 0.5 * float(first["settlement_um"]))
+                   0. < second["settlement_um"] - first["settlement_um"] < 0.5 * first["settlement_um"])
         ranks = run(program, "smooth-rolling.prm", path("ranks"), settings, 3)
         same("3 ranks against 1", ranks, whole, 1e-6, 1e-5)
         check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
@@ -254,7 +239,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.energy("levels of time steps: ", levels, 0.01)
         check.relative("levels of time steps: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 0.03)
         for key in ("settlement_um", "residual_von_mises_MPa"):
-            check.relative(f"levels of time steps: {key}", float(rows("levels")[1][key]), float(second[key]), 5e-3)
+            check.relative(f"levels of time steps: {key}", passages("levels")[1][key], second[key], 5e-3)
 
         # Stopped while the second wheel rolls.
         process, _ = interrupt(path("parts"), settings, rows=65)
@@ -262,7 +247,7 @@ with tempfile.TemporaryDirectory() as folder:
         resumed = run(program, "smooth-rolling.prm", path("parts"), settings, ranks=2, more=["--resume"])
         same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3, 2e-2)
         for key in ("settlement_um", "equivalent_plastic_strain_percent", "residual_von_mises_MPa"):
-            check.relative(f"resumed: {key}", float(rows("parts")[1][key]), float(second[key]), 2e-3)
+            check.relative(f"resumed: {key}", passages("parts")[1][key], second[key], 2e-3)
 
     elif what == "full-wheel":
         wheel = run(program, "tutorial/full-wheel.prm", path("wheel"), ["Motion/Rolled distance (mm)=60"], 2)
@@ -279,13 +264,12 @@ with tempfile.TemporaryDirectory() as folder:
                    if name.endswith(".prm")]
         for scene in sorted(shipped):
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
-            dry = subprocess.run(command(program, [scene, "--dry-run"]), env=environment(), capture_output=True, text=True)
+            dry = execute([scene, "--dry-run"], program=program)
             check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
             with open(scene, encoding="utf-8") as stream:
                 on_track = "subsection Track" in stream.read()
             if on_track:  # track.py rolls on one; a shorter run needs nothing but its length
-                cut = subprocess.run(command(program, [scene, "--dry-run", "-s", "Motion/Rolled distance (mm)=20"]),
-                                     env=environment(), capture_output=True, text=True)
+                cut = execute([scene, "--dry-run", "-s", "Motion/Rolled distance (mm)=20"], program=program)
                 if not check.that(f"{name}: can be cut short", cut.returncode == 0):
                     print(cut.stderr)
                 steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
@@ -302,17 +286,15 @@ with tempfile.TemporaryDirectory() as folder:
 
     elif what == "files":
         run(program, "smooth-rolling.prm", path("files"), SHORT + ["Output/Surface interval (mm)=4", "Output/Volume interval (mm)=6"], 2)
-        reader = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "paraview", "tread.py"), path("files")],
-                                capture_output=True, text=True)
+        reader = script("paraview/tread.py", path("files"))
         print(reader.stdout, reader.stderr)
         check.that("the VTU files open in VTK", reader.returncode == 0)
         for field in ("von_mises_MPa", "displacement_um", "pressure_MPa", "shear_MPa", "slip_m_per_s", "state"):
             check.that(f"a field {field}", field in reader.stdout)
         one_row = run(program, "smooth-rolling.prm", path("one-row"), COARSE + [
             "Motion/Rolled distance (mm)=4", "Output/History interval (mm)=100", "Output/Write volume=false"], 2)
-        with open(os.path.join(path("one-row"), "history.csv"), encoding="utf-8") as stream:
-            rows = list(csv.DictReader(stream))
-        check.that("a long history interval ends with the run", len(rows) == 1 and float(rows[0]["position_m"]) > 0.)
+        rows = rows_of(path("one-row"), "history.csv")
+        check.that("a long history interval ends with the run", len(rows) == 1 and rows[0]["position_m"] > 0.)
         check.that("4 mm are called too short to be steady", one_row["long_enough_to_be_steady"] is False)
         check.relative("patch lengths rolled", one_row["rolled_patch_lengths"],
                        one_row["rolled_m"] / (2. * one_row["reference"]["semi_axis_x_m"]["Hertz"]["value"]), 1e-6)
@@ -320,8 +302,7 @@ with tempfile.TemporaryDirectory() as folder:
         group, beyond = 4 * one_row["rolled_m"] / one_row["steps"], one_row["rolled_m"] - 4.65e-3
         check.that("rolled: 4 mm and half a cell, to the end of the group of steps", -1e-9 <= beyond < group * (1 + 1e-9))
         for name in ("files", "one-row"):
-            plot = subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "plot", "plot-run.py"), path(name)],
-                                  capture_output=True, text=True)
+            plot = script("plot/plot-run.py", path(name))
             print(plot.stdout, plot.stderr)
             check.that(f"{name}: the pictures are drawn",
                        plot.returncode == 0 and len(os.listdir(os.path.join(path(name), "pictures"))) >= 5)
@@ -332,7 +313,7 @@ with tempfile.TemporaryDirectory() as folder:
             output = path("full-" + name)
             os.mkdir(output)
             os.symlink("/dev/full", os.path.join(output, name + ".part"))
-            fails(f"disk full at {name}", arguments_of(SCENE, output, short), ["cannot write", name], ranks)
+            fails(f"disk full at {name}", arguments_of(SCENE, short, output), ["cannot write", name], ranks)
             check.that(f"disk full at {name}: nothing half written stays",
                        not [entry for entry in os.listdir(output) if entry.endswith(".part") or entry == name])
             check.that(f"disk full at {name}: what was written before stays", "history.csv" in os.listdir(output))

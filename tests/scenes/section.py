@@ -3,13 +3,12 @@
 """A wheel over a rail of full section with a dip, on a rigid foundation: the run beside its smooth twin, on 2 ranks beside 1,
 and what a measured profile does."""
 
-import csv
 import math
 import os
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, run
+from tread_runner import Check, run, table
 
 program = sys.argv[1]
 check = Check()
@@ -21,10 +20,8 @@ SHORT = ["Mesh/Finest cell (mm)=2.2", "Motion/Rolled distance (mm)=4", "Defect/S
 
 
 def history(folder):
-    with open(os.path.join(folder, "history.csv"), encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    column = lambda name: [float(row[name]) for row in rows]
-    return [1e3 * x for x in column("position_m")], column("normal_force_N"), column("lateral_force_N")
+    columns = table(folder, "history.csv")
+    return [1e3 * x for x in columns["position_m"]], columns["normal_force_N"], columns["lateral_force_N"]
 
 
 with tempfile.TemporaryDirectory() as folder:

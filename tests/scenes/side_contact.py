@@ -3,13 +3,13 @@
 """S1002 treads on inclined rails: the patch lies to the gauge side and is wide. They roll as others do, with the creepage, the power and
 the lateral force by spin that half-space theory has for their tread; recorded tables go on after an interruption, on any number of ranks."""
 
-import csv
 import os
 import subprocess
 import sys
 import tempfile
 
-from tread_runner import Check, arguments_of, command, environment, press_ctrl_c, run
+from tread.runs import arguments_of, command, environment, execute
+from tread_runner import Check, press_ctrl_c, run, table
 
 program = sys.argv[1]
 check = Check()
@@ -20,12 +20,6 @@ SETTINGS = ["Mesh/Finest cell (mm)=1.8", "Mesh/Cells per level=1", "Motion/Rolle
 S1002 = SETTINGS + ["Wheel/Tread profile=S1002", "Mesh/Fine half width (mm)=11", "Contact/Tolerance=1e-12"]
 WIDE = ["Mesh/Fine half width (mm)=15"]  # around the gauge corner, where cells are flat: a quarter of the time step
 LOAD = (900. + 13400.) * 9.81
-
-
-def table(folder, name):
-    with open(os.path.join(folder, name), encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    return {key: [float(row[key]) for row in rows if row[key] not in ("adhesion", "slip")] for key in rows[0]}
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -87,13 +81,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("2 ranks against 1: stress of a cell, share",
                 max(abs(b / a - 1.) for a, b in zip(cells["cell_2_von_mises_Pa"], others["cell_2_von_mises_Pa"])), 1e-6)
 
-    arguments = arguments_of(SCENE, path("parts"), settings)
-    process = subprocess.Popen(command(program, arguments), env=environment(), stdout=subprocess.DEVNULL)
+    arguments = arguments_of(SCENE, settings, path("parts"))
+    process = subprocess.Popen(command(arguments, program=program), env=environment(), stdout=subprocess.DEVNULL)
     press_ctrl_c(process, os.path.join(path("parts"), "history.csv"), 40)
     process.wait(timeout=120)
     check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
-    more = subprocess.run(command(program, arguments + ["--resume", "-s", "Output/Cells=-8,-12,1"]), env=environment(),
-                          capture_output=True, text=True)
+    more = execute(arguments + ["--resume", "-s", "Output/Cells=-8,-12,1"], program=program)
     check.that("resuming with other cells is refused by name", more.returncode == 1 and "set Cells" in more.stderr)
     run(program, SCENE, path("parts"), settings, 2, more=["--resume"])
     parts = table(path("parts"), "strip.csv")

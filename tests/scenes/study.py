@@ -8,7 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, environment, press_ctrl_c, run
+from tread.runs import ROOT, environment
+from tread_runner import Check, press_ctrl_c, run, table
 
 program = sys.argv[1]
 check = Check()
@@ -36,14 +37,13 @@ def write(path, vary, settings=SETTINGS, **entries):
     return path
 
 
-def table(folder):
+def study_table(folder):
     with open(os.path.join(folder, "study.csv"), encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
 
 
 def column(folder, name):
-    with open(os.path.join(folder, "history.csv"), encoding="utf-8") as stream:
-        return [float(row[name]) for row in csv.DictReader(stream)]
+    return table(folder, "history.csv")[name]
 
 
 def refused(name, study, words):
@@ -61,7 +61,7 @@ with tempfile.TemporaryDirectory() as folder:
                   Directory=path("product"), Figures="traction_coefficient | max(normal_force_N) | last(position_m) | max(strip.csv:von_mises_MPa) | "
                           "at(strip.csv:von_mises_MPa:x_mm)")
     result = perform(study, "--processes", "2")
-    rows = table(path("product"))
+    rows = study_table(path("product"))
     check.that("a run that fails: the exit code says so", result.returncode == 1)
     check.that("a product: every combination once", [(row["Motion/Creepage"], row["Contact/Friction coefficient"]) for row in rows]
                == [("0.001", "0.4"), ("0.001", "0.5"), ("0.9", "0.4"), ("0.9", "0.5")])
@@ -87,7 +87,7 @@ with tempfile.TemporaryDirectory() as folder:
     result = perform(study)
     check.that("a complete run is not repeated", os.stat(summary).st_mtime_ns == before and "creepage-0.001" not in
                result.stdout.split("Motion/Creepage")[0])
-    check.that("a new value is run", [row["state"] for row in table(path("product"))] == ["complete"] * 4)
+    check.that("a new value is run", [row["state"] for row in study_table(path("product"))] == ["complete"] * 4)
     check.that("a figure that is not there is named, with an exit code", result.returncode == 1 and "no_such_figure" in result.stdout)
     write(study, {"Motion/Creepage": ["0.001"], "Contact/Friction coefficient": ["0.4"]}, SETTINGS + ["Motion/Speed (km per h)=70"],
           Directory=path("product"))
@@ -100,7 +100,7 @@ with tempfile.TemporaryDirectory() as folder:
                   SETTINGS + ["Defect/Shape=dip", "Defect/Position (mm)=-4", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], Directory=path("zip"), Combination="zip",
                   Smooth_twin="Defect/Shape=none", Figures="dynamic(normal_force_N)")
     result = perform(study)
-    rows = table(path("zip"))
+    rows = study_table(path("zip"))
     check.that("a zip with twins: exit code 0", result.returncode == 0)
     check.that("a zip: first with first", [(row["Defect/Depth (mm)"], row["Defect/Length (mm)"]) for row in rows]
                == [("0.002", "5"), ("0.004", "6")])
@@ -119,15 +119,15 @@ with tempfile.TemporaryDirectory() as folder:
     press_ctrl_c(process, history, 12)
     process.communicate(timeout=300)
     check.that("interrupted: exit code 130", process.returncode == 130)
-    rows = table(path("slow"))
+    rows = study_table(path("slow"))
     check.that("interrupted: the table says so", rows[1]["state"] == "interrupted" and rows[2]["state"] in ("not begun", "interrupted"))
     result = perform(study)
     check.that("continued: all complete, exit code 0", result.returncode == 0
-               and all(row["state"] == "complete" for row in table(path("slow"))))
+               and all(row["state"] == "complete" for row in study_table(path("slow"))))
     check.that("continued: from the checkpoint", "creepage-0.002: goes on" in result.stdout)
     whole = run(program, "smooth-rolling.prm", path("whole"), slow + ["Motion/Creepage=0.002"])
     # The table has eight digits.
-    check.relative("continued against never stopped", float(table(path("slow"))[1]["traction_coefficient"]),
+    check.relative("continued against never stopped", float(study_table(path("slow"))[1]["traction_coefficient"]),
                    whole["traction_coefficient"], 1e-7)
 
     vary = {"Motion/Creepage": ["0.001", "0.002"]}

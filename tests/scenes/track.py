@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A wheel on a bar on sleepers, 20 mm of the tutorial scene: equilibrium at the start, steady rolling, ranks, resuming."""
 
-import csv
 import os
 import subprocess
 import sys
 import tempfile
 
-from tread_runner import Check, arguments_of, command, environment, press_ctrl_c, run
+from tread.runs import arguments_of, command, environment
+from tread_runner import Check, press_ctrl_c, rows_of, run
 
 program = sys.argv[1]
 check = Check()
@@ -21,8 +21,7 @@ LOAD = 11906. * 9.81
 
 
 def history(folder):
-    with open(os.path.join(folder, "history.csv"), encoding="utf-8") as stream:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+    return rows_of(folder, "history.csv")
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -57,7 +56,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("support_0_pad_N", "support_0_ballast_N", "support_1_rail_m"):
         check.relative(f"2 ranks against 1: {name}", history(path("2"))[-1][name], rows[-1][name], 1e-7)
 
-    process = subprocess.Popen(command(program, arguments_of(SCENE, path("parts"), SETTINGS)), env=environment(), stdout=subprocess.DEVNULL)
+    process = subprocess.Popen(command(arguments_of(SCENE, SETTINGS, path("parts")), program=program), env=environment(), stdout=subprocess.DEVNULL)
     press_ctrl_c(process, os.path.join(path("parts"), "history.csv"), 5)
     process.wait(timeout=120)
     check.that("interrupted", process.returncode == 130)

@@ -1,31 +1,39 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the program for the scene tests, and prints comparisons like tests/check.h does."""
+"""What scene tests share beyond the package tread: runs that must succeed, Ctrl-C, comparisons as tests/check.h prints them."""
 
-import json
 import os
 import signal
 import subprocess
 import sys
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import tread
+from tread.runs import ROOT, environment, read_table
 
 
-def command(program, arguments, ranks=1):
-    launcher = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
-    return launcher + [program] + arguments
+def run(program, scene, output, settings=(), ranks=1, more=()):
+    """Run a scene to its end and return its summary; anything else ends the test."""
+    try:
+        return tread.run(scene, settings, ranks=ranks, output=output, options=more, program=program).summary
+    except tread.Error as error:
+        sys.exit(f"{scene} on {ranks} rank(s): {error}")
 
 
-def environment():
-    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", DEAL_II_NUM_THREADS="1",
-                OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
+def table(folder, name):
+    """{column: list} of a CSV file of a run."""
+    return {column: values.tolist() for column, values in read_table(os.path.join(folder, name)).items()}
 
 
-def arguments_of(scene, output, settings=()):
-    arguments = [os.path.join(ROOT, "prm", scene), "--output", output]
-    for setting in settings:
-        arguments += ["-s", setting]
-    return arguments
+def rows_of(folder, name):
+    """[{column: value}] of the same."""
+    columns = table(folder, name)
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]
+
+
+def script(name, *arguments):
+    """The ended process of a command of contrib/, with what it wrote."""
+    return subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", name), *arguments], env=environment(),
+                          capture_output=True, text=True)
 
 
 def press_ctrl_c(process, history, rows):
@@ -36,16 +44,6 @@ def press_ctrl_c(process, history, rows):
             break
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
-
-
-def run(program, scene, output, settings=(), ranks=1, more=()):
-    """Run a scene to its end and return its summary; anything else ends the test."""
-    arguments = arguments_of(scene, output, settings) + list(more)
-    result = subprocess.run(command(program, arguments, ranks), env=environment(), capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit(f"{scene} on {ranks} rank(s) ended with {result.returncode}: {result.stderr.strip()[-1000:]}")
-    with open(os.path.join(output, "summary.json"), encoding="utf-8") as stream:
-        return json.load(stream)
 
 
 class Check:

@@ -4,11 +4,11 @@
 
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
-from tread_runner import ROOT, Check, run
+from tread.runs import ROOT
+from tread_runner import Check, run, script
 
 program, scene, contact = sys.argv[1:4]
 # What cells of 0.63 mm, a ninth of the smaller semi-axis, must reach: about half as much again as was found. With two cells
@@ -23,8 +23,10 @@ check = Check()
 with tempfile.TemporaryDirectory() as folder:
     summary = run(program, f"verification/{scene}.prm", folder, ["Output/Write volume=false"], 2)
     measures = os.path.join(folder, "measures.json")
-    subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "contrib", "plot", "compare-contact.py"), folder,
-                    os.path.join(ROOT, "contrib", "reference", contact), "--scale", str(scale), "--json", measures], check=True)
+    compared = script("plot/compare-contact.py", folder, os.path.join(ROOT, "contrib", "reference", contact), "--scale", str(scale),
+                      "--json", measures)
+    print(compared.stdout, compared.stderr)
+    compared.check_returncode()
     with open(measures, encoding="utf-8") as stream:
         print(stream.read())
         stream.seek(0)
