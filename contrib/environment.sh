@@ -1,4 +1,5 @@
-# Sourced by quickstart.sh and test.sh: settings for Open MPI and the libraries under deal.II.
+# Sourced by quickstart.sh, test.sh and the tests on several ranks: settings for Open MPI and the libraries under deal.II.
+# contrib/python/tread/runs.py has the same; the test python.package compares them.
 
 # One thread a rank: the ranks are what uses the cores.
 export DEAL_II_NUM_THREADS=1 OMP_NUM_THREADS=1

@@ -57,11 +57,6 @@ def environment(**more):
     return {**os.environ, **settings, **more}
 
 
-def patient_environment():
-    """Of runs that Ctrl-C may end: mpirun kills its ranks a second later, too soon for a large checkpoint."""
-    return environment(OMPI_MCA_odls_base_sigkill_timeout="60")
-
-
 def command(arguments, ranks=1, program=PROGRAM):
     """The program on so many ranks; one rank needs no mpirun."""
     launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
@@ -116,7 +111,7 @@ def run(scene, settings=None, *, ranks=1, output=None, options=(), program=PROGR
         output = parameters_in(asked.splitlines())["Output/Directory"] + ("-reference" if "--reference-only" in options else "")
     line = command([*arguments_of(scene, settings or {}, os.fspath(output)), *options], ranks, program)
     # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
-    with subprocess.Popen(line, env=patient_environment(), stdout=None if show else subprocess.DEVNULL, stderr=subprocess.PIPE,
+    with subprocess.Popen(line, env=environment(), stdout=None if show else subprocess.DEVNULL, stderr=subprocess.PIPE,
                           text=True, start_new_session=True) as process:
         try:
             errors = process.communicate()[1]

@@ -38,8 +38,7 @@ import subprocess
 import time
 
 from .commands import command_parser, run_command
-from .runs import (PROGRAM, DataError, ProgramError, Run, arguments_of, command, dynamic_force, is_complete, own_line,
-                   patient_environment)
+from .runs import PROGRAM, DataError, ProgramError, Run, arguments_of, command, dynamic_force, environment, is_complete, own_line
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
@@ -193,9 +192,10 @@ class Member(Run):
         line = command(self.line + (["--resume"] if resume else []), self.ranks, self.program)
         print(f"{self.name}: {'goes on' if resume else 'begins'}", flush=True)
         with open(self.path("output.txt"), "a" if resume else "w", encoding="utf-8") as output:
-            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
-            self.process = subprocess.Popen(line, env=patient_environment(), stdout=output, stderr=subprocess.STDOUT,
-                                            start_new_session=True)
+            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well. mpirun kills its ranks a
+            # second later, too soon for a large checkpoint.
+            self.process = subprocess.Popen(line, env=environment(OMPI_MCA_odls_base_sigkill_timeout="60"), stdout=output,
+                                            stderr=subprocess.STDOUT, start_new_session=True)
 
     def ended(self):
         """Whether it has ended; then its state says how."""

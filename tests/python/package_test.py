@@ -1,0 +1,259 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The Python package and the commands that use it, with a stand-in for the program; with the program as argument real runs too.
+
+    tests/python/package_test.py [build/source/tread]
+"""
+
+import csv
+import glob
+import gzip
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+
+import tread
+from tread import measured_runs, studies, tables
+from tread.comparison import compare
+from tread.patches import read_patch
+from tread.runs import ROOT, arguments_of, command, environment, read_table
+
+REAL_PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
+
+# Refuses a creepage of 0.9 as the program does, and otherwise leaves its arguments and a patch in its folder.
+STAND_IN = """#!/usr/bin/python3
+import json, os, sys
+if "Motion/Creepage=0.9" in sys.argv:
+    print("a warning", file=sys.stderr)
+    sys.exit("tread: 'Motion/Creepage' cannot be '0.9'")
+if "--print-parameters" in sys.argv:
+    print("subsection Output\\n  set Directory = somewhere  # a folder\\nend")
+    sys.exit()
+folder = sys.argv[sys.argv.index("--output") + 1]
+os.makedirs(folder, exist_ok=True)
+with open(os.path.join(folder, "calls"), "a") as stream:
+    stream.write(".")
+with open(os.path.join(folder, "history.csv"), "w") as stream:
+    stream.write("time_s,position_m\\n0.5,1\\n1,2\\n")
+with open(os.path.join(folder, "summary.json"), "w") as stream:
+    json.dump(dict(completed=True, version="0", normal_force_N=140e3, arguments=sys.argv[1:]), stream)
+"""
+
+
+def write(path, text):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(text)
+    return path
+
+
+class InFolder(unittest.TestCase):
+    """A test with a folder of its own, which is the current one, and a stand-in for the program."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(temporary.name)
+        self.folder = temporary.name
+        self.program = write(self.path("stand-in"), STAND_IN)
+        os.chmod(self.program, 0o755)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+
+class Tables(InFolder):
+    def test_numbers_text_and_comments(self):
+        text = "# a comment\na_m, state ,b\n1,slip,x\n\n2.5,adhesion,y\n"
+        write(self.path("plain.csv"), text)
+        with gzip.open(self.path("packed.csv.gz"), "wt") as stream:
+            stream.write(text)
+        for name in ("plain.csv", "packed.csv.gz"):
+            table = read_table(self.path(name), ("a_m", "state"))
+            self.assertEqual(table["a_m"].tolist(), [1, 2.5])
+            self.assertEqual(table["state"].tolist(), ["slip", "adhesion"])
+            self.assertNotIn("b", table)
+
+    def test_what_is_wrong_is_said_in_one_line(self):
+        for text, words in (("", "empty file"), ("a\n1\n", "no column 'b' (columns: a)"), ("a,b\n1,2\n3\n", "data row 2 has 1 entries"),
+                            ("a,b\n1,x\n", "column 'b' has an entry that is not a number")):
+            with self.assertRaisesRegex(tread.DataError, re.escape("table.csv: " + words)):
+                read_table(write(self.path("table.csv"), text), ("b",))
+        with self.assertRaisesRegex(tread.DataError, "none.csv: No such file"):
+            read_table("none.csv")
+
+    def test_pages(self):
+        page = write(self.path("doc", "page.md"), "before\n<!-- begin table t -->\nold\n<!-- end table t -->\nafter\n")
+        with mock.patch.object(tables, "ROOT", self.folder), mock.patch("builtins.print"):
+            tables.fill("page.md", "t", tables.markdown(["x", "y"], [["1", r"\2"]]))
+            with self.assertRaisesRegex(tread.DataError, "no place for table 'u'"):
+                tables.fill("page.md", "u", "")
+        with open(page, encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "before\n<!-- begin table t -->\n| x | y |\n|---|---|\n| 1 | \\2 |\n<!-- end table t -->\nafter\n")
+        self.assertEqual([tables.number(value) for value in (None, 1234.5, 0.012345)], ["-", "1234", "0.0123"])
+
+
+class Patches(InFolder):
+    """An ellipse of Hertz's pressure 6 by 4 mm on nodes 0.5 mm apart, whose trailing third slips."""
+
+    def write_patch(self, name, pressure=1.0, contact=False):
+        columns = ("x_mm,y_mm,pn_MPa,px_MPa,py_MPa,sx_m_s,sy_m_s,state" if contact else
+                   "x_mm,y_mm,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state")
+        lines = [columns]
+        for x in np.arange(-6, 6.01, 0.5):
+            for y in np.arange(-4, 4.01, 0.5):
+                square = 1 - (x / 6) ** 2 - (y / 4) ** 2
+                p, slips = 1000 * np.sqrt(max(square, 0.0)), x < -2
+                state = "exterior" if square <= 0 else "slip" if slips else "adhesion"
+                lines.append(f"{x + 3},{y},{pressure * p},{0.3 * p if slips else 0.1 * p},0,{0.2 if slips else 0},0,{state}")
+        return write(self.path(name), "\n".join(lines) + "\n")
+
+    def test_patch(self):
+        patch = read_patch(self.write_patch("patch.csv"))
+        self.assertEqual(patch.pressure.shape, patch.adhesion.shape)
+        self.assertAlmostEqual(patch.size_x, 0.5)
+        self.assertAlmostEqual(patch.area.sum() / (np.pi * 6 * 4), 1, delta=0.03)  # a node's cell at the rim is in or out
+        self.assertAlmostEqual((patch.pressure * patch.area).sum() / (1000 * 2 / 3 * np.pi * 6 * 4), 1, delta=0.01)
+        np.testing.assert_allclose(patch.centroid(), (3, 0), atol=1e-9)
+        self.assertAlmostEqual(patch.friction_coefficient(), 0.3)
+        # Bilinear between the nodes: the mean of the four around, and zero outside.
+        np.testing.assert_allclose(patch.sampled(patch.x, np.array([3.25, 30]), np.array([0.25, 0])), [3.25, 0])
+
+    def test_comparison(self):
+        own, contact = self.path("run", "patch.csv"), self.write_patch("contact.csv", contact=True)
+        write(self.path("run", "summary.json"), "{}")
+        self.write_patch(own)
+        same = compare(self.path("run"), contact)
+        for key in ("max_pressure_relative_difference", "pressure_rms_over_max", "shear_rms_over_max", "micro_slip_rms_over_max",
+                    "adhesion_share_difference_points", "shift_x_mm"):
+            self.assertAlmostEqual(same[key], 0, delta=1e-9, msg=key)
+        self.write_patch(own, pressure=1.02)
+        other = compare(self.path("run"), contact)
+        self.assertAlmostEqual(other["max_pressure_relative_difference"], 0.02)
+        self.assertGreater(other["pressure_rms_over_max"], 0.005)
+        self.assertAlmostEqual(compare(self.path("run"), contact, 1.02)["max_pressure_relative_difference"], 0)
+
+
+class Runs(InFolder):
+    def test_command_line(self):
+        shipped = os.path.join(ROOT, "prm", "smooth-rolling.prm")
+        self.assertEqual(arguments_of("smooth-rolling.prm", {"A/B (mm)": 1.3, "C/D": True}, "out"),
+                         [shipped, "-s", "A/B (mm)=1.3", "-s", "C/D=true", "--output", "out"])
+        self.assertEqual(arguments_of("smooth-rolling.prm", ["A/B=1"]), [shipped, "-s", "A/B=1"])
+        write(self.path("smooth-rolling.prm"), "")
+        self.assertEqual(arguments_of("smooth-rolling.prm"), ["smooth-rolling.prm"])
+        self.assertEqual(command(["x"], 1, "tread"), ["tread", "x"])
+        self.assertEqual(command(["x"], 3, "tread")[:3] + command(["x"], 3, "tread")[-2:], ["mpirun", "-np", "3", "tread", "x"])
+
+    def test_environment_is_that_of_the_shell_scripts(self):
+        shell = subprocess.run(["bash", "-c", f". {ROOT}/contrib/environment.sh && env -0"], env={"PATH": os.environ["PATH"]},
+                               check=True, capture_output=True, text=True).stdout
+        shell = dict(line.partition("=")[::2] for line in shell.split("\0") if re.match("DEAL_II|OMP", line))
+        with mock.patch.dict(os.environ, {}, clear=True):
+            self.assertEqual(environment(), shell)
+            self.assertEqual(environment(A="1")["A"], "1")
+
+    def test_a_run(self):
+        run = tread.run("smooth-rolling.prm", {"Motion/Creepage": 0.001}, output=self.path("out"), options=["--resume"],
+                        program=self.program)
+        self.assertEqual((run.folder, run.summary["normal_force_N"]), (self.path("out"), 140e3))
+        self.assertEqual(run.summary["arguments"][1:], ["-s", "Motion/Creepage=0.001", "--output", self.path("out"), "--resume"])
+        self.assertEqual(run.history["position_m"].tolist(), [1, 2])
+        self.assertEqual(run.parameters, {})
+        with self.assertRaisesRegex(tread.DataError, "patch.csv: No such file"):
+            run.patch
+        self.assertEqual(tread.run("smooth-rolling.prm", program=self.program).folder, "somewhere")
+        self.assertEqual(tread.run("smooth-rolling.prm", program=self.program, options=["--reference-only"]).folder, "somewhere-reference")
+
+    def test_a_run_that_fails(self):
+        with self.assertRaises(tread.ProgramError) as caught:
+            tread.run("smooth-rolling.prm", {"Motion/Creepage": 0.9}, output=self.path("out"), program=self.program)
+        self.assertEqual((str(caught.exception), caught.exception.exit_code), ("'Motion/Creepage' cannot be '0.9'", 1))
+        with self.assertRaisesRegex(tread.Error, "none: no such program"):
+            tread.run("smooth-rolling.prm", program="none")
+        with self.assertRaisesRegex(tread.DataError, "none/summary.json: No such file"):
+            tread.Run("none").summary
+
+    def test_runs_that_are_kept(self):
+        line = lambda arguments, ranks: [self.program, *arguments]
+        with mock.patch.object(measured_runs, "command", line), mock.patch("builtins.print"):
+            for value in (1, 1, 2):  # once more with another setting
+                summary = measured_runs.run_scene("smooth-rolling.prm", self.path("kept"), {"A/B": value})
+            with self.assertRaisesRegex(tread.ProgramError, "smooth-rolling.prm ended with 1 .'Motion/Creepage' cannot be '0.9'"):
+                measured_runs.run_scene("smooth-rolling.prm", self.path("fails"), {"Motion/Creepage": 0.9})
+        with open(self.path("kept", "calls"), encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "..")
+        self.assertGreater(summary["seconds"], 0)
+        self.assertGreater(summary["peak_bytes"], 1e6)
+
+
+class Studies(InFolder):
+    def test_names_of_folders(self):
+        self.assertEqual(studies.folder_name({"Motion/Speed (km per h)": "100", "Defect/Depth (mm)": "-0.2"}), "speed-100_depth--0.2")
+        self.assertEqual(studies.folder_name({"Rail/Shape": "a b", "Wheel/Shape": "c"}), "rail-shape-a-b_wheel-shape-c")
+
+    def test_a_study(self):
+        study = write(self.path("two.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\nset Figures = normal_force_N | last(position_m)\n"
+                      "subsection Vary\n  set Motion/Creepage = 0.001 | 0.9\nend\n")
+        result = subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (1, ""))
+        with open(self.path("results", "two", "study.csv"), encoding="utf-8") as stream:
+            self.assertEqual(list(csv.reader(stream))[1:], [["0.001", "140000", "2", "complete"],
+                                                            ["0.9", "", "", "failed: 'Motion/Creepage' cannot be '0.9'"]])
+
+
+class Commands(unittest.TestCase):
+    def test_help_from_any_folder(self):
+        commands = [path for pattern in ("contrib/*.py", "contrib/plot/*.py", "benchmarks/*.py") for path in glob.glob(os.path.join(ROOT, pattern))]
+        self.assertGreater(len(commands), 15)
+        for path in commands:
+            with self.subTest(os.path.relpath(path, ROOT)):
+                result = subprocess.run([path, "--help"], cwd="/", env={"PATH": os.environ["PATH"]}, capture_output=True, text=True)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertIn("usage: " + os.path.basename(path), result.stdout)
+
+    def test_what_fails_is_said_in_one_line(self):
+        result = subprocess.run([os.path.join(ROOT, "contrib/plot/plot-run.py"), "none"], cwd="/", capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (1, "plot-run.py: none/summary.json: No such file or directory\n"))
+
+    def test_version_is_that_of_the_program(self):
+        versions = []
+        for path, pattern in (("CMakeLists.txt", r"project\(tread VERSION (\S+)"), ("contrib/python/pyproject.toml", r'version = "(.+)"')):
+            with open(os.path.join(ROOT, path), encoding="utf-8") as stream:
+                versions += re.findall(pattern, stream.read())
+        self.assertEqual(versions, versions[:1] * 2)
+
+
+@unittest.skipUnless(REAL_PROGRAM, "no program named")
+class TheProgram(InFolder):
+    COARSE = {"Mesh/Finest cell (mm)": 1.3, "Mesh/Fine half width (mm)": 9, "Motion/Rolled distance (mm)": 3, "Output/Write volume": False}
+
+    def test_a_short_run(self):
+        run = tread.run("smooth-rolling.prm", self.COARSE, output="short", program=REAL_PROGRAM)
+        self.assertTrue(run.summary["completed"])
+        self.assertEqual(float(run.parameters["Mesh/Finest cell (mm)"]), 1.3)
+        # It has rolled a millimetre: the load holds, and the patch carries it.
+        self.assertAlmostEqual(run.history["normal_force_N"][-1] / (14300 * 9.81), 1, delta=0.02)
+        self.assertAlmostEqual((run.patch.pressure * run.patch.area).sum() / run.summary["normal_force_N"], 1, delta=0.02)
+
+    def test_its_own_folder_and_its_own_line(self):
+        own = tread.run("smooth-rolling.prm", {"Output/Directory": "own"}, options=["--reference-only"], program=REAL_PROGRAM)
+        self.assertEqual(own.folder, "own-reference")
+        self.assertAlmostEqual(own.summary["traction_coefficient"], 0.3, delta=1e-4)
+        for ranks in (1, 2):
+            with self.assertRaises(tread.ProgramError) as caught:
+                tread.run("smooth-rolling.prm", {"Contact/Friction coefficient": -1}, ranks=ranks, output="bad", program=REAL_PROGRAM)
+            self.assertEqual(caught.exception.exit_code, 1)
+            self.assertRegex(str(caught.exception), "^'Contact/Friction coefficient'")
+        self.assertFalse(os.path.exists("bad"))
+
+
+if __name__ == "__main__":
+    unittest.main()
