@@ -9,6 +9,7 @@ packages=(
   libdeal.ii-dev                       # mesh, octree, output; brings MPI, p4est, Trilinos
   libfftw3-dev                         # half-space solver
   nlohmann-json3-dev                   # summary.json
+  libcli11-dev                         # command line
   openmpi-bin                          # mpirun
   python3 python3-numpy python3-matplotlib # pictures
   python3-vtk9                         # tests read the ParaView files back

@@ -7,32 +7,17 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <exception>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <thread>
 
 namespace
 {
-  const char *usage = R"(tread: a railway wheel rolls over a rail
-
-  tread SCENE.prm [options]            mpirun -np N tread SCENE.prm [options]
-
-  -s "Section/Name=value"   set a parameter; may be repeated
-  --output DIR              folder of the results
-  --resume                  go on from the last checkpoint in that folder
-  --reference-only          print and write the half-space answer of the scene in a second; roll nothing
-  --dry-run                 print size and cost of the run; run and write nothing
-  --dynamic-force RUN --smooth-twin TWIN [--window Hann] [--from MM] [--to MM]
-                            what a defect adds: forces of the run in one folder minus those of the run without
-                            the defect in another, with spectra
-  --print-parameters        print all parameters with units, ranges and meaning, and stop
-  --version, --help
-)";
-
   struct CommandLine
   {
     std::string                scene;
@@ -42,47 +27,50 @@ namespace
     bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
   };
 
-  CommandLine parse(const int argc, char **argv)
+  /// @returns what the user asked for; nothing if it was help or the version, which is then printed.
+  /// @throws SceneError
+  std::optional<CommandLine> parse(const int argc, char **argv, const bool speaks)
   {
-    CommandLine                                line;
-    const std::map<std::string, std::string *> dynamic_force{{"--dynamic-force", &line.dynamic.run},
-                                                             {"--smooth-twin", &line.dynamic.smooth_twin},
-                                                             {"--window", &line.dynamic.window},
-                                                             {"--from", &line.dynamic.from_mm},
-                                                             {"--to", &line.dynamic.to_mm}};
-    for (int i = 1; i < argc; ++i)
+    CommandLine line;
+    CLI::App    app("tread: a railway wheel rolls over a rail\n"
+                       "tread SCENE.prm [options]            mpirun -np N tread SCENE.prm [options]");
+    app.set_version_flag("--version", "tread " + tread::version());
+    app.add_option("SCENE.prm", line.scene, "parameter file");
+    app.add_option("-s", line.settings, "\"Section/Name=value\": set a parameter; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--output", line.output, "folder of the results");
+    app.add_flag("--print-parameters", line.print_parameters,
+                 "print all parameters with units, ranges and meaning, and stop");
+    CLI::Option_group *how = app.add_option_group("How to run the scene");
+    how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
+    how->add_flag("--reference-only", line.reference_only,
+                  "print and write the half-space answer of the scene in a second; roll nothing");
+    how->add_flag("--dry-run", line.dry_run, "print size and cost of the run; run and write nothing");
+    how->require_option(0, 1);
+    CLI::Option *defect = app.add_option("--dynamic-force", line.dynamic.run,
+                                         "folder of a run: what the defect adds to its forces, with spectra"),
+                *smooth = app.add_option("--smooth-twin", line.dynamic.smooth_twin,
+                                         "folder of the run without the defect");
+    defect->needs(smooth);
+    smooth->needs(defect);
+    app.add_option("--window", line.dynamic.window, "of the spectra: rectangular or Hann")->needs(defect);
+    app.add_option("--from", line.dynamic.from_mm, "first position that counts, mm")->needs(defect);
+    app.add_option("--to", line.dynamic.to_mm, "last position that counts, mm")->needs(defect);
+    try
       {
-        const std::string argument = argv[i];
-        const auto        value    = [&]() -> std::string {
-          if (i + 1 >= argc)
-            throw tread::SceneError(argument + " needs a value");
-          return argv[++i];
-        };
-        if (argument == "-s")
-          line.settings.push_back(value());
-        else if (argument == "--output")
-          line.output = value();
-        else if (const auto option = dynamic_force.find(argument); option != dynamic_force.end())
-          *option->second = value();
-        else if (argument == "--resume")
-          line.resume = true;
-        else if (argument == "--reference-only")
-          line.reference_only = true;
-        else if (argument == "--dry-run")
-          line.dry_run = true;
-        else if (argument == "--print-parameters")
-          line.print_parameters = true;
-        else if (!argument.empty() && argument[0] == '-')
-          throw tread::SceneError("unknown option '" + argument + "'; tread --help lists all");
-        else if (!line.scene.empty())
-          throw tread::SceneError("more than one scene: '" + line.scene + "' and '" + argument + "'");
-        else
-          line.scene = argument;
+        app.parse(argc, argv);
       }
-    if (line.resume + line.reference_only + line.dry_run > 1)
-      throw tread::SceneError("only one of --resume, --reference-only and --dry-run can be asked for");
-    if (line.dynamic.run.empty() != line.dynamic.smooth_twin.empty())
-      throw tread::SceneError("--dynamic-force and --smooth-twin need each other: folders of two runs");
+    catch (const CLI::Success &asked)
+      {
+        if (speaks)
+          app.exit(asked);
+        return {};
+      }
+    catch (const CLI::ParseError &error)
+      {
+        throw tread::SceneError(std::string(error.what()) + "; tread --help lists all options");
+      }
     if (!line.dynamic.run.empty() && !line.scene.empty())
       throw tread::SceneError("--dynamic-force reads two runs; it takes no scene");
     if (!line.dynamic.run.empty() && (line.resume || line.reference_only || line.dry_run))
@@ -93,17 +81,11 @@ namespace
 
   int run(const int argc, char **argv, const MPI_Comm comm)
   {
-    const bool speaks = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-    for (int i = 1; i < argc; ++i)
-      if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 ||
-          std::strcmp(argv[i], "--version") == 0)
-        {
-          if (speaks)
-            std::cout << (std::strcmp(argv[i], "--version") == 0 ? "tread " + tread::version() + "\n"
-                                                                 : std::string(usage));
-          return 0;
-        }
-    CommandLine line = parse(argc, argv);
+    const bool                 speaks = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    std::optional<CommandLine> asked  = parse(argc, argv, speaks);
+    if (!asked)
+      return 0;
+    CommandLine &line = *asked;
     if (!line.dynamic.run.empty())
       {
         line.dynamic.output = line.output;
@@ -123,8 +105,8 @@ namespace
     if (line.reference_only)
       {
         // beside the results of the run, never over them
-        tread::run_reference_only(scene, line.output.empty() ? scene.output + "-reference" : line.output,
-                                  comm);
+        tread::run_reference_only(
+          scene, line.output.empty() ? scene.output.directory + "-reference" : line.output, comm);
         return 0;
       }
     tread::Simulation simulation(scene, comm);
@@ -133,7 +115,7 @@ namespace
         simulation.estimate();
         return 0;
       }
-    return simulation.run(line.output.empty() ? scene.output : line.output, line.resume) ? 0 : 130;
+    return simulation.run(line.output.empty() ? scene.output.directory : line.output, line.resume) ? 0 : 130;
   }
 
   /// An error found by all ranks is printed once. Otherwise each failing rank prints its error and ends the

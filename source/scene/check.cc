@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// What the parameters of several sections have to say to each other.
+#include <tread/mesh/rail_body.h>
 #include <tread/reference/hertz.h>
-#include <tread/reference/rolling_case.h>
+#include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace tread
 {
@@ -15,230 +16,273 @@ namespace tread
     /// suffice.
     constexpr double least_damping_of_levels = 0.1;
 
-    std::string number(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
+    /// Places that should be equal may differ by this, m.
+    constexpr double round_off = 1e-9;
   } // namespace
 
 
   void Scene::check() const
   {
-    const auto require = [](const bool holds, const std::string &line) {
-      if (!holds)
-        throw SceneError(line);
-    };
-    require(
-      density_scale == 1. || quasi_static,
-      "'Scene/Density scale' must be 1 when 'Scene/Quasi-static' is false: inertia is part of the answer");
-    require(mass_damping == 0. || quasi_static,
-            "'Solid/Mass damping (1 per s)' must be 0 when 'Scene/Quasi-static' is false: it slows waves "
-            "that are part of the answer");
-    require(inertia_error_estimate() <= 0.02 || !quasi_static,
-            "'Scene/Density scale' " + number(density_scale) + " at " + number(speed_kmh) +
-              " km/h makes an inertia error of about " + number(100. * inertia_error_estimate()) +
-              " %; at most 2 % is allowed");
-    require(speed_kmh >= 0.1,
-            "'Motion/Speed (km per h)' must be at least 0.1: a wheel that stands does not roll" +
-              std::string(drive == "torque" ? ", and a torque would only spin it" : ""));
-    require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
-    require(std::abs(traction_coefficient) < friction || (traction_coefficient == 0.) ||
-              (drive == "creepage" && !predicts_creepage()),
-            "'Motion/Traction coefficient' " + number(traction_coefficient) +
-              " must be below 'Contact/Friction coefficient' " + number(friction) + " in size");
-    if (!predicts_creepage())
-      {
-        double      value = 0.;
-        std::size_t used  = 0;
-        try
-          {
-            value = std::stod(creepage, &used);
-          }
-        catch (const std::exception &)
-          {
-          }
-        require(used == creepage.size() && used > 0 && std::abs(value) <= 0.2,
-                "'Motion/Creepage' cannot be '" + creepage +
-                  "'; allowed: 'predicted' or a number from -0.2 to 0.2");
-      }
-    require(drive != "torque" || hold_mm < rolled_mm,
-            "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " + number(rolled_mm));
-
+    general.check();
+    check_motion();
+    rail.check();
     check_surfaces();
-    const ElasticMaterial wheel = wheel_material.si(), rail = rail_material.si();
-    const auto            pair = reference::combine({wheel.young_modulus, wheel.poisson_ratio},
-                                                    {rail.young_modulus, rail.poisson_ratio});
-    const auto            hertz =
-      reference::hertz_ellipse(500. / radius_mm, 0.5 / lateral_radius(), pair.hertz_modulus(), static_load());
-    const double a_mm = 1e3 * hertz.semi_axis_x, b_mm = 1e3 * hertz.semi_axis_y;
-    require(finest_mm <= 0.45 * std::min(a_mm, b_mm),
-            "'Mesh/Finest cell (mm)' " + number(finest_mm) + " is too large for a patch of semi-axes " +
-              number(a_mm) + " and " + number(b_mm) + " mm; at most " + number(0.45 * std::min(a_mm, b_mm)));
-    const double fine_mm = 1e3 * fine_half_width(), needed_mm = 1e3 * needed_half_width();
-    require(fine_mm >= needed_mm * (1. - 1e-9),
-            "'Mesh/Fine half width (mm)' " + number(fine_mm) +
-              " must hold the patch from y = " + number(1e3 * patch_extent().begin) + " to " +
-              number(1e3 * patch_extent().end) + " mm; at least " + number(needed_mm));
-    require(rail_margin_mm >= 3. * a_mm, "'Rail/Margin (mm)' " + number(rail_margin_mm) +
-                                           " lets the wheel leave the rail; at least three semi-axes, " +
-                                           number(3. * a_mm));
-    require(wheel_shape == "full" || sector_margin_mm >= 3. * a_mm,
-            "'Wheel/Sector margin (mm)' " + number(sector_margin_mm) +
-              " lets the contact leave the sector; at least three semi-axes, " + number(3. * a_mm));
-    require(wheel_shape == "full" ||
-              rolled_mm + 2. * sector_margin_mm <= 0.95 * 2. * dealii::numbers::PI * radius_mm,
-            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
-            "wheel's "
-            "circumference, " +
-              number(0.95 * 2. * dealii::numbers::PI * radius_mm));
-    require(wheel_shape == "full" || sector_thickness_mm < radius_mm,
-            "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + number(radius_mm));
-    require(wheel_shape == "sector" ||
-              (bore_radius_mm < hub_outer_radius_mm && hub_outer_radius_mm < rim_inner_radius_mm &&
-               rim_inner_radius_mm < radius_mm),
-            "a full wheel needs 'Wheel/Bore radius (mm)' < 'Hub outer radius (mm)' < 'Rim inner radius (mm)' "
-            "< 'Radius (mm)'");
-    require(wheel_shape == "sector" || web_thickness_mm < std::min(rim_width_mm, hub_length_mm),
-            "'Wheel/Web thickness (mm)' " + number(web_thickness_mm) +
-              " must be below 'Wheel/Rim width (mm)' " + number(rim_width_mm) +
-              " and 'Wheel/Hub length (mm)' " + number(hub_length_mm));
-    require(rail_shape != "block" || crown_radius_mm > 0.5 * block_width_mm,
-            "'Rail/Crown radius (mm)' " + number(crown_radius_mm) +
-              " must be above half of 'Rail/Block width (mm)', " + number(0.5 * block_width_mm));
-    require(rail_shape != "block" ||
-              block_height_mm > -1e3 * crown_height(5e-4 * block_width_mm, 1e-3 * crown_radius_mm),
-            "'Rail/Block height (mm)' " + number(block_height_mm) + " must be above the rise of the crown, " +
-              number(-1e3 * crown_height(5e-4 * block_width_mm, 1e-3 * crown_radius_mm)));
-
+    check_defect();
+    wheel.check();
+    mesh.check();
+    check_mesh();
     check_track();
-
-    // Around the finest cells there is room for at least one more.
-    require(coarsest_mm >= finest_mm, "'Mesh/Coarsest cell (mm)' " + number(coarsest_mm) +
-                                        " must be at least 'Mesh/Finest cell (mm)' " + number(finest_mm));
-    const double rail_half_width_mm =
-      rail_shape == "block" ? 0.5 * block_width_mm : 1e3 * rail_profile().shoulder_length();
-    const double beside_mm = 1e3 * std::abs(path_y());
-    require(beside_mm + fine_mm <= rail_half_width_mm - finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_mm) +
-              (beside_mm > 0. ? " about y = " + number(1e3 * path_y()) + " mm" : "") +
-              " must be below the half width of the rail; at most " +
-              number(rail_half_width_mm - finest_mm - beside_mm));
-    const double wheel_half_width_mm = 0.5 * (wheel_shape == "full" ? rim_width_mm : sector_width_mm);
-    require(beside_mm + fine_mm <= wheel_half_width_mm - finest_mm,
-            "'Mesh/Fine half width (mm)' " + number(fine_mm) +
-              " must be below half of the wheel's width; at most " +
-              number(wheel_half_width_mm - finest_mm - beside_mm));
-    const double thickness_mm =
-      std::min(rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-               wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm);
-    require((fine_layers + 1) * finest_mm <= thickness_mm * (1. + 1e-9),
-            "'Mesh/Fine layers' " + std::to_string(fine_layers) + " of 'Mesh/Finest cell (mm)' " +
-              number(finest_mm) + " do not fit into rail and wheel; at most " +
-              std::to_string(std::max(0, static_cast<int>(thickness_mm / finest_mm * (1. + 1e-9)) - 1)));
-    require(element == "one-point" || (linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.),
-            "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
-            "'Solid/Element' fully-integrated");
-    check_plasticity("Wheel", wheel_material,
-                     wheel_shape == "full" ? radius_mm - rim_inner_radius_mm : sector_thickness_mm,
-                     wheel_half_width_mm - beside_mm, -sector_margin_mm, rolled_mm + sector_margin_mm);
-    check_plasticity("Rail", rail_material,
-                     rail_shape == "block" ? block_height_mm : 1e3 * rail_profile().head_depth(),
-                     rail_half_width_mm - beside_mm, 1e3 * rail_begin(), 1e3 * rail_end());
+    solid.check();
+    check_plasticity();
     check_numerics();
   }
 
 
-  void Scene::check_plasticity(const std::string &section,
-                               const Material    &material,
-                               const double       thickness_mm,
-                               const double       half_width_mm,
-                               const double       begin_mm,
-                               const double       end_mm) const
+  void Scene::check_motion() const
   {
-    const auto require = [&](const bool holds, const std::string &name, const std::string &rest) {
-      if (!holds)
-        throw SceneError("'" + section + "/" + name + "' " + rest);
-    };
-    if (material.plastic_zones.empty() && material.yield_stress_MPa == 0.)
-      return;
-    const bool bilinear = material.hardening != "Armstrong-Frederick";
-    const auto below    = [&](const double tangent_GPa) {
-      return !bilinear || (tangent_GPa >= 0. && tangent_GPa < material.young_modulus_GPa);
-    };
-    require(element == "one-point" && linear_bulk_viscosity == 0. && quadratic_bulk_viscosity == 0.,
-            "Yield stress (MPa)", "needs 'Solid/Element' one-point and no bulk viscosity");
-    require(below(material.tangent_modulus_GPa), "Tangent modulus (GPa)",
-            number(material.tangent_modulus_GPa) + " must be below Young's modulus, " +
-              number(material.young_modulus_GPa));
-    require(bilinear || dealii::Utilities::split_string_list(material.backstress_moduli_GPa).size() ==
-                          dealii::Utilities::split_string_list(material.backstress_recoveries).size(),
-            "Backstress moduli (GPa)", "has not as many entries as '" + section + "/Backstress recoveries'");
-    require(material.plastic_depth_mm <= thickness_mm, "Plastic depth (mm)",
-            number(material.plastic_depth_mm) + " leaves the mesh; at most " + number(thickness_mm));
-    require(material.plastic_half_width_mm <= half_width_mm, "Plastic half width (mm)",
-            number(material.plastic_half_width_mm) + " leaves the mesh; at most " + number(half_width_mm));
-    for (const Material::Zone &zone : material.zones())
+    require(solid.mass_damping == 0. || general.quasi_static,
+            "'Solid/Mass damping (1 per s)' must be 0 when 'Scene/Quasi-static' is false: it slows waves "
+            "that are part of the answer");
+    constexpr double largest_inertia_error = 0.02;
+    require(inertia_error_estimate() <= largest_inertia_error || !general.quasi_static,
+            "'Scene/Density scale' " + text_of(general.density_scale) + " at " + text_of(3.6 * motion.speed) +
+              " km/h makes an inertia error of about " + text_of(100. * inertia_error_estimate()) +
+              " %; at most " + text_of(100. * largest_inertia_error) + " % is allowed");
+    motion.check();
+    require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
+    require(std::abs(motion.traction_coefficient) < contact.friction_coefficient ||
+              motion.traction_coefficient == 0. || (motion.drive == Drive::creepage && motion.creepage),
+            "'Motion/Traction coefficient' " + text_of(motion.traction_coefficient) +
+              " must be below 'Contact/Friction coefficient' " + text_of(contact.friction_coefficient) +
+              " in size");
+  }
+
+
+  void Scene::check_surfaces() const
+  {
+    const double from = path_begin() - rail.margin, to = path_end() + rail.margin;
+    require(rail_begin() <= from + round_off && rail_end() >= to - round_off,
+            "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(rail_begin()) + " to " +
+              text_in_mm(rail_end()) + " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " +
+              text_in_mm(from) + " to " + text_in_mm(to) + " mm");
+    require(
+      std::abs(first_contact().y) < 0.99 * surfaces().half_width,
+      "wheel and rail touch at y = " + text_in_mm(first_contact().y) +
+        " mm, beside the running surface: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
+        "'Rail/Inclination'");
+    if (!rail.is_block())
       {
-        const std::string name = "Plastic zones";
-        require(begin_mm <= zone.begin_mm && zone.begin_mm < zone.end_mm && zone.end_mm <= end_mm, name,
-                "from " + number(zone.begin_mm) + " to " + number(zone.end_mm) +
-                  " mm leaves the mesh, which is from " + number(begin_mm) + " to " + number(end_mm) + " mm");
-        require(zone.depth_mm > 0. && zone.depth_mm <= thickness_mm, name,
-                "of depth " + number(zone.depth_mm) + " mm leaves the mesh; above 0 and at most " +
-                  number(thickness_mm));
-        require(zone.yield_stress_MPa > 0., name,
-                "with yield stress " + number(zone.yield_stress_MPa) + " MPa: must be above 0");
-        require(below(zone.tangent_modulus_GPa), name,
-                "with tangent modulus " + number(zone.tangent_modulus_GPa) +
-                  " GPa: must be below Young's modulus, " + number(material.young_modulus_GPa));
+        const double reach = rail.standard_profile().head_point(RailHead().contact_half_width)[0];
+        require(std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= reach,
+                "the patch under the static load, from y = " + text_in_mm(patch_extent().begin) + " to " +
+                  text_in_mm(patch_extent().end) +
+                  " mm, leaves what of the rail is meshed for contact, up to " + text_in_mm(reach) +
+                  " mm from the middle: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
+                  "'Rail/Inclination'");
+      }
+    recorded_cells();
+  }
+
+
+  void Scene::check_defect() const
+  {
+    if (!shapes->defect)
+      return;
+    const Defect &made = *shapes->defect;
+    const double  end  = made.begin + made.length;
+    require(made.begin >= rail_begin() && end <= rail_end(),
+            "the defect, from 'Defect/Position (mm)' " + text_in_mm(defect.position) + " to " +
+              text_in_mm(end) + " mm, lies outside the rail, which is from " + text_in_mm(rail_begin()) +
+              " to " + text_in_mm(rail_end()) + " mm");
+    const char *of_width = defect.width > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
+    for (const auto &[name, size] :
+         {std::pair("'Defect/Length (mm)'", made.length), std::pair(of_width, made.width)})
+      require(size >= mesh.finest_cell, std::string(name) + " " + text_in_mm(size) +
+                                          " is lost between the nodes; at least 'Mesh/Finest cell (mm)', " +
+                                          text_in_mm(mesh.finest_cell));
+    const double head =
+      rail.is_block() ? rail.half_width() : rail.standard_profile().head_point(rail.half_width())[0];
+    const double edge = std::isinf(made.width) ? 0. : std::abs(defect.lateral_position) + 0.5 * made.width;
+    require(edge <= head, "the defect reaches to " + text_in_mm(edge) +
+                            " mm beside the rail's middle and the top of the head only to " +
+                            text_in_mm(head) + " mm: lower 'Defect/Width (mm)' or 'Lateral position (mm)'");
+  }
+
+
+  void Scene::check_mesh() const
+  {
+    const reference::HertzEllipse ellipse = hertz(*this, static_load());
+    const double                  a = ellipse.semi_axis_x, b = ellipse.semi_axis_y;
+    const double                  finest = mesh.finest_cell, largest_finest = 0.45 * std::min(a, b);
+    require(finest <= largest_finest, "'Mesh/Finest cell (mm)' " + text_in_mm(finest) +
+                                        " is too large for a patch of semi-axes " + text_in_mm(a) + " and " +
+                                        text_in_mm(b) + " mm; at most " + text_in_mm(largest_finest));
+    require(fine_half_width() >= needed_half_width() * (1. - 1e-9),
+            "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
+              " must hold the patch from y = " + text_in_mm(patch_extent().begin) + " to " +
+              text_in_mm(patch_extent().end) + " mm; at least " + text_in_mm(needed_half_width()));
+    require(rail.margin >= 3. * a, "'Rail/Margin (mm)' " + text_in_mm(rail.margin) +
+                                     " lets the wheel leave the rail; at least three semi-axes, " +
+                                     text_in_mm(3. * a));
+    require(wheel.is_full() || wheel.sector_margin >= 3. * a,
+            "'Wheel/Sector margin (mm)' " + text_in_mm(wheel.sector_margin) +
+              " lets the contact leave the sector; at least three semi-axes, " + text_in_mm(3. * a));
+    const double longest_arc = 0.95 * 2. * dealii::numbers::PI * wheel.radius;
+    require(wheel.is_full() || motion.rolled_distance + 2. * wheel.sector_margin <= longest_arc,
+            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
+            "wheel's circumference, " +
+              text_in_mm(longest_arc));
+
+    // Around the finest cells there is room for at least one more.
+    const double beside = std::abs(path_y());
+    require(beside + fine_half_width() <= rail.half_width() - finest,
+            "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
+              (beside > 0. ? " about y = " + text_in_mm(path_y()) + " mm" : "") +
+              " must be below the half width of the rail; at most " +
+              text_in_mm(rail.half_width() - finest - beside));
+    require(beside + fine_half_width() <= wheel.half_width() - finest,
+            "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
+              " must be below half of the wheel's width; at most " +
+              text_in_mm(wheel.half_width() - finest - beside));
+    const double thickness = std::min(rail.thickness(), wheel.thickness());
+    require((mesh.fine_layers + 1) * finest <= thickness * (1. + 1e-9),
+            "'Mesh/Fine layers' " + std::to_string(mesh.fine_layers) + " of 'Mesh/Finest cell (mm)' " +
+              text_in_mm(finest) + " do not fit into rail and wheel; at most " +
+              std::to_string(std::max(0, static_cast<int>(thickness / finest * (1. + 1e-9)) - 1)));
+    const double fine_begin = defect.position + mesh.fine_from, fine_end = defect.position + mesh.fine_to;
+    require(mesh.fine_from == mesh.fine_to || (fine_begin < rail_end() && fine_end > rail_begin()),
+            "'Mesh/Fine from (mm)' to 'Fine to (mm)', from the defect's leading edge at " +
+              text_in_mm(defect.position) + " mm, must lie on the rail from " + text_in_mm(rail_begin()) +
+              " to " + text_in_mm(rail_end()) + " mm at least in part");
+  }
+
+
+  void Scene::check_track() const
+  {
+    require(track.has_supports() || rail.ends == EndKind::symmetric,
+            "'Rail/Ends' " + name_of(rail.ends) +
+              " needs a rail on supports: 'Track/Foundation' cannot be rigid");
+    if (!track.has_supports())
+      return;
+    require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
+                                             " needs a rail with a foot: 'Rail/Shape' cannot be head");
+    require(general.density_scale == 1., "'Scene/Density scale' must be 1 with 'Track/Foundation' " +
+                                           name_of(track.foundation) +
+                                           ": the inertia of rail and sleepers is part of the answer");
+    track.check();
+    const RailProfile profile = rail.standard_profile();
+    const double      base =
+      rail.is_block() ? rail.block_width : 2. * profile.outline_point(profile.corners().foot_edge)[0];
+    require(track.pad_width <= base, "'Track/Pad width (mm)' " + text_in_mm(track.pad_width) +
+                                       " exceeds the flat width of the rail's base, " + text_in_mm(base));
+    // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
+    // its foot.
+    const bool stands_upright = rail.angle() == 0. && rail.measured_head.empty() &&
+                                std::abs(first_contact().y) < 1e-6 &&
+                                (!shapes->defect || defect.lateral_position == 0.);
+    require(track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),
+            "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
+            "('Rail/Inclination' none), wheel and defect meet it on y = 0, and its crown radius exceeds its "
+            "height, " +
+              text_in_mm(rail.height()) + " mm");
+    check_overhang();
+    if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
+      {
+        const double clear =
+          std::min(path_begin() - ends.begin, ends.end - path_end()) - track.sleeper_spacing;
+        require(ends.length <= clear + round_off,
+                "'Rail/Absorbing length (m)' " + text_of(ends.length) +
+                  " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
+                  "most " +
+                  text_of(std::max(0., clear)) + " fits this rail");
+      }
+    const int first = first_support(), last = first + static_cast<int>(support_positions().size()) - 1;
+    for (const int support : recorded_supports())
+      require(support >= first && support <= last, "'Output/Supports' has " + std::to_string(support) +
+                                                     "; the rail has supports " + std::to_string(first) +
+                                                     " to " + std::to_string(last));
+  }
+
+
+  void Scene::check_overhang() const
+  {
+    const std::vector<double> positions = support_positions();
+    const double              spacing   = track.sleeper_spacing;
+    require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(spacing) + " leaves " +
+                                     std::to_string(positions.size()) + " supports on the rail of " +
+                                     text_in_mm(rail_end() - rail_begin()) + " mm; at least 2 are needed");
+    const auto check_end = [&](const double overhang, const std::string &begins, const std::string &support) {
+      require(overhang >= 0.5 * track.pad_length - round_off && overhang <= 0.5 * spacing + round_off,
+              "'Track/Sleeper spacing (m)' " + text_of(spacing) + " does not fit the rail from " +
+                text_in_mm(rail_begin()) + " to " + text_in_mm(rail_end()) + " mm: it " + begins + " " +
+                text_in_mm(overhang < round_off ? 0. : overhang) + " mm " + support + "; from half a pad, " +
+                text_in_mm(0.5 * track.pad_length) + ", to half a spacing, " + text_in_mm(0.5 * spacing) +
+                ", is allowed");
+    };
+    check_end(positions.front() - rail_begin(), "begins", "before its first support");
+    check_end(rail_end() - positions.back(), "ends", "behind its last support");
+  }
+
+
+  void Scene::check_plasticity() const
+  {
+    const double beside = std::abs(path_y());
+    for (const bool of_wheel : {true, false})
+      {
+        const std::string      section  = of_wheel ? "Wheel" : "Rail";
+        const MaterialSection &material = of_wheel ? wheel.material : rail.material;
+        require((material.plastic_zones.empty() && material.yield_stress == 0.) ||
+                  (solid.element == ElementType::one_point && !solid.has_bulk_viscosity()),
+                "'" + section + "/Yield stress (MPa)' needs 'Solid/Element' one-point and no bulk viscosity");
+        material.check(section, of_wheel
+                                  ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside,
+                                                            -wheel.sector_margin,
+                                                            motion.rolled_distance + wheel.sector_margin}
+                                  : MaterialSection::Meshed{rail.thickness(), rail.half_width() - beside,
+                                                            rail_begin(), rail_end()});
       }
   }
 
 
   void Scene::check_numerics() const
   {
-    const auto require = [](const bool holds, const std::string &line) {
-      if (!holds)
-        throw SceneError(line);
-    };
     const auto needs_inertia = [&](const std::string &cause) {
-      require(density_scale == 1., "'Scene/Density scale' must be 1 with " + cause +
-                                     ": the inertia of the cells is part of the answer");
-      require(mass_damping == 0., "'Solid/Mass damping (1 per s)' must be 0 with " + cause +
-                                    ": it slows motion that is part of the answer");
+      require(general.density_scale == 1., "'Scene/Density scale' must be 1 with " + cause +
+                                             ": the inertia of the cells is part of the answer");
+      require(solid.mass_damping == 0., "'Solid/Mass damping (1 per s)' must be 0 with " + cause +
+                                          ": it slows motion that is part of the answer");
     };
-    if (defect())
-      needs_inertia("'Defect/Shape' " + defect_shape);
-    if (has_supports())
-      needs_inertia("'Track/Foundation' " + foundation);
-    require(time_levels == 1 || damping_steps >= least_damping_of_levels,
-            "'Time stepping/Levels' " + std::to_string(time_levels) +
-              " needs 'Solid/Stiffness damping (time steps)' of at least " + number(least_damping_of_levels) +
-              ": levels of time steps resonate without it");
+    if (shapes->defect)
+      needs_inertia("'Defect/Shape' " + name_of(defect.shape));
+    if (track.has_supports())
+      needs_inertia("'Track/Foundation' " + name_of(track.foundation));
+    require(time_stepping.levels == 1 || solid.stiffness_damping >= least_damping_of_levels,
+            "'Time stepping/Levels' " + std::to_string(time_stepping.levels) +
+              " needs 'Solid/Stiffness damping (time steps)' of at least " +
+              text_of(least_damping_of_levels) + ": levels of time steps resonate without it");
   }
 
 
   std::vector<std::string> Scene::assumptions() const
   {
     std::vector<std::string> list;
-    if (density_scale > 1.)
-      list.push_back("density of the cells times " + number(density_scale) +
+    const double             scale = general.density_scale, mass_damping = solid.mass_damping;
+    if (scale > 1.)
+      list.push_back("density of the cells times " + text_of(scale) +
                      ": for steady rolling only, with an inertia error of about " +
-                     number(std::round(1e4 * inertia_error_estimate()) / 100.) + " %");
+                     text_of(std::round(1e4 * inertia_error_estimate()) / 100.) + " %");
     if (mass_damping > 0.)
-      list.push_back("mass damping of " + number(mass_damping) +
+      list.push_back("mass damping of " + text_of(mass_damping) +
                      " per s: motion of the cells on top of the rigid bodies' fades by half in " +
-                     number(std::round(1e5 * 2. * std::log(2.) / mass_damping) / 100.) + " ms");
-    if (drive == "torque" && (density_scale > 1. || mass_damping > 0.))
+                     text_of(std::round(1e5 * 2. * std::log(2.) / mass_damping) / 100.) + " ms");
+    if (motion.drive == Drive::torque && (scale > 1. || mass_damping > 0.))
       list.push_back(
         "the way from the torque's onset to steady rolling is that of the scaled or damped cells, "
         "not the true one");
-    list.push_back(start_tractions == "predicted"
+    list.push_back(start.tractions == StartTractions::predicted
                      ? "the start has the tractions that half-space theory predicts for steady rolling"
                      : "the start has no tractions; they build up while rolling");
-    if (damping_steps == 0.)
+    if (solid.stiffness_damping == 0.)
       list.push_back("no stiffness damping: micro-slip may chatter at the frequency of the cells");
     return list;
   }
@@ -251,7 +295,7 @@ namespace tread
       const double nu = material.poisson_ratio;
       return material.shear_wave_speed() * (0.87 + 1.12 * nu) / (1. + nu);
     };
-    const double slower = std::min(rayleigh(rail_material.si()), rayleigh(wheel_material.si()));
-    return density_scale * speed() * speed() / (slower * slower);
+    const double slower = std::min(rayleigh(rail.material.elastic()), rayleigh(wheel.material.elastic()));
+    return general.density_scale * motion.speed * motion.speed / (slower * slower);
   }
 } // namespace tread

@@ -12,18 +12,18 @@ namespace tread
                                          const double traction_coefficient)
   {
     reference::RollingCase c;
-    c.curvature_x     = 0.5 / scene.rolling_radius();
-    c.curvature_y     = 0.5 / scene.lateral_radius();
-    c.normal_force    = normal_force;
-    c.friction        = scene.friction;
-    c.speed           = scene.speed();
-    c.wheel           = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
-    c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};
-    c.prescribe_force = true;
+    c.curvature_x  = 0.5 / scene.rolling_radius();
+    c.curvature_y  = 0.5 / scene.lateral_radius();
+    c.normal_force = normal_force;
+    c.friction     = scene.contact.friction_coefficient;
+    c.speed        = scene.motion.speed;
+    c.wheel = {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio};
+    c.rail  = {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio};
+    c.prescribe_force               = true;
     c.traction_coefficient          = traction_coefficient;
     const RunningSurfaces &surfaces = scene.surfaces();
     const double           y_middle = scene.first_contact().y;
-    if (scene.rail_shape != "block" || surfaces.tread_offset)
+    if (!scene.rail.is_block() || surfaces.tread_offset)
       c.gap = [curvature_x = c.curvature_x, surfaces, y_middle,
                closed      = surfaces.gap(y_middle)](const double x, const double y) {
         return curvature_x * x * x + surfaces.gap(y_middle + y) - closed;
@@ -46,12 +46,12 @@ namespace tread
 
   reference::RollingCase half_space_case(const Scene &scene)
   {
-    const bool             creepage_given = scene.drive == "creepage" && !scene.predicts_creepage();
+    const bool             creepage_given = scene.motion.drive == Drive::creepage && scene.motion.creepage;
     reference::RollingCase c =
-      half_space_case(scene, scene.static_load(), creepage_given ? 0. : scene.traction_coefficient);
+      half_space_case(scene, scene.static_load(), creepage_given ? 0. : scene.motion.traction_coefficient);
     c.prescribe_force = !creepage_given;
     if (creepage_given)
-      c.creepage = -std::stod(scene.creepage);
+      c.creepage = -*scene.motion.creepage;
     return c;
   }
 
@@ -72,7 +72,7 @@ namespace tread
       return -(1. + nu) * (1. - 2. * nu) / material.young_modulus * ellipse.semi_axis_y /
              (ellipse.semi_axis_x + ellipse.semi_axis_y) * 0.75 * ellipse.max_pressure;
     };
-    return stretch(scene.rail_material.si()) - stretch(scene.wheel_material.si());
+    return stretch(scene.rail.material.elastic()) - stretch(scene.wheel.material.elastic());
   }
 
 
@@ -138,14 +138,14 @@ namespace tread
   {
     const double         normal = answer.force[2];
     const PatchMeasures &patch  = answer.patch;
-    summary.set("title", scene.title);
+    summary.set("title", scene.general.title);
     summary.set("method", method);
     summary.set("completed", completed);
     summary.set("normal_force_N", normal);
     summary.set("longitudinal_force_N", answer.force[0]);
     summary.set("lateral_force_N", answer.force[1]);
     summary.set("traction_coefficient", normal > 0. ? answer.force[0] / normal : 0.);
-    summary.set("friction_coefficient", scene.friction);
+    summary.set("friction_coefficient", scene.contact.friction_coefficient);
     summary.set("first_contact_y_m", scene.first_contact().y);
 
     // A wheel that has lifted off is compared with the patch of the static load.

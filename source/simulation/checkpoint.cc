@@ -109,8 +109,11 @@ namespace tread
     std::ostringstream text;
     simulation.scene.print(text, false);
     const std::string all = text.str();
-    return all.substr(0, all.find("subsection Output")) + "set Supports = " + simulation.scene.recorded +
-           "\nset Cells = " + simulation.scene.cells + "\n";
+    std::string       supports;
+    for (const int number : simulation.scene.output.supports)
+      supports += (supports.empty() ? "" : ",") + std::to_string(number);
+    return all.substr(0, all.find("subsection Output")) + "set Supports = " + supports +
+           "\nset Cells = " + simulation.scene.output.cells + "\n";
   }
 
 

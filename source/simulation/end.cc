@@ -57,11 +57,11 @@ namespace tread
   std::vector<PatchNode> Simulation::compare_with_half_space(Summary             &summary,
                                                              const ContactAnswer &answer) const
   {
-    const double           normal = answer.force[2], traction = answer.force[0];
-    const bool             all_slips = std::abs(traction) >= 0.99 * scene.friction * normal;
-    reference::RollingCase c         = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
-    c.prescribe_force                = !all_slips;
-    c.creepage                       = -answer.creepage;
+    const double normal = answer.force[2], traction = answer.force[0];
+    const bool   all_slips   = std::abs(traction) >= 0.99 * scene.contact.friction_coefficient * normal;
+    reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
+    c.prescribe_force        = !all_slips;
+    c.creepage               = -answer.creepage;
     const reference::RollingEstimate half_space = reference::estimate_rolling(c);
     compare(summary, answer, half_space, c.prescribe_force);
     return patch_nodes(half_space.fields, scene.first_contact().y);
@@ -77,18 +77,19 @@ namespace tread
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
     summary.set("steps", dynamics.n_steps);
     summary.set("time_step_s", dynamics.time_step);
-    summary.set("density_scale", scene.density_scale);
+    summary.set("density_scale", scene.general.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
-    summary.set("passages", scene.passages);
+    summary.set("passages", scene.motion.passages);
 
     const double                  distance = position() - scene.path_begin();
     const reference::HertzEllipse ellipse =
       hertz(scene, normal_force > 0. ? normal_force : scene.static_load());
     Rolled rolled;
     rolled.patch_lengths =
-      (distance - (torque_released ? 1e-3 * scene.hold_mm : 0.)) / (2. * ellipse.semi_axis_x);
+      (distance - (torque_released ? scene.motion.hold_distance : 0.)) / (2. * ellipse.semi_axis_x);
     // Half-space theory does not predict what yields.
-    rolled.lengths_to_be_steady = scene.start_tractions == "predicted" && n_plastic_cells == 0 ? 1.5 : 3.;
+    rolled.lengths_to_be_steady =
+      scene.start.tractions == StartTractions::predicted && n_plastic_cells == 0 ? 1.5 : 3.;
     summary.set("rolled_m", distance);
     summary.set("rolled_patch_lengths", rolled.patch_lengths);
     summary.set("long_enough_to_be_steady", rolled.long_enough());
@@ -160,7 +161,7 @@ namespace tread
                                       : 0.;
     const double        traction  = normal > 0. ? force[0] / normal : 0.;
     const double        creepage =
-      hub.motion.angular_velocity * scene.rolling_radius() / scene.speed() - 1. - free_creepage;
+      hub.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1. - free_creepage;
 
     Summary             summary;
     const ContactAnswer answer{force, creepage, mean};
@@ -216,8 +217,8 @@ namespace tread
                                               : "STOPPED",
                     wall_seconds, folder.path("").c_str(),
                     solution_taken
-                      ? (scene.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
-                                            : ", patch.csv; for ParaView: surface.pvd")
+                      ? (scene.output.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
+                                                   : ", patch.csv; for ParaView: surface.pvd")
                       : "",
                     end == End::interrupted ? "; go on with --resume" : "");
       }

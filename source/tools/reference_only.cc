@@ -94,8 +94,7 @@ namespace tread
       for (const Body body : {Body::wheel, Body::rail})
         {
           const std::string name = body == Body::wheel ? "wheel" : "rail";
-          const double      nu =
-            (body == Body::wheel ? scene.wheel_material : scene.rail_material).si().poisson_ratio;
+          const double nu = (body == Body::wheel ? scene.wheel.material : scene.rail.material).poisson_ratio;
           const BodyStress stress(answer, body, nu);
           const Point      worst     = stress.most_stressed(1.2 * a, 0.05 * smaller, 1.5 * smaller);
           const double     von_mises = stress.at({worst})[0].von_mises();
@@ -135,7 +134,8 @@ namespace tread
       reference::TransientCase transient;
       transient.rolling = half_space_case(scene);
       const bool like   = reference::combine(transient.rolling.wheel, transient.rolling.rail).coupling == 0.;
-      if (scene.start_tractions != "none" || scene.drive != "creepage" || !like || !(scene.friction > 0.))
+      if (scene.start.tractions != StartTractions::none || scene.motion.drive != Drive::creepage || !like ||
+          !(scene.contact.friction_coefficient > 0.))
         return "";
       // Elements half as large again: some seconds of rolling, 0.1 % of the steady traction.
       transient.rolling.element_size *= 1.5;
@@ -209,7 +209,7 @@ namespace tread
       folder.write("transient.csv", transient);
     folder.write("summary.json", summary.text());
 
-    progress.say("tread " + version() + (scene.title.empty() ? "" : ": " + scene.title));
+    progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
     char text[200];
     std::snprintf(text, sizeof text,
                   "half-space solver: elements of %.3g mm, normal force %.2f kN, approach %.2f um, traction "

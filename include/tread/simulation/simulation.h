@@ -23,6 +23,8 @@
 
 namespace tread
 {
+  class Checkpoint;
+
   /// One wheel rolling over one rail, from equilibrium at the start to the solution instant.
   class Simulation
   {
@@ -52,9 +54,24 @@ namespace tread
     enum class End
     {
       complete,
-      interrupted, ///< by a signal
-      left_surface ///< contact was about to leave the faces meshed for it
+      interrupted,      ///< by a signal
+      between_passages, ///< by a signal, with nothing to keep
+      left_surface      ///< contact was about to leave the faces meshed for it
     };
+    /// How fast steps are taken since the loop began, and when the last checkpoint was written.
+    struct Pace
+    {
+      double        began; ///< wall time, s
+      std::uint64_t first_step;
+      double        last_checkpoint; ///< wall time, s
+    };
+    void announce(Progress &progress) const;
+    End  roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);
+    void write_what_is_due(RunFolder &folder);
+    /// @returns false when interrupted by a signal.
+    bool change_wheels(RunFolder &folder, Progress &progress);
+    void keep_checkpoint(Checkpoint &checkpoint, const Progress &progress, Pace &pace);
+    void show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const;
     void finish(RunFolder &folder, const End end);
     /// Compare the answer with Kalker's solution for the forces that act. If (nearly) the whole patch slips,
     /// the forces say little about the creepage, and the solution is that for the creepage. @returns the
@@ -82,7 +99,7 @@ namespace tread
     std::uint64_t remaining_steps() const;
     /// Whether the wheel has passed, since checked_position, the end of one of the intervals into which the
     /// path is divided; never for an interval of 0. No sums are used, so that a resumed run finds the same.
-    bool   interval_ended(const double interval_mm) const;
+    bool   interval_ended(const double interval) const;
     double memory_of_cells_and_nodes() const; // bytes, of all ranks
 
     static constexpr unsigned int rail_body = 0, wheel_body = 1;
@@ -114,7 +131,8 @@ namespace tread
     std::uint64_t          last_steps = 0;
     std::vector<Passage>   passages;
     double                 relaxation_seconds = 0., relaxation_iterations = 0.;
-    double                 wall_seconds = 0.; ///< including the parts before resuming
+    double                 wall_seconds   = 0.; ///< including the parts before resuming
+    double                 seconds_before = 0.; ///< those parts
 
     friend class Checkpoint;
   };

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_contact_h
+#define tread_scene_sections_contact_h
+
+#include <tread/scene/section.h>
+
+namespace tread
+{
+  /// Section `Contact`.
+  struct ContactSection
+  {
+    double       friction_coefficient = 0.5;
+    double       tolerance            = 1e-7; ///< of the sweeps, share of the largest impulse
+    unsigned int max_sweeps           = 200;
+
+    void declare(dealii::ParameterHandler &handler);
+  };
+} // namespace tread
+
+#endif

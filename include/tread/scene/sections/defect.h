@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_defect_h
+#define tread_scene_sections_defect_h
+
+#include <tread/geometry/defect.h>
+#include <tread/scene/section.h>
+
+#include <memory>
+
+namespace tread
+{
+  enum class DefectShape
+  {
+    none,
+    dip,
+    profile
+  };
+
+  template <>
+  const std::vector<Choice<DefectShape>> &choices();
+
+  enum class LateralLaw
+  {
+    parabola,
+    uniform
+  };
+
+  template <>
+  const std::vector<Choice<LateralLaw>> &choices();
+
+  /// Section `Defect`. Lengths in m.
+  struct DefectSection
+  {
+    DefectShape shape    = DefectShape::none;
+    double      position = 0.; ///< x of the leading edge
+    double      length = 0., width = 0., depth = 0.;
+    double      lateral_position = 0.;
+    double      leading_rounding = 0., trailing_rounding = 0.;
+    std::string profile_file;
+    LateralLaw  lateral_law = LateralLaw::parabola;
+    bool        reversed    = false;
+
+    void declare(dealii::ParameterHandler &handler);
+    /// Null: none. @param file where the profile file was found. @throws SceneError
+    std::shared_ptr<const Defect> make(const std::string &file) const;
+  };
+} // namespace tread
+
+#endif

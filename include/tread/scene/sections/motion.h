@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_motion_h
+#define tread_scene_sections_motion_h
+
+#include <tread/scene/section.h>
+#include <tread/track/wheel_hub.h>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<Drive>> &choices();
+
+  /// Section `Motion`. SI units.
+  struct MotionSection
+  {
+    double                speed = 140. / 3.6;
+    std::optional<double> start; ///< x of the wheel; none: automatic
+    double                rolled_distance      = 0.06;
+    Drive                 drive                = Drive::creepage;
+    double                traction_coefficient = 0.3;
+    std::optional<double> creepage;              ///< none: predicted by half-space theory
+    double                hold_distance = 0.015; ///< before a torque acts
+    unsigned int          passages      = 1;
+
+    void declare(dealii::ParameterHandler &handler);
+    /// @throws SceneError
+    void check() const;
+  };
+} // namespace tread
+
+#endif

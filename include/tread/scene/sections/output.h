@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_output_h
+#define tread_scene_sections_output_h
+
+#include <tread/scene/section.h>
+
+namespace tread
+{
+  /// Section `Output`. SI units.
+  struct OutputSection
+  {
+    std::string      directory        = "results";
+    double           history_interval = 0.25e-3;
+    std::vector<int> supports;                                    ///< numbers; empty: those beside the path
+    std::string      cells;                                       ///< places of the cells of cells.csv
+    double           strip_half_width = 3e-3;                     ///< 0: no strip.csv
+    double           surface_interval = 0., volume_interval = 0.; ///< 0: the solution instant only
+    double           table_depth         = 0.;                    ///< 0: no tables of cells
+    bool             write_volume        = true;
+    double           checkpoint_interval = 600.; ///< wall time, s; 0: only when interrupted
+
+    void declare(dealii::ParameterHandler &handler);
+  };
+} // namespace tread
+
+#endif

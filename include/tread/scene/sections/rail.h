@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_rail_h
+#define tread_scene_sections_rail_h
+
+#include <tread/geometry/rail_profile.h>
+#include <tread/scene/sections/material.h>
+
+namespace tread
+{
+  enum class RailShape
+  {
+    head,
+    full_section,
+    block
+  };
+
+  template <>
+  const std::vector<Choice<RailShape>> &choices();
+
+  enum class ProfileName
+  {
+    rail_54e1,
+    rail_60e1
+  };
+
+  template <>
+  const std::vector<Choice<ProfileName>> &choices();
+
+  enum class RailInclination
+  {
+    none,
+    one_in_forty,
+    one_in_twenty
+  };
+
+  template <>
+  const std::vector<Choice<RailInclination>> &choices();
+
+  enum class EndKind
+  {
+    symmetric,
+    absorbing
+  };
+
+  template <>
+  const std::vector<Choice<EndKind>> &choices();
+
+  /// Section `Rail`. Lengths in m.
+  struct RailSection
+  {
+    RailShape             shape       = RailShape::head;
+    ProfileName           profile     = ProfileName::rail_54e1;
+    RailInclination       inclination = RailInclination::none;
+    std::string           measured_head;     ///< file; empty: a new rail
+    std::optional<double> begin;             ///< x of the first end; none: automatic
+    double                length       = 0.; ///< 0: from margin to margin
+    double                crown_radius = 0.3, block_width = 0.12, block_height = 0.06;
+    double                margin           = 0.06; ///< beyond the path, at each end
+    EndKind               ends             = EndKind::symmetric;
+    double                absorbing_length = 0.6;
+    MaterialSection       material;
+
+    bool is_block() const
+    {
+      return shape == RailShape::block;
+    }
+    /// Of a rail head or a full section.
+    RailProfile standard_profile() const;
+    /// The top leans to the gauge side, y < 0, by this, rad.
+    double angle() const;
+    /// Of what is meshed: half its width at the top, and its thickness there.
+    double half_width() const;
+    double thickness() const;
+    /// From the base to the top, without a measured head or a defect.
+    double height() const;
+
+    void declare(dealii::ParameterHandler &handler);
+    /// @throws SceneError
+    void check() const;
+  };
+} // namespace tread
+
+#endif

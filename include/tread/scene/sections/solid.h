@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_solid_h
+#define tread_scene_sections_solid_h
+
+#include <tread/scene/section.h>
+#include <tread/solid/solid.h>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<ElementType>> &choices();
+
+  /// Section `Solid`.
+  struct SolidSection
+  {
+    ElementType element               = ElementType::one_point;
+    double      hourglass_coefficient = 1.;
+    double      stiffness_damping     = 0.1; ///< time steps
+    double      mass_damping          = 0.;  ///< 1/s
+    double      linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
+
+    bool has_bulk_viscosity() const
+    {
+      return linear_bulk_viscosity != 0. || quadratic_bulk_viscosity != 0.;
+    }
+
+    void declare(dealii::ParameterHandler &handler);
+    /// @throws SceneError
+    void check() const;
+  };
+} // namespace tread
+
+#endif

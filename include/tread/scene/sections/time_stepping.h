@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_time_stepping_h
+#define tread_scene_sections_time_stepping_h
+
+#include <tread/scene/section.h>
+
+namespace tread
+{
+  /// Section `Time stepping`.
+  struct TimeSteppingSection
+  {
+    double       courant_number = 0.95;
+    unsigned int levels         = 1;
+
+    void declare(dealii::ParameterHandler &handler);
+  };
+} // namespace tread
+
+#endif

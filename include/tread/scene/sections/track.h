@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_track_h
+#define tread_scene_sections_track_h
+
+#include <tread/scene/section.h>
+
+namespace tread
+{
+  enum class Foundation
+  {
+    rigid,
+    one_layer,
+    two_layer
+  };
+
+  template <>
+  const std::vector<Choice<Foundation>> &choices();
+
+  enum class SleeperKind
+  {
+    mass,
+    solid
+  };
+
+  template <>
+  const std::vector<Choice<SleeperKind>> &choices();
+
+  /// Section `Track`. SI units.
+  struct TrackSection
+  {
+    Foundation   foundation      = Foundation::rigid;
+    SleeperKind  sleepers        = SleeperKind::mass;
+    double       sleeper_spacing = 0.6;
+    double       support_0       = 0.; ///< x of the support with number 0
+    double       pad_stiffness = 1300e6, pad_damping = 45e3, pad_length = 0.15, pad_width = 0.14;
+    unsigned int points_along = 3, points_across = 4;
+    double       sleeper_mass   = 200.; ///< half a sleeper
+    double       sleeper_length = 2.52, sleeper_width = 0.25, rail_distance = 1.5;
+    double       sleeper_young_modulus = 38.4e9, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
+    double       ballast_stiffness = 45e6, ballast_damping = 32e3;
+
+    bool has_supports() const
+    {
+      return foundation != Foundation::rigid;
+    }
+    bool has_solid_sleepers() const
+    {
+      return foundation == Foundation::two_layer && sleepers == SleeperKind::solid;
+    }
+    /// With which a solid sleeper has its mass, m.
+    double solid_sleeper_height() const;
+
+    void declare(dealii::ParameterHandler &handler);
+    /// What concerns the track alone, if it has supports. @throws SceneError
+    void check() const;
+  };
+} // namespace tread
+
+#endif

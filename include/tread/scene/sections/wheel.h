@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_wheel_h
+#define tread_scene_sections_wheel_h
+
+#include <tread/scene/sections/material.h>
+
+namespace tread
+{
+  enum class WheelShape
+  {
+    sector,
+    full
+  };
+
+  template <>
+  const std::vector<Choice<WheelShape>> &choices();
+
+  /// Section `Wheel`. Lengths in m.
+  struct WheelSection
+  {
+    WheelShape      shape             = WheelShape::sector;
+    double          radius            = 0.46; ///< where the tread has its running circle
+    double          mass              = 900.; ///< unsprung, kg
+    double          moment_of_inertia = 58.;  ///< about the axle, kg m^2
+    double          sector_thickness = 0.06, sector_width = 0.12, sector_margin = 0.06;
+    double          rim_inner_radius = 0.38, rim_width = 0.135, web_thickness = 0.0523;
+    double          hub_outer_radius = 0.14, hub_length = 0.18, bore_radius = 0.0925;
+    std::string     tread_profile    = "cylinder"; ///< name or file
+    double          lateral_position = 0.;         ///< of the running circle over the rail's middle
+    MaterialSection material;
+
+    bool is_full() const
+    {
+      return shape == WheelShape::full;
+    }
+    /// Of what is meshed, across.
+    double half_width() const
+    {
+      return 0.5 * (is_full() ? rim_width : sector_width);
+    }
+    /// Of what is meshed, below the tread.
+    double thickness() const
+    {
+      return is_full() ? radius - rim_inner_radius : sector_thickness;
+    }
+
+    void declare(dealii::ParameterHandler &handler);
+    /// @throws SceneError
+    void check() const;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The bodies of a scene: rail, wheel and solid sleepers.
+#include <tread/mesh/rail_body.h>
+#include <tread/mesh/sleeper_body.h>
+#include <tread/mesh/wheel_body.h>
+#include <tread/mesh/whole_rail.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/parts.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    /// Between foot and sleeper in pictures; the pads' springs have no length.
+    constexpr double pad_thickness = 0.01;
+
+    /// Coarse cells of a rail's profile, whose head has a shoulder of 13 mm radius to follow, m.
+    constexpr double coarsest_of_a_profile = 12.5e-3;
+
+    /// Of finest cells ahead of and behind the path: the patch, a quarter of a semi-axis and two cells, m.
+    double beyond_path(const Scene &scene, const reference::HertzEllipse &ellipse)
+    {
+      return 1.25 * ellipse.semi_axis_x + 2. * scene.mesh.finest_cell;
+    }
+
+
+    FineZone zone_on_rail(const Scene &scene, const reference::HertzEllipse &ellipse)
+    {
+      FineZone on_rail;
+      on_rail.finest_cell_size = scene.mesh.finest_cell;
+      on_rail.x_begin          = scene.path_begin() - beyond_path(scene, ellipse);
+      on_rail.x_end            = scene.path_end() + beyond_path(scene, ellipse);
+      on_rail.half_width       = scene.fine_half_width();
+      on_rail.depth            = scene.mesh.fine_layers * on_rail.finest_cell_size;
+      on_rail.cells_per_level  = scene.mesh.cells_per_level;
+      on_rail.level_depth = scene.mesh.level_depth * std::sqrt(ellipse.semi_axis_x * ellipse.semi_axis_y);
+      on_rail.y_middle    = scene.path_y();
+      if (scene.mesh.fine_from < scene.mesh.fine_to && scene.mesh.path_cell > scene.mesh.finest_cell)
+        {
+          on_rail.cubes_begin = scene.defect.position + scene.mesh.fine_from;
+          on_rail.cubes_end   = scene.defect.position + scene.mesh.fine_to;
+          on_rail.path_level  = std::floor(std::log2(scene.mesh.path_cell / scene.mesh.finest_cell) + 1e-9);
+          on_rail.path_stretch =
+            std::ldexp(scene.mesh.path_cell / scene.mesh.finest_cell, -on_rail.path_level);
+        }
+      return on_rail;
+    }
+
+
+    /// The rail's zone laid along the tread, from where it touches at the start.
+    FineZone zone_on_wheel(const Scene &scene, const FineZone &on_rail, const double beyond_path)
+    {
+      FineZone on_wheel = on_rail;
+      on_wheel.cubes_begin -= scene.path_begin();
+      on_wheel.cubes_end -= scene.path_begin();
+      on_wheel.x_begin = -beyond_path;
+      on_wheel.x_end   = scene.motion.rolled_distance + beyond_path;
+
+      return on_wheel;
+    }
+
+
+    Body rail_body(const Scene &scene, const FineZone &zone)
+    {
+      const RailTop top{scene.rail_height(), scene.rail.angle()};
+      if (scene.rail.is_block())
+        {
+          RailBlock block;
+          block.x_begin            = scene.rail_begin();
+          block.x_end              = scene.rail_end();
+          block.top                = top;
+          block.width              = scene.rail.block_width;
+          block.height             = scene.rail.block_height;
+          block.crown_radius       = scene.rail.crown_radius;
+          block.coarsest_cell_size = scene.mesh.coarsest_cell;
+          return make_rail_block(block, zone);
+        }
+      if (scene.rail.shape == RailShape::full_section)
+        {
+          WholeRail rail;
+          rail.x_begin            = scene.rail_begin();
+          rail.x_end              = scene.rail_end();
+          rail.coarsest_cell_size = std::min(scene.mesh.coarsest_cell, coarsest_of_a_profile);
+          rail.longest_row        = scene.mesh.longest_row;
+          rail.top                = top;
+          return make_whole_rail(scene.rail.standard_profile(), rail, zone);
+        }
+      RailHead head;
+      head.x_begin            = scene.rail_begin();
+      head.x_end              = scene.rail_end();
+      head.top                = top;
+      head.coarsest_cell_size = std::min(scene.mesh.coarsest_cell, coarsest_of_a_profile);
+      return make_rail_head(scene.rail.standard_profile(), head, zone);
+    }
+
+
+    Body wheel_body(const Scene &scene, const FineZone &zone)
+    {
+      if (!scene.wheel.is_full())
+        {
+          WheelSector sector;
+          sector.center_x           = scene.path_begin();
+          sector.lift               = scene.first_contact().lift;
+          sector.tread_offset       = scene.surfaces().tread_offset;
+          sector.radius             = scene.wheel.radius;
+          sector.thickness          = scene.wheel.sector_thickness;
+          sector.width              = scene.wheel.sector_width;
+          sector.arc_begin          = -scene.wheel.sector_margin;
+          sector.arc_end            = scene.motion.rolled_distance + scene.wheel.sector_margin;
+          sector.coarsest_cell_size = scene.mesh.coarsest_cell;
+          return make_wheel_sector(sector, zone);
+        }
+      FullWheel wheel;
+      wheel.center_x           = scene.path_begin();
+      wheel.lift               = scene.first_contact().lift;
+      wheel.tread_offset       = scene.surfaces().tread_offset;
+      wheel.radius             = scene.wheel.radius;
+      wheel.rim_inner_radius   = scene.wheel.rim_inner_radius;
+      wheel.rim_width          = scene.wheel.rim_width;
+      wheel.web_thickness      = scene.wheel.web_thickness;
+      wheel.hub_outer_radius   = scene.wheel.hub_outer_radius;
+      wheel.hub_length         = scene.wheel.hub_length;
+      wheel.bore_radius        = scene.wheel.bore_radius;
+      wheel.coarsest_cell_size = scene.mesh.coarsest_cell;
+      return make_full_wheel(wheel, zone);
+    }
+
+
+    Body sleeper_body(const Scene &scene, const double x)
+    {
+      // Three cells over the height, and no larger than 60 mm.
+      SleeperBox box;
+      box.x                  = x;
+      box.width              = scene.track.sleeper_width;
+      box.y_begin            = -0.5 * scene.track.rail_distance;
+      box.y_end              = box.y_begin + 0.5 * scene.track.sleeper_length;
+      box.top                = scene.base_middle()[2] - pad_thickness;
+      box.height             = scene.track.solid_sleeper_height();
+      box.coarsest_cell_size = std::min(box.height / 3., 0.06);
+      return make_sleeper(box);
+    }
+  } // namespace
+
+
+  std::vector<Body> make_bodies(const Scene &scene)
+  {
+    const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+    const FineZone                on_rail = zone_on_rail(scene, ellipse);
+    std::vector<Body>             bodies;
+    bodies.push_back(rail_body(scene, on_rail));
+    bodies.back().name = "rail";
+    bodies.push_back(wheel_body(scene, zone_on_wheel(scene, on_rail, beyond_path(scene, ellipse))));
+    bodies.back().name = "wheel";
+    if (scene.track.has_solid_sleepers())
+      for (const double x : scene.support_positions())
+        bodies.push_back(sleeper_body(scene, x));
+    return bodies;
+  }
+} // namespace tread

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/section.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <array>
+#include <memory>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    using dealii::Patterns::Double;
+
+    /// A value in SI units is the number in the file times `times` over `over`.
+    struct Unit
+    {
+      const char *name;
+      double      times, over;
+    };
+
+    constexpr std::array<Unit, 18> units{{{"mm", 1e-3, 1.},
+                                          {"m", 1., 1.},
+                                          {"GPa", 1e9, 1.},
+                                          {"MPa", 1e6, 1.},
+                                          {"kg", 1., 1.},
+                                          {"kg m2", 1., 1.},
+                                          {"kg per m3", 1., 1.},
+                                          {"km per h", 1., 3.6},
+                                          {"m per s2", 1., 1.},
+                                          {"kN per m", 1e3, 1.},
+                                          {"MN per m", 1e6, 1.},
+                                          {"N s per m", 1., 1.},
+                                          {"kN s per m", 1e3, 1.},
+                                          {"1 per s", 1., 1.},
+                                          {"m per s", 1., 1.},
+                                          {"minutes", 60., 1.},
+                                          {"time steps", 1., 1.},
+                                          {"semi-axes", 1., 1.}}};
+
+    Unit unit_of(const std::string &name)
+    {
+      if (name.empty() || name.back() != ')')
+        return {"", 1., 1.};
+      const std::size_t open = name.rfind('(');
+      const std::string unit = name.substr(open + 1, name.size() - open - 2);
+      for (const Unit &known : units)
+        if (unit == known.name)
+          return known;
+      throw std::logic_error("the unit of parameter '" + name + "' is not known");
+    }
+
+    /// With as many digits as a user would give, and no round-off of the conversion.
+    std::string in_file(const double value, const Unit &unit)
+    {
+      std::ostringstream text;
+      text.precision(12);
+      text << value / unit.times * unit.over;
+      return text.str();
+    }
+
+    double in_si(const std::string &text, const Unit &unit)
+    {
+      return unit.times * dealii::Utilities::string_to_double(text) / unit.over;
+    }
+
+    /// A word, or a number in a range.
+    class WordOrNumber : public dealii::Patterns::PatternBase
+    {
+    public:
+      WordOrNumber(const std::string &word, const Double &range)
+        : word(word)
+        , range(range)
+      {
+      }
+      bool match(const std::string &text) const override
+      {
+        return text == word || range.match(text);
+      }
+      std::string description(const OutputStyle style) const override
+      {
+        return "'" + word + "' or a number from " + range.description(style);
+      }
+      std::unique_ptr<PatternBase> clone() const override
+      {
+        return std::make_unique<WordOrNumber>(word, range);
+      }
+
+    private:
+      const std::string word;
+      const Double      range;
+    };
+  } // namespace
+
+
+  void require(const bool holds, const std::string &line)
+  {
+    if (!holds)
+      throw SceneError(line);
+  }
+
+
+  std::string text_of(const double value)
+  {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+
+  std::string text_in_mm(const double length)
+  {
+    return text_of(1e3 * length);
+  }
+
+
+  Section::Section(dealii::ParameterHandler &handler, const std::string &name)
+    : handler(handler)
+  {
+    handler.enter_subsection(name);
+  }
+
+
+  Section::~Section()
+  {
+    handler.leave_subsection();
+  }
+
+
+  void Section::add(const std::string &name, double &value, const std::string &meaning, const Double &range)
+  {
+    const Unit unit = unit_of(name);
+    declare(name, in_file(value, unit), meaning, range,
+            [&value, unit](const std::string &text) { value = in_si(text, unit); });
+  }
+
+
+  void Section::add(const std::string   &name,
+                    std::vector<double> &values,
+                    const std::string   &meaning,
+                    const Double        &range,
+                    const unsigned int   at_most)
+  {
+    const Unit  unit = unit_of(name);
+    std::string list;
+    for (const double value : values)
+      list += (list.empty() ? "" : ",") + in_file(value, unit);
+    declare(name, list, meaning, dealii::Patterns::List(range, 1, at_most),
+            [&values, unit](const std::string &text) {
+              values.clear();
+              for (const std::string &part : dealii::Utilities::split_string_list(text))
+                values.push_back(in_si(part, unit));
+            });
+  }
+
+
+  void Section::add(const std::string     &name,
+                    std::optional<double> &value,
+                    const std::string     &word,
+                    const std::string     &meaning,
+                    const Double          &range)
+  {
+    const Unit unit = unit_of(name);
+    declare(name, value ? in_file(*value, unit) : word, meaning, WordOrNumber(word, range),
+            [&value, word, unit](const std::string &text) {
+              value = text == word ? std::optional<double>() : in_si(text, unit);
+            });
+  }
+
+
+  void Section::declare(const std::string                              &name,
+                        const std::string                              &value,
+                        const std::string                              &meaning,
+                        const dealii::Patterns::PatternBase            &pattern,
+                        const std::function<void(const std::string &)> &take)
+  {
+    handler.declare_entry(name, value, pattern, meaning);
+    handler.add_action(name, take);
+  }
+} // namespace tread

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/general.h>
+
+namespace tread
+{
+  void GeneralSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    Section section(handler, "Scene");
+
+    section.add("Title", title, "What the scene shows; printed and kept in the summary.");
+    section.add("Quasi-static", quasi_static,
+                "Whether inertia is no part of the answer. Only then may the density be scaled.");
+    section.add(
+      "Density scale", density_scale,
+      "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
+      "inertia like (speed / wave speed)^2. 1 to 100; above 1 only for quasi-static scenes.",
+      Double(1., 100.));
+  }
+
+
+  void GeneralSection::check() const
+  {
+    require(
+      density_scale == 1. || quasi_static,
+      "'Scene/Density scale' must be 1 when 'Scene/Quasi-static' is false: inertia is part of the answer");
+  }
+} // namespace tread

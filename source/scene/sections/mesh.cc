@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/mesh.h>
+
+namespace tread
+{
+  void MeshSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    Section section(handler, "Mesh");
+
+    section.add("Finest cell (mm)", finest_cell,
+                "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
+                "pressure's error shrinks like its square.",
+                Double(0.02, 20.));
+    section.add(
+      "Fine half width (mm)", fine_half_width,
+      "Finest cells reach from the middle of the patch to here; contact must stay inside. 0: as far "
+      "as the patch under the static load needs, and 1.35 times as far in a scene that is not "
+      "quasi-static, whose load may double.",
+      Double(0., 500.));
+    section.add("Fine layers", fine_layers,
+                "Layers of finest cells under the surface; even numbers fit the octree.", Integer(1, 64));
+    section.add("Cells per level", cells_per_level,
+                "How many cells of each larger size follow before the next doubling, at least.",
+                Double(1., 32.));
+    section.add("Level depth (semi-axes)", level_depth,
+                "Least thickness of the layers of larger cells below the finest ones, over Hertz's mean "
+                "semi-axis: of cells of twice the size, four times the size, and so on. So the error of the "
+                "graded mesh shrinks with the finest cell; with 0, where 'Cells per level' alone counts, "
+                "bodies are about 1 % too stiff at any finest cell, and cells below 0.7 mm are fewer.",
+                Double(0., 10.));
+    section.add(
+      "Coarsest cell (mm)", coarsest_cell,
+      "Upper bound of the coarse blocks' edges, not below the finest cell; a rail head, being curved, "
+      "takes 12.5 mm if that is less.",
+      Double(0.1, 500.));
+    section.add(
+      "Fine from (mm)", fine_from,
+      "From here to 'Fine to', counted from the leading edge of the defect ('Defect/Position'), cells under "
+      "the path are cubes; elsewhere they are as long as 'Path cell' says. Both 0: the whole path.",
+      Double(-1e5, 1e5));
+    section.add("Fine to (mm)", fine_to, "See 'Fine from (mm)'.", Double(-1e5, 1e5));
+    section.add("Path cell (mm)", path_cell,
+                "Largest length along the path of cells outside 'Fine from' to 'Fine to'; from twice the "
+                "finest cell on they are as many levels of the octree coarser. Saves cells and time steps "
+                "where the wheel only has to arrive, but the contact force ripples as it rolls over "
+                "large cells: at most half a semi-axis. 0: the finest cell.",
+                Double(0., 100.));
+    section.add("Longest row (mm)", longest_row,
+                "Full section: largest length of the coarse cells of the rail beside the path.",
+                Double(1., 1000.));
+  }
+
+
+  void MeshSection::check() const
+  {
+    require(coarsest_cell >= finest_cell, "'Mesh/Coarsest cell (mm)' " + text_in_mm(coarsest_cell) +
+                                            " must be at least 'Mesh/Finest cell (mm)' " +
+                                            text_in_mm(finest_cell));
+    require(fine_from <= fine_to, "'Mesh/Fine from (mm)' must be below 'Mesh/Fine to (mm)'");
+    require(path_cell == 0. || path_cell >= finest_cell, "'Mesh/Path cell (mm)' " + text_in_mm(path_cell) +
+                                                           " must be at least 'Mesh/Finest cell (mm)' " +
+                                                           text_in_mm(finest_cell) + ", or 0 for the same");
+    require(path_cell <= finest_cell || fine_from < fine_to,
+            "'Mesh/Path cell (mm)' needs 'Mesh/Fine from (mm)' and 'Fine to (mm)'");
+  }
+} // namespace tread

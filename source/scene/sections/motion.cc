@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/motion.h>
+
+#include <string>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<Drive>> &choices()
+  {
+    static const std::vector<Choice<Drive>> list{
+      {Drive::creepage, "creepage", "the angular velocity is kept."},
+      {Drive::torque, "torque",
+       "a torque of traction coefficient x load x radius acts on the axle, after Hold distance at the "
+       "creepage below."}};
+    return list;
+  }
+
+
+  void MotionSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    constexpr double tiny = 1e-12; // for "above 0"
+    Section          section(handler, "Motion");
+
+    section.add("Speed (km per h)", speed, "Of the wheel's centre, kept along x. At least 0.1.",
+                Double(0., 1000.));
+    section.add("Start (mm)", start, "automatic",
+                "x of the wheel at the start. automatic: minus the rolled distance, so that the solution "
+                "instant is at x = 0. A number "
+                "keeps the wheel, the rail with its supports and a defect in their places when the rolled "
+                "distance is changed.",
+                Double(-1e5, 1e5));
+    section.add(
+      "Rolled distance (mm)", rolled_distance,
+      "From the start to the solution instant; the run ends half a finest cell after it, over which the "
+      "patch is averaged. The tangential solution needs one and a half to two patch lengths to become "
+      "steady, and three to four if 'Start/Tractions' is none.",
+      Double(tiny, 10000.));
+    section.choose("Drive", drive);
+    section.add("Traction coefficient", traction_coefficient,
+                "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
+                Double(-2., 2.));
+    section.add("Creepage", creepage, "predicted",
+                "(angular velocity x radius - speed) / speed, counted from free rolling, positive when "
+                "driving; or 'predicted': what "
+                "half-space theory gives for the traction coefficient.",
+                Double(-0.2, 0.2));
+    section.add("Hold distance (mm)", hold_distance,
+                "Rolled at the creepage above before the torque acts, so that no long run-in is paid for.",
+                Double(0., 10000.));
+    section.add(
+      "Passages", passages,
+      "Wheels that roll over the same rail, one after the other: the rail keeps its stress and strain, each "
+      "wheel comes new. Above 1 passages.csv has a row for each. Cost grows in proportion.",
+      Integer(1, 10000));
+  }
+
+
+  void MotionSection::check() const
+  {
+    require(speed >= 0.1 / 3.6,
+            "'Motion/Speed (km per h)' must be at least 0.1: a wheel that stands does not roll" +
+              std::string(drive == Drive::torque ? ", and a torque would only spin it" : ""));
+    require(drive != Drive::torque || hold_distance < rolled_distance,
+            "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " +
+              text_in_mm(rolled_distance));
+  }
+} // namespace tread

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/mesh/rail_body.h>
+#include <tread/scene/sections/rail.h>
+
+#include <cmath>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<RailShape>> &choices()
+  {
+    static const std::vector<Choice<RailShape>> list{
+      {RailShape::head, "head", "the head of a rail profile on a rigid foundation."},
+      {RailShape::full_section, "full section", "head, web and foot, held at the foot."},
+      {RailShape::block, "block", "a box with a cylindrical crown, to compare with half-space theory."}};
+    return list;
+  }
+
+
+  template <>
+  const std::vector<Choice<ProfileName>> &choices()
+  {
+    static const std::vector<Choice<ProfileName>> list{{ProfileName::rail_54e1, "54E1", ""},
+                                                       {ProfileName::rail_60e1, "60E1", ""}};
+    return list;
+  }
+
+
+  template <>
+  const std::vector<Choice<RailInclination>> &choices()
+  {
+    static const std::vector<Choice<RailInclination>> list{{RailInclination::none, "none", ""},
+                                                           {RailInclination::one_in_forty, "1:40", ""},
+                                                           {RailInclination::one_in_twenty, "1:20", ""}};
+    return list;
+  }
+
+
+  template <>
+  const std::vector<Choice<EndKind>> &choices()
+  {
+    static const std::vector<Choice<EndKind>> list{
+      {EndKind::symmetric, "symmetric", "planes of symmetry, which reflect waves."},
+      {EndKind::absorbing, "absorbing",
+       "the same planes behind a length of rail in which damping grows towards the end and takes up most of "
+       "the waves, as if the rail went on."}};
+    return list;
+  }
+
+
+  void RailSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Anything;
+    using dealii::Patterns::Double;
+    Section section(handler, "Rail");
+
+    section.choose("Shape", shape);
+    section.choose("Profile", profile, "Of a head or a full section (EN 13674-1). UIC60 has that of 60E1.");
+    section.add(
+      "Measured head", measured_head,
+      "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
+      "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. Empty: a new rail.",
+      Anything());
+    section.choose("Inclination", inclination,
+                   "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
+                   "same slope touches it on the "
+                   "middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.");
+    section.add("Begin (mm)", begin, "automatic",
+                "x of the rail's first end. automatic: before the path as much as behind it where Length is "
+                "given, else by Margin.",
+                Double(-1e5, 1e5));
+    section.add("Length (mm)", length, "Of the whole rail. 0: to Margin behind the path.", Double(0., 1e5));
+    section.add("Crown radius (mm)", crown_radius, "Of a block. Sets the lateral curvature.",
+                Double(10., 1e6));
+    section.add("Block width (mm)", block_width, "Lateral.", Double(1., 1000.));
+    section.add("Block height (mm)", block_height, "At the crown; the bottom is held.", Double(1., 1000.));
+    section.add(
+      "Margin (mm)", margin,
+      "Rail beyond the rolled distance, at each end. At least three contact semi-axes; 150 of a full "
+      "section, whose head gives way near a free end: the normal force would drift by per cents.",
+      Double(0., 20000.));
+    section.choose("Ends", ends, "Of a rail on supports ('Track/Foundation').");
+    section.add("Absorbing length (m)", absorbing_length,
+                "Of the part at each absorbing end; the wheel's path stays a sleeper spacing clear of "
+                "it. Longer ones absorb lower frequencies: from 0.6 m on it helps.",
+                Double(0.05, 100.));
+    material.declare(section);
+  }
+
+
+  RailProfile RailSection::standard_profile() const
+  {
+    return profile == ProfileName::rail_54e1 ? RailProfile::rail_54e1() : RailProfile::rail_60e1();
+  }
+
+
+  double RailSection::angle() const
+  {
+    return inclination == RailInclination::one_in_forty    ? std::atan(1. / 40.)
+           : inclination == RailInclination::one_in_twenty ? std::atan(1. / 20.)
+                                                           : 0.;
+  }
+
+
+  double RailSection::half_width() const
+  {
+    return is_block() ? 0.5 * block_width : standard_profile().shoulder_length();
+  }
+
+
+  double RailSection::thickness() const
+  {
+    return is_block() ? block_height : standard_profile().head_depth();
+  }
+
+
+  double RailSection::height() const
+  {
+    return is_block() ? block_height : standard_profile().height();
+  }
+
+
+  void RailSection::check() const
+  {
+    require(!is_block() || (inclination == RailInclination::none && measured_head.empty()),
+            "'Rail/Inclination' and 'Rail/Measured head' are for 'Rail/Shape' head or full section");
+    if (!is_block())
+      return;
+    require(crown_radius > 0.5 * block_width, "'Rail/Crown radius (mm)' " + text_in_mm(crown_radius) +
+                                                " must be above half of 'Rail/Block width (mm)', " +
+                                                text_in_mm(0.5 * block_width));
+    const double rise = -crown_height(0.5 * block_width, crown_radius);
+    require(block_height > rise, "'Rail/Block height (mm)' " + text_in_mm(block_height) +
+                                   " must be above the rise of the crown, " + text_in_mm(rise));
+  }
+} // namespace tread

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/solid.h>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<ElementType>> &choices()
+  {
+    static const std::vector<Choice<ElementType>> list{
+      {ElementType::one_point, "one-point", "uniform strain with hourglass stiffness, fast."},
+      {ElementType::fully_integrated, "fully-integrated", "the cross-check."}};
+    return list;
+  }
+
+
+  void SolidSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    Section section(handler, "Solid");
+
+    section.choose("Element", element);
+    section.add("Hourglass coefficient", hourglass_coefficient,
+                "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
+                Double(0.01, 10.));
+    section.add(
+      "Stiffness damping (time steps)", stiffness_damping,
+      "Internal forces are taken at x + beta v, beta in time steps. 0.1 removes grid-frequency chatter of "
+      "the "
+      "micro-slip and nothing else that can be seen; larger values shorten the stable time step.",
+      Double(0., 10.));
+    section.add(
+      "Mass damping (1 per s)", mass_damping,
+      "Of motion relative to the rigid bodies: a wave fades by half in 1.4 over this. Removes what the "
+      "start leaves ringing; only for quasi-static scenes.",
+      Double(0., 1e6));
+    section.add("Linear bulk viscosity", linear_bulk_viscosity,
+                "Against ringing behind fronts; 0.06 is usual for impact.", Double(0., 10.));
+    section.add("Quadratic bulk viscosity", quadratic_bulk_viscosity,
+                "In compression only; 1.2 is usual for impact.", Double(0., 10.));
+  }
+
+
+  void SolidSection::check() const
+  {
+    require(element == ElementType::one_point || !has_bulk_viscosity(),
+            "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
+            "'Solid/Element' " +
+              name_of(element));
+  }
+} // namespace tread

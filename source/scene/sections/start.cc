@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/start.h>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<StartTractions>> &choices()
+  {
+    static const std::vector<Choice<StartTractions>> list{
+      {StartTractions::none, "none",
+       "the wheel stands without friction at the start, and the tangential tractions build up as it rolls."},
+      {StartTractions::predicted, "predicted",
+       "it starts with what half-space theory gives for steady rolling, so that only what differs from that "
+       "must still build up, as where steel yields."}};
+    return list;
+  }
+
+
+  void StartSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    Section section(handler, "Start");
+
+    section.choose(
+      "Tractions", tractions, "",
+      "On a track the start takes some times as many iterations, and lateral tractions build up.");
+    section.add("Tolerance", tolerance, "Of the force balance at the start, share of the largest force.",
+                Double(1e-12, 0.1));
+    section.add("Largest number of iterations", max_iterations, "Of the dynamic relaxation.",
+                Integer(1, 100000000));
+  }
+} // namespace tread

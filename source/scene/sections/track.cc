@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/track.h>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<Foundation>> &choices()
+  {
+    static const std::vector<Choice<Foundation>> list{
+      {Foundation::rigid, "rigid", "the rail's bottom is held."},
+      {Foundation::one_layer, "one-layer", "it rests on pads on the ground."},
+      {Foundation::two_layer, "two-layer", "pads, sleepers and ballast."}};
+    return list;
+  }
+
+
+  template <>
+  const std::vector<Choice<SleeperKind>> &choices()
+  {
+    static const std::vector<Choice<SleeperKind>> list{
+      {SleeperKind::mass, "mass", "they move in z and are rigid."},
+      {SleeperKind::solid, "solid",
+       "half sleepers of cells, the middle of the track being a plane of symmetry; they bend and cost "
+       "cells."}};
+    return list;
+  }
+
+
+  void TrackSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    constexpr double tiny = 1e-12; // for "above 0"
+    Section          section(handler, "Track");
+
+    section.choose("Foundation", foundation, "",
+                   "With either the rail's ends are planes of symmetry, and supports move vertically only.");
+    section.choose("Sleepers", sleepers, "Of two layers.");
+    section.add("Sleeper spacing (m)", sleeper_spacing,
+                "Between the supports' middles. The rail must end between half a pad and half a "
+                "spacing beyond its last supports.",
+                Double(0.05, 10.));
+    section.add("Support 0 (mm)", support_0,
+                "x of the support with number 0. Numbers grow in rolling direction.",
+                Double(-20000., 20000.));
+    section.add("Pad stiffness (MN per m)", pad_stiffness, "Of a whole support, vertical.", Double(tiny));
+    section.add("Pad damping (kN s per m)", pad_damping, "Of a whole support, vertical.", Double(0.));
+    section.add("Pad length (mm)", pad_length, "Along the rail. Longer pads hold the rail's slope as well.",
+                Double(1., 2000.));
+    section.add("Pad width (mm)", pad_width,
+                "Across the rail, at most the foot's. Wider pads resist the rail's rolling over more.",
+                Double(1., 2000.));
+    section.add("Points along", points_along,
+                "A pad acts at this many points along the rail (so does the ballast under a solid "
+                "sleeper). 1: the slope of the rail is free.",
+                Integer(1, 50));
+    section.add("Points across", points_across,
+                "The same across the rail. 1: nothing keeps the rail from tipping over, so only for "
+                "upright rails that are loaded on y = 0 and whose crown radius exceeds their height.",
+                Integer(1, 50));
+    section.add("Sleeper mass (kg)", sleeper_mass,
+                "What one rail's support carries: half a sleeper. Sets the height of a solid one.",
+                Double(tiny));
+    section.add("Sleeper length (m)", sleeper_length, "Whole, of a solid sleeper.", Double(0.1, 10.));
+    section.add("Sleeper width (mm)", sleeper_width,
+                "Along the rail, of a solid sleeper; not below the pad's length.", Double(1., 2000.));
+    section.add("Rail distance (mm)", rail_distance,
+                "Between the middles of both rails, with solid sleepers: half of it to the track's "
+                "middle, at y < 0.",
+                Double(1., 5000.));
+    section.add("Sleeper Young's modulus (GPa)", sleeper_young_modulus, "Of a solid sleeper.",
+                Double(1e-3, 1e4));
+    section.add("Sleeper Poisson's ratio", sleeper_poisson_ratio, "Of a solid sleeper.", Double(0., 0.49));
+    section.add("Sleeper density (kg per m3)", sleeper_density, "Of a solid sleeper.", Double(1., 1e5));
+    section.add("Ballast stiffness (MN per m)", ballast_stiffness,
+                "Of a whole support (one rail's), vertical.", Double(tiny));
+    section.add("Ballast damping (kN s per m)", ballast_damping, "Of a whole support (one rail's), vertical.",
+                Double(0.));
+  }
+
+
+  double TrackSection::solid_sleeper_height() const
+  {
+    return sleeper_mass / (sleeper_density * 0.5 * sleeper_length * sleeper_width);
+  }
+
+
+  void TrackSection::check() const
+  {
+    if (!has_supports())
+      return;
+    require(pad_length < sleeper_spacing, "'Track/Pad length (mm)' " + text_in_mm(pad_length) +
+                                            " must be below the sleeper spacing, " +
+                                            text_in_mm(sleeper_spacing));
+    if (!has_solid_sleepers())
+      return;
+    require(pad_length <= sleeper_width && sleeper_width < sleeper_spacing,
+            "'Track/Sleeper width (mm)' " + text_in_mm(sleeper_width) +
+              " must be from 'Pad length (mm)' to below the spacing");
+    require(0.5 * (rail_distance + pad_width) <= 0.5 * sleeper_length && pad_width <= rail_distance,
+            "'Track/Sleeper length (m)' " + text_of(sleeper_length) +
+              " does not reach under the pads of rails at 'Rail distance (mm)' " + text_in_mm(rail_distance));
+  }
+} // namespace tread

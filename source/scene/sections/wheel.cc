@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/wheel.h>
+
+#include <algorithm>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<WheelShape>> &choices()
+  {
+    static const std::vector<Choice<WheelShape>> list{
+      {WheelShape::sector, "sector",
+       "a piece of the rim on a rigid hub that has the rest of mass and inertia."},
+      {WheelShape::full, "full", "rim, web and hub deform; what the bore holds is rigid."}};
+    return list;
+  }
+
+
+  void WheelSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Anything;
+    using dealii::Patterns::Double;
+    constexpr double tiny = 1e-12; // for "above 0"
+    Section          section(handler, "Wheel");
+
+    section.choose("Shape", shape);
+    section.add("Radius (mm)", radius, "Rolling radius. Sets the curvature along the rail.",
+                Double(10., 2000.));
+    section.add("Mass (kg)", mass,
+                "Of all that is unsprung, meshed or not: wheel, half axle, axle box. It loads the contact.",
+                Double(tiny));
+    section.add("Moment of inertia (kg m2)", moment_of_inertia,
+                "About the axle, of the same. Matters when a torque drives.", Double(tiny));
+    section.add("Sector thickness (mm)", sector_thickness,
+                "Radial size of a sector. Thicker is nearer to a half-space.", Double(1., 1000.));
+    section.add("Sector width (mm)", sector_width, "Lateral size of a sector.", Double(1., 1000.));
+    section.add("Sector margin (mm)", sector_margin,
+                "Arc of a sector beyond the rolled distance, at each end.", Double(0., 1000.));
+    section.add("Rim inner radius (mm)", rim_inner_radius,
+                "Full wheel. Above the hub's outer radius, below the wheel's radius.", Double(1., 2000.));
+    section.add("Rim width (mm)", rim_width, "Full wheel. Above the web's thickness.", Double(1., 1000.));
+    section.add("Web thickness (mm)", web_thickness, "Full wheel. Below rim width and hub length.",
+                Double(1., 1000.));
+    section.add("Hub outer radius (mm)", hub_outer_radius, "Full wheel. Above the bore's radius.",
+                Double(1., 2000.));
+    section.add("Hub length (mm)", hub_length, "Full wheel. Above the web's thickness.", Double(1., 1000.));
+    section.add("Bore radius (mm)", bore_radius, "Full wheel: the rigid axle begins here.",
+                Double(1., 2000.));
+    section.add(
+      "Tread profile", tread_profile,
+      "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
+      "mm "
+      "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
+      Anything());
+    section.add("Lateral position (mm)", lateral_position,
+                "y of the running circle over the rail's middle; the flange lies at y < 0.",
+                Double(-30., 30.));
+    material.declare(section);
+  }
+
+
+  void WheelSection::check() const
+  {
+    require(is_full() || sector_thickness < radius,
+            "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + text_in_mm(radius));
+    require(!is_full() || (bore_radius < hub_outer_radius && hub_outer_radius < rim_inner_radius &&
+                           rim_inner_radius < radius),
+            "a full wheel needs 'Wheel/Bore radius (mm)' < 'Hub outer radius (mm)' < 'Rim inner radius (mm)' "
+            "< 'Radius (mm)'");
+    require(!is_full() || web_thickness < std::min(rim_width, hub_length),
+            "'Wheel/Web thickness (mm)' " + text_in_mm(web_thickness) +
+              " must be below 'Wheel/Rim width (mm)' " + text_in_mm(rim_width) +
+              " and 'Wheel/Hub length (mm)' " + text_in_mm(hub_length));
+  }
+} // namespace tread

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run would cost.
+#include <tread/simulation/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace tread
+{
+  void Simulation::estimate()
+  {
+    const double        step  = scene.time_stepping.courant_number * dynamics.critical_time_step();
+    const std::uint64_t steps = remaining_steps();
+    // A few force evaluations tell this machine's pace.
+    NodalField       force(mesh.nodes.size(), Row{});
+    const NodalField x     = dynamics.positions();
+    const auto       start = MPI_Wtime();
+    unsigned int     n     = 0;
+    for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
+      solid.add_internal_forces(x.data(), dynamics.v.data(), force.data());
+    const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
+    const double           memory = memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
+    constexpr unsigned int n_choices = 4; // of levels
+    std::array<double, n_choices> gains;
+    for (unsigned int level = 0; level < n_choices; ++level)
+      gains[level] = dynamics.ideal_gain_of_levels(level);
+    // Of the whole run over that of the internal forces, of which the start takes some.
+    constexpr double all_over_forces = 2.2, relaxation_steps = 1200.;
+    const auto       time = [&](const double density_scale, const double gain_of_levels) {
+      return all_over_forces * seconds *
+             (steps * std::sqrt(scene.general.density_scale / density_scale) / gain_of_levels +
+              relaxation_steps);
+    };
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
+        std::printf("unknowns             %12llu\n",
+                    3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
+        std::printf("time step            %12.4g s\n", step);
+        if (dynamics.max_level() > 0)
+          std::printf("levels of time steps %12u     cell updates fall to 1/%.2f\n", dynamics.max_level() + 1,
+                      gain);
+        std::printf("steps                %12llu\n", (unsigned long long)steps);
+        std::printf("cells and nodes use  %12.0f MB\n", memory / 1e6);
+        std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
+                    scene.inertia_error_estimate(), scene.general.density_scale);
+        std::printf(
+          "estimated time       %12.0f s on %u rank(s), about %.1f times that of the internal forces\n",
+          time(scene.general.density_scale, gain), dealii::Utilities::MPI::n_mpi_processes(comm),
+          all_over_forces);
+        std::printf("with 'Levels'        %12s", "");
+        for (unsigned int levels = 1; levels <= n_choices; ++levels)
+          std::printf("%9u", levels);
+        std::printf("   inertia error\n");
+        std::vector<double> scales{scene.general.density_scale};
+        if (scene.general.quasi_static)
+          scales.insert(scales.end(), {1., 4., 9., 25.});
+        std::sort(scales.begin(), scales.end());
+        scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
+        for (const double scale : scales)
+          {
+            std::printf("'Density scale' %4g: s            ", scale);
+            for (const double gain_of_levels : gains)
+              std::printf("%9.0f", time(scale, gain_of_levels));
+            std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.general.density_scale);
+          }
+      }
+  }
+} // namespace tread
