@@ -20,37 +20,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    std::string history_header(const std::vector<int> &supports)
-    {
-      std::string header =
-        "time_s,position_m,normal_force_N,longitudinal_force_N,lateral_force_N,traction_coefficient,"
-        "creepage,"
-        "contact_area_m2,adhesion_share,max_pressure_Pa,external_work_J,kinetic_energy_J,internal_"
-        "energy_J,"
-        "hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,plastic_work_J,energy_"
-        "residual_J,axle_box_acceleration_m_per_s2";
-      if (!supports.empty())
-        header += ",spring_energy_J";
-      for (const int number : supports)
-        for (const char *quantity : {"pad_N", "ballast_N", "seat_pressure_Pa", "least_seat_pressure_Pa",
-                                     "rail_m", "rail_at_next_mid_span_m"})
-          header += ",support_" + std::to_string(number) + "_" + quantity;
-      return header;
-    }
-
-    std::string cells_header(const std::size_t n_cells)
-    {
-      std::string header = "time_s,position_m";
-      for (std::size_t i = 1; i <= n_cells; ++i)
-        for (const char *quantity : {"von_mises_Pa", "equivalent_plastic_strain"})
-          header += ",cell_" + std::to_string(i) + "_" + quantity;
-      return header;
-    }
-  } // namespace
-
-
   RunFolder::RunFolder(const std::string &path, const MPI_Comm comm)
     : folder(path)
     , comm(comm)
@@ -179,50 +148,19 @@ namespace tread
 
   void RunFolder::write_patch(const std::string &name, const std::vector<PatchNode> &patch) const
   {
-    std::ostringstream text;
-    text
-      << "x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state\n"
-      << std::setprecision(9);
-    for (const PatchNode &node : patch)
-      text << 1e3 * node.position[0] << ',' << 1e3 * node.position[1] << ',' << 1e3 * node.position[2] << ','
-           << 1e6 * node.area << ',' << 1e-6 * node.pressure << ',' << 1e-6 * node.shear[0] << ','
-           << 1e-6 * node.shear[1] << ',' << node.slip[0] << ',' << node.slip[1] << ','
-           << (node.adhesion ? "adhesion" : "slip") << '\n';
-    write(name, text.str());
+    write_table(name, patch_columns(), patch);
   }
 
 
   void RunFolder::write_passages(const std::vector<Passage> &passages) const
   {
-    std::ostringstream text;
-    text << "passage,settlement_um,shift_um,equivalent_plastic_strain_percent,residual_von_mises_MPa,"
-            "plastic_work_J,frictional_work_J,traction_coefficient,max_pressure_MPa,energy_residual_share,"
-            "energy_residual_of_dissipated\n"
-         << std::setprecision(9);
-    for (std::size_t i = 0; i < passages.size(); ++i)
-      {
-        const Passage &p = passages[i];
-        text << i + 1 << ',' << 1e6 * p.settlement << ',' << 1e6 * p.shift << ',' << 100. * p.plastic_strain
-             << ',' << 1e-6 * p.residual_stress << ',' << p.plastic_work << ',' << p.frictional_work << ','
-             << p.traction_coefficient << ',' << 1e-6 * p.max_pressure << ',' << p.energy_residual_share
-             << ',' << p.energy_residual_of_dissipated << '\n';
-      }
-    write("passages.csv", text.str());
+    write_table("passages.csv", passage_columns(), passages);
   }
 
 
   void RunFolder::write_strip(const std::vector<StripColumn> &columns) const
   {
-    std::ostringstream text;
-    text << "x_mm,von_mises_MPa,y_mm,depth_mm,time_s,wheel_x_mm,surface_von_mises_MPa,surface_y_mm,"
-            "surface_time_s,surface_wheel_x_mm,equivalent_plastic_strain_percent\n"
-         << std::setprecision(9);
-    for (const StripColumn &c : columns)
-      text << 1e3 * c.x << ',' << 1e-6 * c.largest.stress << ',' << 1e3 * c.y << ',' << 1e3 * c.depth << ','
-           << c.largest.time << ',' << 1e3 * c.largest.wheel_x << ',' << 1e-6 * c.at_surface.stress << ','
-           << 1e3 * c.y_at_surface << ',' << c.at_surface.time << ',' << 1e3 * c.at_surface.wheel_x << ','
-           << 100. * c.equivalent_plastic_strain << '\n';
-    write("strip.csv", text.str());
+    write_table("strip.csv", strip_columns(), columns);
   }
 
 
@@ -266,9 +204,11 @@ namespace tread
             if (std::stod((*i)[1]) <= time)
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    open_table(history, "history.csv", history_header(supports), resume, time);
+    of_history = history_columns(supports);
+    of_cells   = cell_columns(n_cells);
+    open_table(history, "history.csv", heading(of_history), resume, time);
     if (n_cells > 0)
-      open_table(cell_history, "cells.csv", cells_header(n_cells), resume, time);
+      open_table(cell_history, "cells.csv", heading(of_cells), resume, time);
   }
 
 
@@ -276,28 +216,14 @@ namespace tread
   {
     if (!writes_tables)
       return;
-    const EnergyLedger &e = row.energy;
-    history << row.time << ',' << row.position << ',' << row.force[2] << ',' << row.force[0] << ','
-            << row.force[1] << ',' << (row.force[2] > 0. ? row.force[0] / row.force[2] : 0.) << ','
-            << row.creepage << ',' << row.patch.area << ',' << row.patch.adhesion_share << ','
-            << row.patch.max_pressure << ',' << e.external_work << ',' << e.kinetic << ',' << e.strain << ','
-            << e.hourglass << ',' << e.friction << ',' << e.contact << ',' << e.damping << ',' << e.plastic
-            << ',' << e.residual() << ',' << row.axle_box_acceleration;
-    if (!row.supports.empty())
-      history << ',' << e.springs;
-    for (const SupportRecord &s : row.supports)
-      history << ',' << s.pad_force << ',' << s.ballast_force << ',' << s.seat_pressure << ','
-              << s.least_seat_pressure << ',' << s.rail_over_support << ',' << s.rail_at_mid_span;
-    history << '\n' << std::flush;
-    if (!history)
-      throw std::runtime_error("cannot write '" + path("history.csv") + "': is the disk full?");
-    if (row.cells.empty())
-      return;
-    cell_history << row.time << ',' << row.position;
-    for (const CellRecord &cell : row.cells)
-      cell_history << ',' << cell.von_mises << ',' << cell.equivalent_plastic_strain;
-    cell_history << '\n' << std::flush;
-    if (!cell_history)
-      throw std::runtime_error("cannot write '" + path("cells.csv") + "': is the disk full?");
+    const auto append_to = [&](std::ofstream &table, const Columns<HistoryRow> &columns, const char *name) {
+      write_row(table, columns, row);
+      table << std::flush;
+      if (!table)
+        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+    };
+    append_to(history, of_history, "history.csv");
+    if (!row.cells.empty())
+      append_to(cell_history, of_cells, "cells.csv");
   }
 } // namespace tread

@@ -45,8 +45,8 @@ namespace tread
         }
     n_nodes                   = std::max(1., sum(n_nodes, comm));
     const EnergyLedger energy = dynamics.ledger();
-    passages.push_back({sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes, max(strain, comm),
-                        max(residual, comm), energy.plastic, energy.friction,
+    passages.push_back({passages.size() + 1., sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes,
+                        max(strain, comm), max(residual, comm), energy.plastic, energy.friction,
                         last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0.,
                         measures_of_solution().max_pressure, energy.residual_share(),
                         energy.of_dissipated(energy.residual())});

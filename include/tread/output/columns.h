@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_output_columns_h
+#define tread_output_columns_h
+
+#include <tread/analysis/contact_patch.h>
+#include <tread/analysis/rail_stress.h>
+#include <tread/output/records.h>
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// A column of a table: what its heading says and what its rows have, in one place.
+  template <typename Row>
+  struct Column
+  {
+    std::string name; ///< of the quantity
+    std::string unit; ///< as in the heading; empty: a pure number
+    /// In SI units; the factor to the column's unit follows from its name.
+    std::function<double(const Row &)> value;
+    /// A word instead of a number, if it is given.
+    std::function<std::string(const Row &)> word = {};
+  };
+
+  template <typename Row>
+  using Columns = std::vector<Column<Row>>;
+
+  /// What a value in SI units is multiplied by to have a column's unit, 1 for SI units themselves.
+  double factor_of(const std::string &unit);
+
+  /// Names with their units, separated by commas, without an end of line.
+  template <typename Row>
+  std::string heading(const Columns<Row> &columns)
+  {
+    std::string line;
+    for (const Column<Row> &column : columns)
+      line += (line.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : "_" + column.unit);
+    return line;
+  }
+
+  /// A row with its end of line.
+  template <typename Row>
+  void write_row(std::ostream &out, const Columns<Row> &columns, const Row &row)
+  {
+    const char *separator = "";
+    for (const Column<Row> &column : columns)
+      {
+        out << separator;
+        separator = ",";
+        if (column.word)
+          out << column.word(row);
+        else if (const double factor = factor_of(column.unit); factor != 1.)
+          out << factor * column.value(row);
+        else
+          out << column.value(row);
+      }
+    out << '\n';
+  }
+
+  // The tables of a run. A new column is one line in its list.
+
+  /// history.csv. @param supports numbers of those that have columns
+  Columns<HistoryRow> history_columns(const std::vector<int> &supports);
+  /// cells.csv. @param n_cells so many have columns
+  Columns<HistoryRow>         cell_columns(std::size_t n_cells);
+  const Columns<PatchNode>   &patch_columns();
+  const Columns<Passage>     &passage_columns();
+  const Columns<StripColumn> &strip_columns();
+} // namespace tread
+
+#endif

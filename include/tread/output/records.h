@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_output_records_h
+#define tread_output_records_h
+
+#include <tread/analysis/contact_patch.h>
+#include <tread/analysis/rail_stress.h>
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <vector>
+
+namespace tread
+{
+  /// Forces and displacements of one support, SI units.
+  struct SupportRecord
+  {
+    double pad_force, ballast_force; ///< compression at the end of the interval
+    double seat_pressure;            ///< largest of the pad's points
+    double least_seat_pressure;      ///< smallest of them; negative where the pad pulls
+    double rail_over_support;        ///< displacement of the rail's foot, upwards
+    double rail_at_mid_span;         ///< the same half a spacing ahead
+  };
+
+  /// One row of history.csv and of cells.csv, SI units.
+  struct HistoryRow
+  {
+    double                     time, position;
+    Row                        force; ///< on the wheel, mean over the interval
+    double                     creepage;
+    PatchMeasures              patch;
+    EnergyLedger               energy;
+    double                     axle_box_acceleration; ///< vertical, mean over the interval
+    std::vector<SupportRecord> supports;              ///< as many as were passed to open_histories
+    std::vector<CellRecord>    cells;                 ///< likewise
+  };
+
+  /// Residual state of the rail after a wheel, SI units: averages over the nodes in the middle of the rolled
+  /// distance, 10 mm long and on the line y = 0, and the largest values of the cells below them.
+  struct Passage
+  {
+    double number;                ///< 1 for the first wheel
+    double settlement, shift;     ///< of the surface since the virgin state: downwards, along x (m)
+    double plastic_strain;        ///< largest equivalent plastic strain
+    double residual_stress;       ///< largest equivalent (von Mises) stress
+    double plastic_work;          ///< of rail and wheel in this passage, J
+    double frictional_work;       ///< J
+    double traction_coefficient;  ///< mean over the last 10 mm
+    double max_pressure;          ///< at the solution instant, Pa
+    double energy_residual_share; ///< of the work done in this passage
+    double energy_residual_of_dissipated;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/output/columns.h>
+
+#include <array>
+#include <utility>
+
+namespace tread
+{
+  double factor_of(const std::string &unit)
+  {
+    static const std::array<std::pair<const char *, double>, 5> factors{
+      {{"mm", 1e3}, {"um", 1e6}, {"mm2", 1e6}, {"MPa", 1e-6}, {"percent", 100.}}};
+    for (const auto &[name, factor] : factors)
+      if (unit == name)
+        return factor;
+    return 1.;
+  }
+
+
+  Columns<HistoryRow> history_columns(const std::vector<int> &supports)
+  {
+    using R = HistoryRow;
+    Columns<R> columns{{"time", "s",
+                        [](const R &r) {
+                          return r.time;
+                        }},
+                       {"position", "m",
+                        [](const R &r) {
+                          return r.position;
+                        }},
+                       {"normal_force", "N",
+                        [](const R &r) {
+                          return r.force[2];
+                        }},
+                       {"longitudinal_force", "N",
+                        [](const R &r) {
+                          return r.force[0];
+                        }},
+                       {"lateral_force", "N",
+                        [](const R &r) {
+                          return r.force[1];
+                        }},
+                       {"traction_coefficient", "",
+                        [](const R &r) {
+                          return r.force[2] > 0. ? r.force[0] / r.force[2] : 0.;
+                        }},
+                       {"creepage", "",
+                        [](const R &r) {
+                          return r.creepage;
+                        }},
+                       {"contact_area", "m2",
+                        [](const R &r) {
+                          return r.patch.area;
+                        }},
+                       {"adhesion_share", "",
+                        [](const R &r) {
+                          return r.patch.adhesion_share;
+                        }},
+                       {"max_pressure", "Pa",
+                        [](const R &r) {
+                          return r.patch.max_pressure;
+                        }},
+                       {"external_work", "J",
+                        [](const R &r) {
+                          return r.energy.external_work;
+                        }},
+                       {"kinetic_energy", "J",
+                        [](const R &r) {
+                          return r.energy.kinetic;
+                        }},
+                       {"internal_energy", "J",
+                        [](const R &r) {
+                          return r.energy.strain;
+                        }},
+                       {"hourglass_energy", "J",
+                        [](const R &r) {
+                          return r.energy.hourglass;
+                        }},
+                       {"frictional_work", "J",
+                        [](const R &r) {
+                          return r.energy.friction;
+                        }},
+                       {"contact_loss", "J",
+                        [](const R &r) {
+                          return r.energy.contact;
+                        }},
+                       {"damping_work", "J",
+                        [](const R &r) {
+                          return r.energy.damping;
+                        }},
+                       {"plastic_work", "J",
+                        [](const R &r) {
+                          return r.energy.plastic;
+                        }},
+                       {"energy_residual", "J",
+                        [](const R &r) {
+                          return r.energy.residual();
+                        }},
+                       {"axle_box_acceleration", "m_per_s2", [](const R &r) {
+                          return r.axle_box_acceleration;
+                        }}};
+    if (!supports.empty())
+      columns.push_back({"spring_energy", "J", [](const R &r) {
+                           return r.energy.springs;
+                         }});
+    const Columns<SupportRecord> of_support{{"pad", "N",
+                                             [](const SupportRecord &s) {
+                                               return s.pad_force;
+                                             }},
+                                            {"ballast", "N",
+                                             [](const SupportRecord &s) {
+                                               return s.ballast_force;
+                                             }},
+                                            {"seat_pressure", "Pa",
+                                             [](const SupportRecord &s) {
+                                               return s.seat_pressure;
+                                             }},
+                                            {"least_seat_pressure", "Pa",
+                                             [](const SupportRecord &s) {
+                                               return s.least_seat_pressure;
+                                             }},
+                                            {"rail", "m",
+                                             [](const SupportRecord &s) {
+                                               return s.rail_over_support;
+                                             }},
+                                            {"rail_at_next_mid_span", "m", [](const SupportRecord &s) {
+                                               return s.rail_at_mid_span;
+                                             }}};
+    for (std::size_t i = 0; i < supports.size(); ++i)
+      for (const Column<SupportRecord> &column : of_support)
+        columns.push_back({"support_" + std::to_string(supports[i]) + "_" + column.name, column.unit,
+                           [i, value = column.value](const R &r) {
+                             return value(r.supports[i]);
+                           }});
+    return columns;
+  }
+
+
+  Columns<HistoryRow> cell_columns(const std::size_t n_cells)
+  {
+    using R = HistoryRow;
+    Columns<R> columns{{"time", "s",
+                        [](const R &r) {
+                          return r.time;
+                        }},
+                       {"position", "m", [](const R &r) {
+                          return r.position;
+                        }}};
+    for (std::size_t i = 0; i < n_cells; ++i)
+      {
+        const std::string name = "cell_" + std::to_string(i + 1);
+        columns.push_back({name + "_von_mises", "Pa", [i](const R &r) {
+                             return r.cells[i].von_mises;
+                           }});
+        columns.push_back({name + "_equivalent_plastic_strain", "", [i](const R &r) {
+                             return r.cells[i].equivalent_plastic_strain;
+                           }});
+      }
+    return columns;
+  }
+
+
+  const Columns<PatchNode> &patch_columns()
+  {
+    using R = PatchNode;
+    static const Columns<R> columns{{"x", "mm",
+                                     [](const R &r) {
+                                       return r.position[0];
+                                     }},
+                                    {"y", "mm",
+                                     [](const R &r) {
+                                       return r.position[1];
+                                     }},
+                                    {"z", "mm",
+                                     [](const R &r) {
+                                       return r.position[2];
+                                     }},
+                                    {"area", "mm2",
+                                     [](const R &r) {
+                                       return r.area;
+                                     }},
+                                    {"pressure", "MPa",
+                                     [](const R &r) {
+                                       return r.pressure;
+                                     }},
+                                    {"shear_x", "MPa",
+                                     [](const R &r) {
+                                       return r.shear[0];
+                                     }},
+                                    {"shear_y", "MPa",
+                                     [](const R &r) {
+                                       return r.shear[1];
+                                     }},
+                                    {"slip_x", "m_per_s",
+                                     [](const R &r) {
+                                       return r.slip[0];
+                                     }},
+                                    {"slip_y", "m_per_s",
+                                     [](const R &r) {
+                                       return r.slip[1];
+                                     }},
+                                    {"state", "", {}, [](const R &r) {
+                                       return std::string(r.adhesion ? "adhesion" : "slip");
+                                     }}};
+    return columns;
+  }
+
+
+  const Columns<Passage> &passage_columns()
+  {
+    using R = Passage;
+    static const Columns<R> columns{{"passage", "",
+                                     [](const R &r) {
+                                       return r.number;
+                                     }},
+                                    {"settlement", "um",
+                                     [](const R &r) {
+                                       return r.settlement;
+                                     }},
+                                    {"shift", "um",
+                                     [](const R &r) {
+                                       return r.shift;
+                                     }},
+                                    {"equivalent_plastic_strain", "percent",
+                                     [](const R &r) {
+                                       return r.plastic_strain;
+                                     }},
+                                    {"residual_von_mises", "MPa",
+                                     [](const R &r) {
+                                       return r.residual_stress;
+                                     }},
+                                    {"plastic_work", "J",
+                                     [](const R &r) {
+                                       return r.plastic_work;
+                                     }},
+                                    {"frictional_work", "J",
+                                     [](const R &r) {
+                                       return r.frictional_work;
+                                     }},
+                                    {"traction_coefficient", "",
+                                     [](const R &r) {
+                                       return r.traction_coefficient;
+                                     }},
+                                    {"max_pressure", "MPa",
+                                     [](const R &r) {
+                                       return r.max_pressure;
+                                     }},
+                                    {"energy_residual_share", "",
+                                     [](const R &r) {
+                                       return r.energy_residual_share;
+                                     }},
+                                    {"energy_residual_of_dissipated", "", [](const R &r) {
+                                       return r.energy_residual_of_dissipated;
+                                     }}};
+    return columns;
+  }
+
+
+  const Columns<StripColumn> &strip_columns()
+  {
+    using R = StripColumn;
+    static const Columns<R> columns{{"x", "mm",
+                                     [](const R &r) {
+                                       return r.x;
+                                     }},
+                                    {"von_mises", "MPa",
+                                     [](const R &r) {
+                                       return r.largest.stress;
+                                     }},
+                                    {"y", "mm",
+                                     [](const R &r) {
+                                       return r.y;
+                                     }},
+                                    {"depth", "mm",
+                                     [](const R &r) {
+                                       return r.depth;
+                                     }},
+                                    {"time", "s",
+                                     [](const R &r) {
+                                       return r.largest.time;
+                                     }},
+                                    {"wheel_x", "mm",
+                                     [](const R &r) {
+                                       return r.largest.wheel_x;
+                                     }},
+                                    {"surface_von_mises", "MPa",
+                                     [](const R &r) {
+                                       return r.at_surface.stress;
+                                     }},
+                                    {"surface_y", "mm",
+                                     [](const R &r) {
+                                       return r.y_at_surface;
+                                     }},
+                                    {"surface_time", "s",
+                                     [](const R &r) {
+                                       return r.at_surface.time;
+                                     }},
+                                    {"surface_wheel_x", "mm",
+                                     [](const R &r) {
+                                       return r.at_surface.wheel_x;
+                                     }},
+                                    {"equivalent_plastic_strain", "percent", [](const R &r) {
+                                       return r.equivalent_plastic_strain;
+                                     }}};
+    return columns;
+  }
+} // namespace tread
