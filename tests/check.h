@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace tread::tests
 {
   /// Counts and prints comparisons: computed, reference, error, allowed, PASS or FAIL.
-  /// A test program returns check.exit_code() from main().
   class Check
   {
   public:
@@ -43,10 +43,17 @@ namespace tread::tests
       return line(what, holds ? 1. : 0., 1., holds ? 0. : 1., 0.);
     }
 
+    /// Prints how many comparisons there were; 1 if any failed or there was none, otherwise 0.
     int exit_code() const
     {
       std::printf("%u comparisons, %u failed\n", n_lines, n_failed);
       return (n_failed == 0 && n_lines > 0) ? 0 : 1;
+    }
+
+    /// What failed first.
+    const std::string &first_failure() const
+    {
+      return failed_first;
     }
 
   private:
@@ -58,7 +65,8 @@ namespace tread::tests
     {
       const bool pass = error <= allowed; // false for NaN
       ++n_lines;
-      n_failed += pass ? 0 : 1;
+      if (!pass && n_failed++ == 0)
+        failed_first = what;
       std::printf("%-52s computed %15.8g  reference %15.8g  error %9.2e  allowed %9.2e  %s\n", what.c_str(),
                   computed, reference, error, allowed, pass ? "PASS" : "FAIL");
       return pass;
@@ -66,7 +74,15 @@ namespace tread::tests
 
     unsigned int n_lines  = 0;
     unsigned int n_failed = 0;
+    std::string  failed_first;
   };
+
+  /// What stands on the command line behind the program's name: the part of the test that is wanted.
+  using Arguments = std::vector<std::string>;
 } // namespace tread::tests
+
+/// The test: each program defines it, and main.cc calls it. It lies in no namespace, like main, so that a
+/// test's own names go before those of tread::tests.
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &arguments);
 
 #endif

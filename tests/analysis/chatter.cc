@@ -53,9 +53,8 @@ namespace
 } // namespace
 
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  tests::Check check;
   check.below("steady slip, straight over the patch", chatter(1., 0.), 1e-6);
   check.below("steady slip, curved", chatter(2., 0.), 0.01);
   check.that("but not nothing", chatter(2., 0.) > 1e-5);
@@ -64,5 +63,4 @@ int main()
   for (const double noise : {0.01, 0.1})
     check.relative("noise that was put in, over the largest slip", chatter(1., noise),
                    std::sqrt(2.) * noise / largest, 0.1);
-  return check.exit_code();
 }

@@ -165,13 +165,11 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-  Body                                     body = tests::make_box(
-                                        "block", Point<3>(0., -0.015, -0.02), Point<3>(length, 0.015, 0.), {{12, 6, 4}},
-                                        {{Boundary::end, Boundary::end, Boundary::free, Boundary::free, Boundary::support, Boundary::contact}});
+  Body body = tests::make_box(
+    "block", Point<3>(0., -0.015, -0.02), Point<3>(length, 0.015, 0.), {{12, 6, 4}},
+    {{Boundary::end, Boundary::end, Boundary::free, Boundary::free, Boundary::support, Boundary::contact}});
   body.wanted_cell_size = [](const Point<3> &p) {
     return p[2] > -0.9 * coarse ? fine : std::numeric_limits<double>::max();
   };
@@ -180,5 +178,4 @@ int main(int argc, char **argv)
   ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
   check_strip(check, dynamics);
   check_probes(check, dynamics);
-  return check.exit_code();
 }

@@ -25,9 +25,8 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  tests::Check check;
   const double dt = 2.3e-5;
 
   for (const Window window : {Window::rectangular, Window::hann})
@@ -133,5 +132,4 @@ int main()
                amplitude_spectrum({1., 2., 3.}, dt, Window::hann);
              }));
   check.that("an unknown window is refused", refused([]() { window_of("Hamming"); }));
-  return check.exit_code();
 }

@@ -16,15 +16,13 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Check                                    check;
-  const double                             radius = 0.05, force = 1000., friction = 0.3; // m, N
-  const reference::Elastic                 steel;
-  const reference::ElasticPair             pair = reference::combine(steel, steel);
-  const double a = reference::hertz_sphere(radius, pair.hertz_modulus(), force).semi_axis_x;
-  const double h = 0.08e-3;
+  const double                 radius = 0.05, force = 1000., friction = 0.3; // m, N
+  const reference::Elastic     steel;
+  const reference::ElasticPair pair = reference::combine(steel, steel);
+  const double                 a = reference::hertz_sphere(radius, pair.hertz_modulus(), force).semi_axis_x;
+  const double                 h = 0.08e-3;
 
   FineZone zone;
   zone.finest_cell_size   = h;
@@ -105,5 +103,4 @@ int main(int argc, char **argv)
       shares.erase(shares.begin());
     }
   check.that("all forces were reached", shares.empty());
-  return check.exit_code();
 }

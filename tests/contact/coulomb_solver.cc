@@ -121,13 +121,11 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const unsigned int                       n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  Check                                    check;
-  std::mt19937                             random(1);
-  CoulombSolverParameters                  parameters;
+  const unsigned int      n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  std::mt19937            random(1);
+  CoulombSolverParameters parameters;
   parameters.tolerance  = 1e-10;
   parameters.max_sweeps = 2000;
   // The sweeps stop at changes of 1e-10; what is left is that over (1 - rate of convergence), at worst a
@@ -258,5 +256,4 @@ int main(int argc, char **argv)
   const unsigned int  own = one.end - one.begin;
   check.that("a few constraints are one rank's", dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD) == 6 &&
                                                    dealii::Utilities::MPI::max(own, MPI_COMM_WORLD) >= 3);
-  return check.exit_code();
 }

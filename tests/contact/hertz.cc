@@ -134,12 +134,10 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Check                                    check;
-  const double                             modulus = 210e9 / (2. * (1. - 0.09));
-  const double                             pi      = dealii::numbers::PI;
+  const double modulus = 210e9 / (2. * (1. - 0.09));
+  const double pi      = dealii::numbers::PI;
 
   {
     const double radius = 0.05, force = 1000.;
@@ -236,5 +234,4 @@ int main(int argc, char **argv)
     check.relative("wheel on rail: approach extrapolated to half-spaces, um",
                    1e6 * (2. * approach[1] - approach[0]), 1e6 * hertz.approach, 0.015);
   }
-  return check.exit_code();
 }

@@ -116,10 +116,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Check                                    check;
   for (const bool elastic : {false, true})
     for (const unsigned int slave : {1u, 0u})
       {
@@ -156,5 +154,4 @@ int main(int argc, char **argv)
       }
   const Result loose = run({0.40, 1e-5, 1, false, 5000, 10000});
   check.below("usual tolerance: drift in 1e4 steps, share of length", loose.drift / length, 1e-6);
-  return check.exit_code();
 }

@@ -145,10 +145,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Check                                    check;
   for (const unsigned int slave : {0u, 1u})
     {
       const std::string name     = slave == 0 ? "slave below: " : "slave above: ";
@@ -203,5 +201,4 @@ int main(int argc, char **argv)
       check.below(name + "velocities on all ranks - on one, m/s", difference, 1e-10 * 7.);
       check.relative(name + "friction loss on all ranks", r.energy.friction, alone.energy.friction, 1e-10);
     }
-  return check.exit_code();
 }

@@ -176,10 +176,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Check                                    check;
   for (const Case &test :
        {Case{"1:1", 4, 4, 0, 0.}, Case{"2:3, slave below", 2, 3, 0, 0.},
         Case{"2:3, slave above", 2, 3, 1, 0.}, Case{"2:3 tilted, slave below", 2, 3, 0, 0.7},
@@ -187,5 +185,4 @@ int main(int argc, char **argv)
         Case{"1:7, slave above", 1, 7, 1, 0.}, Case{"4:3, refined slave below", 4, 3, 0, 0., 0},
         Case{"4:3, refined master below", 4, 3, 1, 0., 0}, Case{"3:4, refined slave above", 3, 4, 1, 0., 1}})
     run(test, MPI_COMM_WORLD, check);
-  return check.exit_code();
 }

@@ -89,11 +89,9 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-  const double                             modulus = 210e9 / (2. * (1. - 0.09)), pi = dealii::numbers::PI;
+  const double modulus = 210e9 / (2. * (1. - 0.09)), pi = dealii::numbers::PI;
   // The force of a given largest pressure p0 (Hertz): F = pi^3 p0^3 R^2/(6 E*^2).
   const auto force_of = [&](const double p0) {
     return std::pow(pi * p0, 3) * radius * radius / (6. * modulus * modulus);
@@ -119,5 +117,4 @@ int main(int argc, char **argv)
           check.relative(name + "depth/a", result.depth / a, 0.481, 0.1);
         }
     }
-  return check.exit_code();
 }

@@ -110,10 +110,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Check                                    check;
   for (const unsigned int slave : {1u, 0u})
     {
       const std::string name  = slave ? "slave block: " : "slave plane: ";
@@ -145,5 +143,4 @@ int main(int argc, char **argv)
       check.that(name + "slip is not taken for stick",
                  std::abs(slip.residual) > 1e-6 * std::abs(slip.pushed));
     }
-  return check.exit_code();
 }

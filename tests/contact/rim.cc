@@ -67,11 +67,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-
   const Mesh            mesh(MPI_COMM_WORLD, bodies(0.));
   const ContactSurfaces surfaces(mesh);
   unsigned int          n_rim = 0, n_wrong = 0;
@@ -92,5 +89,4 @@ int main(int argc, char **argv)
   if (at_border.at_rim)
     check.absolute("near its border: where, mm", 1e3 * (*at_border.at_rim)[1], 1e3 * border, 0.01);
   check.that("beside the strip nothing is touched", !beside.touched && !beside.at_rim);
-  return check.exit_code();
 }

@@ -65,11 +65,9 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-  const ElasticMaterial                    steel;
+  const ElasticMaterial steel;
   const double square = 4. * (3. * steel.lame() + 2. * steel.shear_modulus()) / (steel.density * edge * edge);
   double       beta   = 0.;
   // Central differences with Omega dt = 0.2 and less shift frequency and rate by (Omega dt)^2/8 or 0.5 %.
@@ -89,5 +87,4 @@ int main(int argc, char **argv)
   // At the Courant number of runs, where each step counts.
   const Decay fast = decay(.9, .1, 0., beta);
   check.below("Courant number 0.9: residual over the damping", fast.residual, 1e-5);
-  return check.exit_code();
 }

@@ -120,14 +120,8 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0 &&
-      !std::freopen("/dev/null", "w", stdout))
-    return 1;
-  tests::Check check;
-
   {
     const Block block(Boundary::support, 3, .95, .1);
     check.that("three levels of cells", block.dynamics->max_level() == 2);
@@ -259,5 +253,4 @@ int main(int argc, char **argv)
                 plain.dynamics->ledger().residual_share(), 1e-4);
     check.below("push: deflection against one step for all", worst_deflection / largest_deflection, 2e-3);
   }
-  return check.exit_code();
 }

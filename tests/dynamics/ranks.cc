@@ -125,14 +125,9 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0 &&
-      !std::freopen("/dev/null", "w", stdout))
-    return 1;
   using dealii::Utilities::MPI::max;
-  tests::Check check;
 
   struct Case
   {
@@ -187,5 +182,4 @@ int main(int argc, char **argv)
                          alone.hub.angular_velocity, 1e-12);
         }
     }
-  return check.exit_code();
 }

@@ -81,10 +81,8 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
-
   // EN 13674-1 (area, centroid, second moments); heads by the drawings' arcs.
   check_profile(check, RailProfile::rail_54e1(),
                 {69.77, 75.1, 2337.9, 419.2, 159. - 122.73, 36.108, 35., 144.9 - 159.});
@@ -100,5 +98,4 @@ int main()
                  1e6 * (std::sqrt(0.09 - 1e-4) - 0.3), 1e-8);
   check.absolute("flat crown, um", tread::crown_height(0.01, std::numeric_limits<double>::infinity()), 0.,
                  0.);
-  return check.exit_code();
 }

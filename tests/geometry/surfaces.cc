@@ -246,12 +246,10 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  tests::Check check;
   check_treads(check);
   check_first_contact(check);
   check_defects(check);
   check_files(check);
-  return check.exit_code();
 }

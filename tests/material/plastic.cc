@@ -189,9 +189,8 @@ namespace
 } // namespace
 
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  tests::Check          check;
   const ElasticMaterial elastic;
   const double          E = elastic.young_modulus, Y = 500e6, H = hardening_modulus(E, 21e9), MPa = 1e-6;
 
@@ -282,5 +281,4 @@ int main()
   check_lanes<0>(check, "isotropic", isotropic);
   check_lanes<1>(check, "Armstrong-Frederick", armstrong_frederick);
   check_lanes<3>(check, "Chaboche", chaboche);
-  return check.exit_code();
 }

@@ -444,11 +444,10 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  const auto   start = std::chrono::steady_clock::now();
-  tests::Check check;
-  const auto   lap = [&] {
+  const auto start = std::chrono::steady_clock::now();
+  const auto lap   = [&] {
     std::printf("-- %.1f s\n",
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
@@ -530,5 +529,4 @@ int main()
   check.that("a bore wider than the hub is refused",
              refused([&] { make_full_wheel(inside_out, FineZone()); }));
   lap();
-  return check.exit_code();
 }

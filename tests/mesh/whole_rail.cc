@@ -87,11 +87,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-
   for (const RailProfile &profile : {RailProfile::rail_54e1(), RailProfile::rail_60e1()})
     {
       const std::string &name = profile.name();
@@ -140,5 +137,4 @@ int main(int argc, char **argv)
       std::printf("%s: %zu cells, scaled Jacobian %.3f, in the fine zone %.3f\n", name.c_str(),
                   mesh.cells.size(), s.scaled_jacobian, s.fine_scaled_jacobian);
     }
-  return check.exit_code();
 }

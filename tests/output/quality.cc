@@ -26,9 +26,8 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  tests::Check check;
   check.relative("dissipated: the contact loss counts whatever its sign, J", good().energy.dissipated(), 4.11,
                  1e-12);
   check.below("residual of a ledger that closes, J", good().energy.residual(), 1e-12);
@@ -86,5 +85,4 @@ int main()
   free.slip_chatter         = 0.5;
   check.that("nothing slips: damping, chatter and a residual of 3 mJ are nothing to warn of",
              free.warnings().empty());
-  return check.exit_code();
 }

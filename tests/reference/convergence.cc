@@ -198,11 +198,9 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
   carter_order(check);
   cases(check);
   frictionless(check);
-  return check.exit_code();
 }

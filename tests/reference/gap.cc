@@ -470,13 +470,11 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
   rail_head(check);
   unlike_bodies(check);
   steady_is_steady(check);
   frictionless(check);
   bad_input(check);
-  return check.exit_code();
 }

@@ -316,13 +316,11 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
   totals(check);
   fields(check);
   convergence(check);
   power_of_unlike_bodies(check);
   subsurface(check);
-  return check.exit_code();
 }

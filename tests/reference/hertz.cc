@@ -50,11 +50,10 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
-  const ElasticPair   steel   = combine(Elastic{}, Elastic{});
-  const double        modulus = steel.hertz_modulus();
+  const ElasticPair steel   = combine(Elastic{}, Elastic{});
+  const double      modulus = steel.hertz_modulus();
   check.relative("E* of steel on steel [GPa]", modulus * 1e-9, 115.38, 5e-5);
   check.relative("G of steel on steel [GPa]", steel.shear * 1e-9, 80.769231, 1e-8);
   check.below("K of like bodies [-]", steel.coupling, 1e-15);
@@ -187,5 +186,4 @@ int main()
   throws(check, "Poisson's ratio", "Poisson's ratio of the rail", [] {
     combine(Elastic{}, Elastic{210e9, 0.6});
   });
-  return check.exit_code();
 }

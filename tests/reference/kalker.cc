@@ -36,10 +36,9 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
-  const ElasticPair   steel = combine(Elastic{}, Elastic{});
+  const ElasticPair steel = combine(Elastic{}, Elastic{});
 
   // The patch of a 460 mm wheel on a 300 mm rail head at 127.1 kN, f = 0.5
   const HertzEllipse hertz = hertz_ellipse(1. / 0.92, 1. / 0.6, steel.hertz_modulus(), 127.1e3);
@@ -199,5 +198,4 @@ int main()
   throws(check, "force beyond f N", "force", [&] { shen_hedrick_elkins_creepage(patch, 70e3); });
   throws(check, "spin in Vermeulen-Johnson", "spin", [&] { vermeulen_johnson(patch, Creepage{0., 0., 1.}); });
   throws(check, "traction ratio", "traction_ratio", [] { carter_creepage(0.5, 1e11, 1e5, 0.3, 1.2); });
-  return check.exit_code();
 }

@@ -407,13 +407,11 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
   carter_limit(check);
   cattaneo(check);
   kalker_table(check);
   combined(check);
   transient(check);
-  return check.exit_code();
 }

@@ -66,10 +66,9 @@ namespace
 } // namespace
 
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
-  const Rail          rail54{"54E1", 2337.9e-8, 69.77e-4}, rail60{"60E1", 3038.3e-8, 76.70e-4};
+  const Rail rail54{"54E1", 2337.9e-8, 69.77e-4}, rail60{"60E1", 3038.3e-8, 76.70e-4};
 
   // 31 supports, Euler beam: deflections (mm) and support forces (kN) from an independent solution.
   struct Static
@@ -180,5 +179,4 @@ int main()
     check.relative("reciprocity (nm/N)", 1e9 * std::abs(beam.respond({{1.13, 1.}}, omega).deflection(.3)),
                    1e9 * std::abs(response.deflection(1.13)), 1e-9);
   }
-  return check.exit_code();
 }

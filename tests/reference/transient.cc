@@ -163,11 +163,9 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
-  tread::tests::Check check;
   cattaneo_to_carter(check);
   start_at_small_creepage(check);
   from_rest(check);
-  return check.exit_code();
 }

@@ -37,10 +37,8 @@ namespace
   }
 } // namespace
 
-int main()
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  tests::Check check;
-
   Scene crown;
   crown.read("", {"Rail/Shape=block", "Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"});
   const double b = hertz(crown, crown.static_load()).semi_axis_y;
@@ -93,5 +91,4 @@ int main()
                       said.find("Wheel/Lateral position (mm)") != std::string::npos))
         std::printf("%s\n", said.c_str());
     }
-  return check.exit_code();
 }

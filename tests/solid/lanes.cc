@@ -101,10 +101,8 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
   std::printf("%u lanes\n", n_lanes);
 
   const std::vector<ElasticMaterial> steel(1);
@@ -196,5 +194,4 @@ int main(int argc, char **argv)
               ++n_hurt;
       check.absolute(name + "components spoiled by another lane", n_hurt, 0., 0.);
     }
-  return check.exit_code();
 }

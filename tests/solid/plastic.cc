@@ -64,13 +64,11 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-  const ElasticMaterial                    elastic;
-  const Mesh                               mesh(MPI_COMM_SELF, {tests::make_patch_cube(edge)});
-  const auto                               everywhere = [](const Point<3> &) {
+  const ElasticMaterial elastic;
+  const Mesh            mesh(MPI_COMM_SELF, {tests::make_patch_cube(edge)});
+  const auto            everywhere = [](const Point<3> &) {
     return true;
   };
   NodalField                       reference(mesh.nodes.size()), direction(mesh.nodes.size());
@@ -231,5 +229,4 @@ int main(int argc, char **argv)
     weld.plastic().forget(0, back);
     check.that("and forgotten", largest_strain(weld, back) == 0.);
   }
-  return check.exit_code();
 }

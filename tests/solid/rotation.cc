@@ -62,11 +62,8 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-
   constexpr double      edge = 0.1; // m
   const ElasticMaterial material;
   Body                  body = tests::make_patch_cube(edge);
@@ -138,5 +135,4 @@ int main(int argc, char **argv)
       std::printf("stretched by 1e-9: energy/(E V) %.1e\n", (e.strain + e.hourglass) / energy_scale);
       check.that(name + "a stretch of 1e-9 is noticed", (e.strain + e.hourglass) / energy_scale > 1e-20);
     }
-  return check.exit_code();
 }

@@ -230,11 +230,8 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
   simply_supported(check);
   on_foundation(check);
-  return check.exit_code();
 }

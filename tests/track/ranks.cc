@@ -67,13 +67,8 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0 &&
-      !std::freopen("/dev/null", "w", stdout))
-    return 1;
-  tests::Check    check;
   TrackParameters track;
   track.pad_width = .05;
   for (const unsigned int kind : {0u, 1u, 2u})
@@ -98,5 +93,4 @@ int main(int argc, char **argv)
                   difference(together.displacements, alone.displacements), 1e-10);
       check.below(name + "energies on other ranks", difference(together.energies, alone.energies), 1e-10);
     }
-  return check.exit_code();
 }

@@ -3,10 +3,11 @@
 // Timoshenko beam on the same supports. A bar, over a sleeper and at mid-span, with stiff pads, where rail on
 // pads and pinned-pinned resonance lie close, and with soft ones, where they are apart; and the full
 // sections.
+#include "receptance.h"
+
 #include <deal.II/base/mpi.h>
 
 #include "check.h"
-#include "receptance.h"
 
 using namespace tread;
 
@@ -117,11 +118,9 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &arguments)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  tests::Check                             check;
-  const std::string                        what = argc > 1 ? argv[1] : "";
+  const std::string what = arguments.empty() ? "" : arguments.front();
   // Timoshenko's frequencies for a half wave of one spacing, shear coefficient 0.4.
   if (what == "bar")
     bar(check);
@@ -129,5 +128,4 @@ int main(int argc, char **argv)
     full_section(check, RailProfile::rail_54e1(), 1015.);
   else if (what == "60E1")
     full_section(check, RailProfile::rail_60e1(), 1067.);
-  return check.exit_code();
 }

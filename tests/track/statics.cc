@@ -97,13 +97,8 @@ namespace
 } // namespace
 
 
-int main(int argc, char **argv)
+void run_test(tests::Check &check, const tests::Arguments &)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0 &&
-      !std::freopen("/dev/null", "w", stdout))
-    return 1;
-  tests::Check    check;
   TrackParameters track;
   track.pad_width     = .05;
   track.points_along  = 1;
@@ -123,5 +118,4 @@ int main(int argc, char **argv)
                              Published{rail60, 0., {45.33, 29.46, 9.70, .13}, 0},
                              Published{rail60, .3, {40.27, 18.59, 3.66, -1.52}, 1}})
     full_section(check, p);
-  return check.exit_code();
 }
