@@ -4,11 +4,27 @@
 
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace tread::tests
 {
+  /// The text of the exception that a call ends with, "" if it does not; other types of exceptions go on.
+  template <typename Exception, typename Call>
+  std::string complaint(const Call &call)
+  {
+    try
+      {
+        call();
+      }
+    catch (const Exception &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
   /// Counts and prints comparisons: computed, reference, error, allowed, PASS or FAIL.
   class Check
   {
@@ -41,6 +57,15 @@ namespace tread::tests
     bool that(const std::string &what, const bool holds)
     {
       return line(what, holds ? 1. : 0., 1., holds ? 0. : 1., 0.);
+    }
+
+    /// An invalid argument must be refused in one line with these words.
+    template <typename Call>
+    bool refuses(const std::string &what, const std::string &words, const Call &call)
+    {
+      const std::string text = complaint<std::invalid_argument>(call);
+      return that(what + ": \"" + text + "\"", text.find(words) != std::string::npos && !text.empty() &&
+                                                 text.find('\n') == std::string::npos);
     }
 
     /// Prints how many comparisons there were; 1 if any failed or there was none, otherwise 0.

@@ -29,15 +29,13 @@ namespace
 
   Impact run(const Bars &bars, const double relative_speed, const ElasticMaterial &material)
   {
-    const std::array<Boundary, 6> at_right{
-      {Boundary::free, Boundary::contact, Boundary::free, Boundary::free, Boundary::free, Boundary::free}},
-      at_left{
-        {Boundary::contact, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free}};
     const Mesh         mesh(MPI_COMM_WORLD,
                             {tests::make_box("left", Point<3>(-bars.length[0], 0., 0.), Point<3>(0., edge, edge),
-                                             {{bars.n_along[0], bars.n_across[0], bars.n_across[0]}}, at_right),
+                                             {{bars.n_along[0], bars.n_across[0], bars.n_across[0]}},
+                                             {{tests::Side::right, Boundary::contact}}),
                              tests::make_box("right", Point<3>(0., 0., 0.), Point<3>(bars.length[1], edge, edge),
-                                             {{bars.n_along[1], bars.n_across[1], bars.n_across[1]}}, at_left)});
+                                             {{bars.n_along[1], bars.n_across[1], bars.n_across[1]}},
+                                             {{tests::Side::left, Boundary::contact}})});
     const Solid        solid(mesh, {material, material}, SolidParameters());
     DynamicsParameters dynamics_parameters;
     dynamics_parameters.gravity = 0.;
@@ -47,10 +45,7 @@ namespace
     Contact          contact(mesh, ContactParameters(), std::make_shared<CoulombFriction>(0.3));
     dynamics.attach_contact(contact);
 
-    std::vector<unsigned int> body_of(mesh.nodes.size());
-    for (const Mesh::Cell &cell : mesh.cells)
-      for (const unsigned int i : cell.nodes)
-        body_of[i] = cell.body;
+    const std::vector<unsigned int> &body_of = mesh.node_bodies;
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
       dynamics.v[i] = Row{(body_of[i] == 0 ? 0.5 : -0.5) * relative_speed, 0., 0., 0.};
     dynamics.start();

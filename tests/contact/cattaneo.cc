@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Cattaneo and Mindlin: a sphere pressed on a flat and then sheared slowly; the slip area grows inwards from
 // the edge.
-#include <tread/dynamics/explicit_dynamics.h>
 #include <tread/reference/cattaneo_mindlin.h>
 #include <tread/reference/hertz.h>
 
 #include <deal.II/base/mpi.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "pressed.h"
 
 #include <algorithm>
 
@@ -24,38 +23,21 @@ void run_test(Check &check, const tests::Arguments &)
   const double                 a = reference::hertz_sphere(radius, pair.hertz_modulus(), force).semi_axis_x;
   const double                 h = 0.08e-3;
 
-  FineZone zone;
-  zone.finest_cell_size   = h;
-  zone.x_begin            = -1.25 * a;
-  zone.x_end              = 1.25 * a;
-  zone.half_width         = 1.25 * a;
-  zone.depth              = 0.6 * a;
-  const double       size = 64. * h; // 7 a: small, so that waves cross it quickly
-  const Mesh         mesh(MPI_COMM_WORLD, {tests::make_indenter("flat", size, 16. * h, 0., zone),
-                                           tests::turned(tests::make_indenter("cap", size, 16. * h, radius, zone),
-                                                         Point<3>(1., 0., 0.), dealii::numbers::PI)});
-  const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
-  DynamicsParameters dynamics_parameters;
-  dynamics_parameters.gravity       = 0.;
-  dynamics_parameters.damping_steps = 1.;
-  ExplicitDynamics dynamics(mesh, solid, dynamics_parameters);
-  dynamics.fix_nodes(dynamics.support_nodes(0));
-  WheelHubParameters hub_parameters;
-  hub_parameters.mass              = 1e2; // with it the hub hardly moves up or down while this lasts
-  hub_parameters.moment_of_inertia = 1e2;
-  hub_parameters.gravity           = 1.;
-  WheelHub hub(hub_parameters);
-  hub.place(0., size);
-  dynamics.attach_hub(hub, 1, 0.);
-  hub.parameters.sprung_mass = force / hub.parameters.gravity - hub.parameters.mass;
-  ContactParameters contact_parameters;
-  contact_parameters.slave_body  = 0;
-  contact_parameters.master_body = 1;
-  Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(friction));
-  dynamics.attach_contact(contact);
-  dynamics.relax(2e-5, 20000, nullptr);
+  const double           size = 64. * h; // 7 a: small, so that waves cross it quickly
+  tests::PressParameters parameters;
+  parameters.force    = force;
+  parameters.axle     = size;
+  parameters.friction = friction;
+  parameters.hub_mass = 1e2; // with it the hub hardly moves up or down while this lasts
+  parameters.damping  = 1.;
+  tests::Pressed pressed(tests::sphere_on_flat(radius, size, 16. * h, tests::zone_around(a, a, h, 0.6 * a)),
+                         parameters);
+  pressed.relax();
+  ExplicitDynamics &dynamics = pressed.dynamics;
+  WheelHub         &hub      = pressed.hub;
+  Contact          &contact  = pressed.contact;
   contact.set_friction(std::make_shared<CoulombFriction>(friction));
-  contact.scale_impulses(dynamics_parameters.courant_number * dynamics.critical_time_step());
+  contact.scale_impulses(DynamicsParameters().courant_number * dynamics.critical_time_step());
   dynamics.start();
 
   // The hub is moved along x, slowly and with a smooth start; instants are chosen by the force that contact

@@ -6,20 +6,17 @@
 #include <deal.II/base/mpi.h>
 
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 #include <random>
 
 using namespace tread;
 using tests::Check;
+using tests::size;
 
 namespace
 {
-  double size(const Row a)
-  {
-    return std::sqrt(dot(a, a));
-  }
-
   struct RandomProblem
   {
     ContactProblem      problem;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Hertz: a sphere on a flat block, and wheel on rail at 127.1 kN, in frictionless equilibrium.
-#include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/mesh/wheel_body.h>
 #include <tread/reference/hertz.h>
 
 #include <deal.II/base/mpi.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "pressed.h"
 
 #include <algorithm>
 
@@ -68,40 +67,24 @@ namespace
   }
 
   /// Body 1, whose support a rigid hub carries, rests on body 0 with the force given.
-  /// @param axle of the hub at first touch.
+  /// @param axle height of the hub at first touch, m
   Contacts press(const std::vector<Body> &bodies,
-                 const Row                axle,
+                 const double             axle,
                  const double             force,
                  const unsigned int       slave)
   {
-    const Mesh         mesh(MPI_COMM_WORLD, bodies);
-    const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
-    DynamicsParameters dynamics_parameters;
-    dynamics_parameters.gravity = 0.;
-    ExplicitDynamics dynamics(mesh, solid, dynamics_parameters);
-    dynamics.fix_nodes(dynamics.support_nodes(0));
-    WheelHubParameters hub_parameters;
-    hub_parameters.mass              = 1e4;
-    hub_parameters.moment_of_inertia = 1e4;
-    hub_parameters.gravity           = 1.;
-    WheelHub hub(hub_parameters);
-    hub.place(axle[0], axle[2]);
-    dynamics.attach_hub(hub, 1, 0.);
-    hub.parameters.sprung_mass = force / hub.parameters.gravity - hub.parameters.mass;
-    ContactParameters contact_parameters;
-    contact_parameters.slave_body  = slave;
-    contact_parameters.master_body = 1 - slave;
-    Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));
-    dynamics.attach_contact(contact);
-
-    Contacts result;
-    // The root of squares of the nodes' imbalance; its sum may be some ten times larger.
-    result.iterations  = dynamics.relax(2e-5, 20000, nullptr);
-    result.approach    = axle[2] - hub.motion.z;
-    result.force       = std::abs(contact.total_impulse()[2]);
-    result.touches_rim = contact.contact_at_rim().has_value();
-    result.n_cells     = mesh.n_global_cells;
-    fit(contact.active_nodes(), result);
+    tests::PressParameters parameters;
+    parameters.force = force;
+    parameters.axle  = axle;
+    parameters.slave = slave;
+    tests::Pressed pressed(bodies, parameters);
+    Contacts       result;
+    result.iterations  = pressed.relax();
+    result.approach    = axle - pressed.hub.motion.z;
+    result.force       = pressed.force();
+    result.touches_rim = pressed.contact.contact_at_rim().has_value();
+    result.n_cells     = pressed.mesh.n_global_cells;
+    fit(pressed.contact.active_nodes(), result);
     return result;
   }
 
@@ -113,16 +96,8 @@ namespace
                   const double       a,
                   const unsigned int slave)
   {
-    FineZone zone;
-    zone.finest_cell_size = h;
-    zone.x_begin          = -1.25 * a;
-    zone.x_end            = 1.25 * a;
-    zone.half_width       = 1.25 * a;
-    zone.depth            = 0.6 * a;
-    const Body flat       = tests::make_indenter("flat", size, 64. * h, 0., zone);
-    const Body cap        = tests::turned(tests::make_indenter("cap", size, 64. * h, radius, zone),
-                                          Point<3>(1., 0., 0.), dealii::numbers::PI);
-    return press({flat, cap}, Row{0., 0., size, 0.}, force, slave);
+    return press(tests::sphere_on_flat(radius, size, 64. * h, tests::zone_around(a, a, h, 0.6 * a)), size,
+                 force, slave);
   }
 
   void print(const std::string &name, const Contacts &r)
@@ -193,12 +168,7 @@ void run_test(Check &check, const tests::Arguments &)
     double approach[2] = {};
     for (const unsigned int i : {0u, 1u})
       {
-        FineZone zone;
-        zone.finest_cell_size = 0.75e-3;
-        zone.x_begin          = -1.25 * hertz.semi_axis_x;
-        zone.x_end            = 1.25 * hertz.semi_axis_x;
-        zone.half_width       = 1.25 * hertz.semi_axis_y;
-        zone.depth            = 3e-3;
+        FineZone zone = tests::zone_around(hertz.semi_axis_x, hertz.semi_axis_y, 0.75e-3, 3e-3);
         // Two cells of each size leave the bodies too stiff: the patch would be 1.9 % too small.
         zone.level_depth  = std::sqrt(hertz.semi_axis_x * hertz.semi_axis_y);
         const double size = 0.072 * (i + 1); // heights of both, and half of lengths and widths
@@ -217,8 +187,8 @@ void run_test(Check &check, const tests::Arguments &)
         sector.arc_end            = size;
         sector.coarsest_cell_size = 0.025;
         const std::string name    = std::string("wheel on rail") + (i ? ", twice the size: " : ": ");
-        const Contacts    r       = press({make_rail_block(block, zone), make_wheel_sector(sector, zone)},
-                                          Row{0., 0., radius, 0.}, force, 1);
+        const Contacts    r =
+          press({make_rail_block(block, zone), make_wheel_sector(sector, zone)}, radius, force, 1);
         print(name, r);
         approach[i] = r.approach;
         check.relative(name + "force, kN", 1e-3 * r.force, 1e-3 * force, 1e-3);

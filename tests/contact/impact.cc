@@ -114,15 +114,14 @@ namespace
 
   Impact run(const double speed, const double h, const double reach, const double cells_per_level)
   {
-    const ElasticMaterial         steel;
-    const std::array<Boundary, 6> top{
-      {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact}};
+    const ElasticMaterial steel;
     // The plane is the slave: its normals are those of the symmetric contact at the planes of symmetry, too.
     const unsigned int n    = std::ceil(reach / h);
     const double       side = n * h;
-    const Mesh         mesh(MPI_COMM_WORLD, {tests::make_box("plane", Point<3>(0., 0., -radius - h),
-                                                             Point<3>(side, side, -radius), {{n, n, 1}}, top),
-                                             make_quarter_sphere(h, reach, cells_per_level)});
+    const Mesh         mesh(MPI_COMM_WORLD,
+                            {tests::make_box("plane", Point<3>(0., 0., -radius - h), Point<3>(side, side, -radius),
+                                             {{n, n, 1}}, {{tests::Side::top, Boundary::contact}}),
+                             make_quarter_sphere(h, reach, cells_per_level)});
     SolidParameters    solid_parameters;
     solid_parameters.max_level = 7;
     const Solid        solid(mesh, {steel, steel}, solid_parameters);

@@ -5,31 +5,23 @@
 
 #include <deal.II/base/mpi.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
-#include <tuple>
 
 using namespace tread;
 using tests::Check;
+using tests::size;
+using tests::cross;
 using dealii::Point;
 
 namespace
 {
   constexpr unsigned int n_steps = 1600;
   constexpr double       edge = 0.02, face = 0.02 / 5.; // of the blocks, and of their smaller faces, m
-
-  Row cross(const Row a, const Row b)
-  {
-    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-  }
-
-  double size(const Row a)
-  {
-    return std::sqrt(dot(a, a));
-  }
 
   struct Momentum
   {
@@ -46,28 +38,24 @@ namespace
     double       largest_energy = 0.; ///< kinetic and strain energy over that at the start
     unsigned int n_touching     = 0;  ///< steps with contact
     bool         touches_at_end = true;
-    std::map<std::tuple<long, long, long, unsigned int>, Row>
-      velocities; ///< of owned nodes, by reference position (nm) and body
+    std::map<std::array<long long, 4>, Row> velocities; ///< of owned nodes, by Mesh::node_key()
   };
 
-  Momentum momentum(const ExplicitDynamics &dynamics, const std::vector<unsigned int> &body_of)
+  Momentum momentum(const ExplicitDynamics &dynamics)
   {
     Momentum m;
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
       if (dynamics.mesh.shared_nodes.is_owned(i))
         {
           const double mass = dynamics.true_masses()[i];
-          m.of_body[body_of[i]] += mass * dynamics.v[i];
+          m.of_body[dynamics.mesh.node_bodies[i]] += mass * dynamics.v[i];
           m.angular += mass * cross(dynamics.position(i), dynamics.v[i]);
           m.kinetic += 0.5 * mass * dot(dynamics.v[i], dynamics.v[i]);
         }
     const MPI_Comm comm = dynamics.mesh.comm;
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        for (Row &of_body : m.of_body)
-          of_body[d] = dealii::Utilities::MPI::sum(of_body[d], comm);
-        m.angular[d] = dealii::Utilities::MPI::sum(m.angular[d], comm);
-      }
+    for (Row &of_body : m.of_body)
+      of_body = tests::sum_over_ranks(of_body, comm);
+    m.angular = tests::sum_over_ranks(m.angular, comm);
     m.linear  = m.of_body[0] + m.of_body[1];
     m.kinetic = dealii::Utilities::MPI::sum(m.kinetic, comm);
     return m;
@@ -75,18 +63,14 @@ namespace
 
   Result run(const MPI_Comm comm, const unsigned int slave, const double sliding_share)
   {
-    const std::array<Boundary, 6> top{
-      {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact}},
-      bottom{
-        {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact, Boundary::free}};
-    const Body lower =
-      tests::make_box("lower", Point<3>(0., 0., -0.02), Point<3>(0.02, 0.02, 0.), {{3, 3, 3}}, top);
+    const Body lower = tests::make_box("lower", Point<3>(0., 0., -0.02), Point<3>(0.02, 0.02, 0.),
+                                       {{3, 3, 3}}, {{tests::Side::top, Boundary::contact}});
     // An edge strikes first, the block turns, and its whole face follows.
     const double tilt  = 0.01;
     const Body   upper = tests::turned(
-        tests::turned(
-          tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(0.018, 0.017, 0.015), {{5, 4, 4}}, bottom),
-          Point<3>(0., 1., 0.), tilt),
+        tests::turned(tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(0.018, 0.017, 0.015), {{5, 4, 4}},
+                                      {{tests::Side::bottom, Boundary::contact}}),
+                      Point<3>(0., 1., 0.), tilt),
         Point<3>(0., 0., 1.), 0.3, dealii::Tensor<1, 3>({0.004, -0.001, 0.018 * std::sin(tilt) + 2e-6}));
     const Mesh         mesh(comm, {lower, upper});
     const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
@@ -105,16 +89,12 @@ namespace
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.3));
     dynamics.attach_contact(contact);
 
-    std::vector<unsigned int> body_of(mesh.nodes.size());
-    for (const Mesh::Cell &cell : mesh.cells)
-      for (const unsigned int i : cell.nodes)
-        body_of[i] = cell.body;
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-      dynamics.v[i] = body_of[i] == 0 ? Row{-1., 0., 2., 0.} : Row{3., 1., -5., 0.};
+      dynamics.v[i] = mesh.node_bodies[i] == 0 ? Row{-1., 0., 2., 0.} : Row{3., 1., -5., 0.};
     dynamics.start();
 
     Result result;
-    result.before       = momentum(dynamics, body_of);
+    result.before       = momentum(dynamics);
     double last_kinetic = 0., strain = 0.;
     for (unsigned int n = 0; n < n_steps; ++n)
       {
@@ -124,7 +104,7 @@ namespace
         result.touches_at_end = size(impulse) > 0.;
         result.n_touching += result.touches_at_end;
         // Kinetic energy half a step before and after the instant of the strain energy.
-        const double kinetic = momentum(dynamics, body_of).kinetic;
+        const double kinetic = momentum(dynamics).kinetic;
         if (n % 20 == 1)
           result.largest_energy =
             std::max(result.largest_energy, 0.5 * (last_kinetic + kinetic) - result.before.kinetic + strain);
@@ -135,12 +115,11 @@ namespace
           }
         last_kinetic = kinetic;
       }
-    result.after  = momentum(dynamics, body_of);
+    result.after  = momentum(dynamics);
     result.energy = dynamics.ledger();
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
-        result.velocities[{std::lround(mesh.nodes[i][0] * 1e9), std::lround(mesh.nodes[i][1] * 1e9),
-                           std::lround(mesh.nodes[i][2] * 1e9), body_of[i]}] = dynamics.v[i];
+        result.velocities[mesh.node_key(i)] = dynamics.v[i];
     return result;
   }
 } // namespace

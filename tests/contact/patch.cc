@@ -5,13 +5,14 @@
 
 #include <deal.II/base/mpi.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 
 using namespace tread;
 using tests::Check;
+using tests::cross;
 using dealii::Point;
 
 namespace
@@ -26,23 +27,6 @@ namespace
     double       tilt;             ///< of everything in space, rad
     int          refined = -1;     ///< this body has smaller cells in a half of the interface
   };
-
-  Row cross(const Row a, const Row b)
-  {
-    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-  }
-
-  double size(const Row a)
-  {
-    return std::sqrt(dot(a, a));
-  }
-
-  Row sum(Row a, const MPI_Comm comm)
-  {
-    for (unsigned int d = 0; d < 3; ++d)
-      a[d] = dealii::Utilities::MPI::sum(a[d], comm);
-    return a;
-  }
 
   /// Largest deviation of the contact pressure from the reference, share.
   double deviation(const std::vector<ContactNodeState> &states, const double damaged = 1.)
@@ -59,18 +43,16 @@ namespace
   void run(const Case &test, const MPI_Comm comm, Check &check)
   {
     const Point<3> axis(0.6, 0., 0.8);
-    const Body     lower =
-      tests::turned(tests::make_box("lower", Point<3>(0., 0., -edge), Point<3>(edge, edge, 0.),
-                                    {{test.n_lower, test.n_lower, test.n_lower}},
-                                    {{Boundary::free, Boundary::free, Boundary::free, Boundary::free,
-                                      Boundary::support, Boundary::contact}}),
-                    axis, test.tilt);
-    const Body upper =
-      tests::turned(tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(edge, edge, edge),
-                                    {{test.n_upper, test.n_upper, test.n_upper}},
-                                    {{Boundary::free, Boundary::free, Boundary::free, Boundary::free,
-                                      Boundary::contact, Boundary::end}}),
-                    axis, test.tilt);
+    const Body     lower = tests::turned(
+          tests::make_box("lower", Point<3>(0., 0., -edge), Point<3>(edge, edge, 0.),
+                          {{test.n_lower, test.n_lower, test.n_lower}},
+                          {{tests::Side::bottom, Boundary::support}, {tests::Side::top, Boundary::contact}}),
+          axis, test.tilt);
+    const Body upper = tests::turned(
+      tests::make_box("upper", Point<3>(0., 0., 0.), Point<3>(edge, edge, edge),
+                      {{test.n_upper, test.n_upper, test.n_upper}},
+                      {{tests::Side::bottom, Boundary::contact}, {tests::Side::top, Boundary::end}}),
+      axis, test.tilt);
     std::vector<Body> bodies{lower, upper};
     if (test.refined >= 0)
       bodies[test.refined].wanted_cell_size = [&](const Point<3> &p) {
@@ -122,21 +104,17 @@ namespace
     contact.predict(at_rest.data(), without.data(), 1., nothing);
     contact.solve(1., with.data());
 
-    std::vector<unsigned int> body_of(mesh.nodes.size());
-    for (const Mesh::Cell &cell : mesh.cells)
-      for (const unsigned int i : cell.nodes)
-        body_of[i] = cell.body;
     Row force[2] = {}, moment[2] = {};
     for (unsigned int i = 0; i < with.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
         {
-          force[body_of[i]] += with[i] - without[i];
-          moment[body_of[i]] += cross(dynamics.position(i), with[i] - without[i]);
+          force[mesh.node_bodies[i]] += with[i] - without[i];
+          moment[mesh.node_bodies[i]] += cross(dynamics.position(i), with[i] - without[i]);
         }
     for (unsigned int b = 0; b < 2; ++b)
       {
-        force[b]  = sum(force[b], comm);
-        moment[b] = sum(moment[b], comm);
+        force[b]  = tests::sum_over_ranks(force[b], comm);
+        moment[b] = tests::sum_over_ranks(moment[b], comm);
       }
     const double load = pressure * edge * edge;
 

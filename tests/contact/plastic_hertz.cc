@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // First yield under a sphere: below the surface, at a pressure of 1.613 times the yield stress for Poisson's
 // ratio 0.3 (Johnson 1985, section 6.1: 1.60; the figure here is the maximum of Huber's stresses).
-#include <tread/dynamics/explicit_dynamics.h>
 #include <tread/reference/hertz.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "pressed.h"
 
 #include <algorithm>
 
@@ -30,45 +29,25 @@ namespace
   /// A rigid hub presses a sphere that stays elastic on a block that may yield.
   Yielding press(const double force, const double a)
   {
-    const double size = 14. * a, h = a / 16.;
-    FineZone     zone;
-    zone.finest_cell_size = h;
-    zone.x_begin          = -1.25 * a;
-    zone.x_end            = 1.25 * a;
-    zone.half_width       = 1.25 * a;
-    zone.depth            = 0.75 * a;
-    const Body      flat  = tests::make_indenter("flat", size, 64. * h, 0., zone);
-    const Body      cap   = tests::turned(tests::make_indenter("cap", size, 64. * h, radius, zone),
-                                          Point<3>(1., 0., 0.), dealii::numbers::PI);
-    const Mesh      mesh(MPI_COMM_SELF, {flat, cap});
+    const double    size = 14. * a, h = a / 16.;
     PlasticMaterial material;
     material.yield_stress      = yield;
     material.isotropic_modulus = hardening_modulus(210e9, 21e9);
-    const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters(),
-                             {{0, material, [=](const Point<3> &p) {
-                          return p[2] > -1.2 * a && p.norm() < 2. * a;
-                        }}});
-    DynamicsParameters parameters;
-    parameters.gravity = 0.;
-    ExplicitDynamics dynamics(mesh, solid, parameters);
-    dynamics.fix_nodes(dynamics.support_nodes(0));
-    WheelHubParameters hub_parameters;
-    hub_parameters.mass              = 1e4;
-    hub_parameters.moment_of_inertia = 1e4;
-    hub_parameters.gravity           = 1.;
-    WheelHub hub(hub_parameters);
-    hub.place(0., size);
-    dynamics.attach_hub(hub, 1, 0.);
-    hub.parameters.sprung_mass = force / hub.parameters.gravity - hub.parameters.mass;
-    ContactParameters contact_parameters;
-    contact_parameters.slave_body  = 0;
-    contact_parameters.master_body = 1;
-    Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));
-    dynamics.attach_contact(contact);
-    dynamics.relax(2e-5, 20000, nullptr);
+    tests::PressParameters parameters;
+    parameters.force         = force;
+    parameters.axle          = size;
+    parameters.plastic_zones = {{0, material, [=](const Point<3> &p) {
+                                   return p[2] > -1.2 * a && p.norm() < 2. * a;
+                                 }}};
+    tests::Pressed pressed(
+      tests::sphere_on_flat(radius, size, 64. * h, tests::zone_around(a, a, h, 0.75 * a)), parameters);
+    pressed.relax();
 
-    Yielding result;
-    result.force                     = std::abs(contact.total_impulse()[2]);
+    const Mesh             &mesh     = pressed.mesh;
+    const Solid            &solid    = pressed.solid;
+    const ExplicitDynamics &dynamics = pressed.dynamics;
+    Yielding                result;
+    result.force                     = pressed.force();
     const std::vector<double> strain = solid.plastic().equivalent_plastic_strain(dynamics.history);
     const auto                stress = solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)

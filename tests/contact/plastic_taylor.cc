@@ -25,9 +25,8 @@ namespace
   /// A cylinder on z = 0: a square core of n cells across and four blocks of n/2 cells around it.
   Body make_bar(const unsigned int n, const unsigned int n_along)
   {
-    Body body = tests::make_box(
-      "bar", Point<3>(), Point<3>(1., 1., 1.), {{1, 1, 1}},
-      {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact, Boundary::free}});
+    Body body = tests::make_box("bar", Point<3>(), Point<3>(1., 1., 1.), {{1, 1, 1}},
+                                {{tests::Side::bottom, Boundary::contact}});
     body.vertices.clear();
     body.cells.clear();
     std::map<std::array<long long, 3>, unsigned int> number;
@@ -88,8 +87,7 @@ namespace
     const double width = 10e-3;
     const Body   wall =
       tests::make_box("wall", Point<3>(-width, -width, -2e-3), Point<3>(width, width, 0.), {{10, 10, 1}},
-                      {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::support,
-                        Boundary::contact}});
+                      {{tests::Side::bottom, Boundary::support}, {tests::Side::top, Boundary::contact}});
     const Mesh      mesh(MPI_COMM_SELF, {bar, wall});
     ElasticMaterial copper;
     copper.young_modulus = 117e9;

@@ -36,11 +36,9 @@ namespace
     const Mesh mesh(
       MPI_COMM_WORLD,
       {tests::make_box("plane", Point<3>(-0.1, -0.06, -0.03), Point<3>(0.2, 0.06, 0.), {{17, 7, 1}},
-                       {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::support,
-                         Boundary::contact}}),
+                       {{tests::Side::bottom, Boundary::support}, {tests::Side::top, Boundary::contact}}),
        tests::make_box("block", Point<3>(-0.04, -0.04, 0.), Point<3>(0.04, 0.04, height), {{6, 6, 2}},
-                       {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact,
-                         Boundary::free}})});
+                       {{tests::Side::bottom, Boundary::contact}})});
     const Solid        solid(mesh, {material, material}, SolidParameters());
     DynamicsParameters dynamics_parameters;
     dynamics_parameters.gravity       = gravity;
@@ -57,17 +55,12 @@ namespace
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(friction));
     dynamics.attach_contact(contact);
 
-    std::vector<char> in_block(mesh.nodes.size(), false);
-    for (const Mesh::Cell &cell : mesh.cells)
-      if (cell.body == 1)
-        for (const unsigned int i : cell.nodes)
-          in_block[i] = true;
     Result     result{0., 0., 0., 0., 0.};
     const auto mean_x = [&] {
       double sum  = 0.;
       result.mass = 0.;
       for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-        if (in_block[i])
+        if (mesh.node_bodies[i] == 1)
           {
             sum += dynamics.true_masses()[i] * dynamics.position(i)[0];
             result.mass += dynamics.true_masses()[i];
@@ -76,7 +69,7 @@ namespace
     };
     const auto push = [&](const double factor) { // on every node by its mass, so that the block hardly tips
       for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-        if (in_block[i])
+        if (mesh.node_bodies[i] == 1)
           dynamics.external_force[i] =
             Row{factor * share * friction * gravity * dynamics.true_masses()[i], 0., 0., 0.};
     };

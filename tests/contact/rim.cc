@@ -26,15 +26,13 @@ namespace
 
   std::vector<Body> bodies(const double y)
   {
-    Body plate = tests::make_box(
-      "plate", Point<3>(0., -0.02, -0.01), Point<3>(0.04, 0.02, 0.), {{16, 16, 2}},
-      {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::support, Boundary::free}});
+    Body plate = tests::make_box("plate", Point<3>(0., -0.02, -0.01), Point<3>(0.04, 0.02, 0.), {{16, 16, 2}},
+                                 {{tests::Side::bottom, Boundary::support}});
     plate.boundary_at = [before = plate.boundary_at](const Point<3> &p) {
       return p[2] > -1e-9 && std::abs(p[1]) < border ? Boundary::contact : before(p);
     };
-    Body round = tests::make_box(
-      "round", Point<3>(0.01, y - 0.012, 0.), Point<3>(0.03, y + 0.012, 0.01), {{7, 11, 3}},
-      {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact, Boundary::free}});
+    Body round     = tests::make_box("round", Point<3>(0.01, y - 0.012, 0.), Point<3>(0.03, y + 0.012, 0.01),
+                                     {{7, 11, 3}}, {{tests::Side::bottom, Boundary::contact}});
     round.to_space = [y](const Point<3> &p) {
       return Point<3>(p[0], p[1], p[2] + 1e-6 + 10. * (p[1] - y) * (p[1] - y));
     };

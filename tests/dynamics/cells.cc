@@ -21,9 +21,8 @@ namespace
                         const double                                     courant,
                         double                                          &growth)
   {
-    constexpr auto     free = Boundary::free;
-    const Mesh         mesh(MPI_COMM_WORLD, {tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03),
-                                                             {{8, 3, 3}}, {{free, free, free, free, free, free}})});
+    const Mesh         mesh(MPI_COMM_WORLD,
+                            {tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}})});
     const Solid        solid(mesh, {ElasticMaterial()}, SolidParameters());
     DynamicsParameters parameters;
     parameters.courant_number = courant;
@@ -35,15 +34,7 @@ namespace
         const Point<3> p = moved(mesh.nodes[i]);
         dynamics.set_position(i, Row{p[0], p[1], p[2], 0.});
       }
-    std::string text;
-    try
-      {
-        dynamics.check_cells();
-      }
-    catch (const std::runtime_error &error)
-      {
-        text = error.what();
-      }
+    const std::string text = tests::complaint<std::runtime_error>([&] { dynamics.check_cells(); });
     dynamics.renew_critical_time_step();
     growth = before / dynamics.critical_time_step();
     std::printf("critical step over the new one %.4f: '%s'\n", growth, text.c_str());

@@ -115,10 +115,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   DynamicsParameters    parameters;
   parameters.gravity       = 0.;
   parameters.damping_steps = 0.; // damping forces act along x + beta v, so they turn a body a little
-  const std::array<Boundary, 6> free_faces = {
-    {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free}};
   {
-    Body body = tests::make_box("block", Point<3>(), Point<3>(.04, .03, .03), {{4, 3, 3}}, free_faces);
+    Body body = tests::make_box("block", Point<3>(), Point<3>(.04, .03, .03), {{4, 3, 3}});
     tests::refine_near(body, Point<3>(.04, .03, .03), .012, .005);
     const Mesh mesh(MPI_COMM_WORLD, {body});
     check.that("block: has hanging nodes", mesh.n_global_hanging_nodes > 0);

@@ -27,9 +27,8 @@ namespace
   /// @param share of the time step of the critical one; damping in time steps and in 1/s.
   Decay decay(const double share, const double damping_steps, const double mass_damping, double &beta)
   {
-    constexpr auto        free = Boundary::free;
-    const Mesh            mesh(MPI_COMM_SELF, {tests::make_box("cube", Point<3>(), Point<3>(edge, edge, edge),
-                                                               {{1, 1, 1}}, {{free, free, free, free, free, free}})});
+    const Mesh            mesh(MPI_COMM_SELF,
+                               {tests::make_box("cube", Point<3>(), Point<3>(edge, edge, edge), {{1, 1, 1}})});
     const ElasticMaterial steel;
     const Solid           solid(mesh, {steel}, SolidParameters());
     DynamicsParameters    parameters;

@@ -6,8 +6,9 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "driven_ring.h"
+#include "fields.h"
 
 #include <algorithm>
 
@@ -30,9 +31,7 @@ namespace
                   const double  density_scale,
                   const double  mass_damping)
   {
-    Body body = tests::make_ring(.46, .40, .06, {{36, 2, 2}});
-    tests::refine_near(body, Point<3>(0., 0., -.46), .05, .02);
-    const Mesh      mesh(MPI_COMM_WORLD, {body});
+    const Mesh      mesh(MPI_COMM_WORLD, {tests::make_driven_ring()});
     SolidParameters solid_parameters;
     solid_parameters.density_scale = density_scale;
     const Solid        solid(mesh, {ElasticMaterial()}, solid_parameters);
@@ -40,14 +39,8 @@ namespace
     parameters.density_scale                 = density_scale;
     parameters.mass_damping                  = mass_damping;
     parameters.steps_between_damping_samples = 1;
-    ExplicitDynamics   dynamics(mesh, solid, parameters);
-    WheelHubParameters hub_parameters;
-    hub_parameters.mass                 = 400.;
-    hub_parameters.moment_of_inertia    = 40.;
-    hub_parameters.sprung_mass          = 5000.;
-    hub_parameters.suspension_stiffness = 1e6;
-    hub_parameters.suspension_damping   = 2e4;
-    WheelHub hub(hub_parameters);
+    ExplicitDynamics dynamics(mesh, solid, parameters);
+    WheelHub         hub(tests::sprung_hub());
     hub.motion.velocity_x       = 27.6;
     hub.motion.angular_velocity = 60.;
     hub.drive                   = drive;
@@ -55,9 +48,7 @@ namespace
     dynamics.attach_hub(hub, 0, 60.);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       dynamics.v[i] = hub.velocity_at(dynamics.position(i));
-    std::vector<char> hanging(mesh.nodes.size(), false);
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      hanging[h.node] = true;
+    const std::vector<char> hanging = tests::which_hang(mesh);
     dynamics.external_force.assign(mesh.nodes.size(), Row{});
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (!hanging[i] && mesh.nodes[i][2] < -.46 + 1e-3)
@@ -100,18 +91,15 @@ void run_test(tests::Check &check, const tests::Arguments &)
   hub_energy(check, Drive::torque, 4., 0.);
   // The reaction of mass damping acts on the hub, which moves 1e4 times as fast as the nodes do on top of it.
   hub_energy(check, Drive::creepage, 1., 2000.);
-  Body body = tests::make_box(
-    "block", Point<3>(), Point<3>(.06, .02, .02), {{6, 2, 2}},
-    {{Boundary::support, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free}});
+  Body body = tests::make_box("block", Point<3>(), Point<3>(.06, .02, .02), {{6, 2, 2}},
+                              {{tests::Side::left, Boundary::support}});
   tests::refine_near(body, Point<3>(.06, .02, .02), .012, .005);
   const Mesh mesh(MPI_COMM_WORLD, {body});
   check.that("mesh has hanging nodes", mesh.n_global_hanging_nodes > 0);
 
   // The nodes of the end face that do not hang share the load alike: what the ledger sums does not depend on
   // how.
-  std::vector<char> hanging(mesh.nodes.size(), false);
-  for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-    hanging[h.node] = true;
+  const std::vector<char> hanging = tests::which_hang(mesh);
 
   for (const Case &c :
        {Case{"no damping", 0., 0., 0., ElementType::one_point},

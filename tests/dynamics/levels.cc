@@ -6,8 +6,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 #include <memory>
@@ -21,9 +21,8 @@ namespace
   /// Cells of 10, 5 and 2.5 mm.
   Body graded_block(const Boundary left)
   {
-    Body body = tests::make_box(
-      "block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}},
-      {{left, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free}});
+    Body body =
+      tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}}, {{tests::Side::left, left}});
     tests::refine_near(body, Point<3>(.08, .03, .03), .012, .0025);
     return body;
   }
@@ -60,10 +59,8 @@ namespace
     /// Share the force (N) among the nodes of the free end that do not hang.
     void load_end(const Row force)
     {
-      std::vector<char> hanging(mesh.nodes.size(), false);
-      for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-        hanging[h.node] = true;
-      double                    n = 0.;
+      const std::vector<char>   hanging = tests::which_hang(mesh);
+      double                    n       = 0.;
       std::vector<unsigned int> end;
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         if (!hanging[i] && mesh.nodes[i][0] > .08 - 1e-9)
@@ -113,9 +110,7 @@ namespace
     for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
       if (block.mesh.shared_nodes.is_owned(i))
         sum += block.dynamics->true_masses()[i] * block.dynamics->v[i];
-    for (unsigned int d = 0; d < 3; ++d)
-      sum[d] = dealii::Utilities::MPI::sum(sum[d], block.mesh.comm);
-    return sum;
+    return tests::sum_over_ranks(sum, block.mesh.comm);
   }
 } // namespace
 

@@ -33,10 +33,9 @@ namespace
         const ElasticMaterial             &material,
         const Boundary                     far_end)
     {
-      const Body body = tests::make_box(
-        "box", Point<3>(), Point<3>(n[0] * h, n[1] * h, n[2] * h), n,
-        {{Boundary::free, far_end, Boundary::free, Boundary::free, Boundary::free, Boundary::free}});
-      mesh  = std::make_unique<Mesh>(MPI_COMM_SELF, std::vector<Body>{body});
+      const Body body = tests::make_box("box", Point<3>(), Point<3>(n[0] * h, n[1] * h, n[2] * h), n,
+                                        {{tests::Side::right, far_end}});
+      mesh            = std::make_unique<Mesh>(MPI_COMM_SELF, std::vector<Body>{body});
       solid = std::make_unique<Solid>(*mesh, std::vector<ElasticMaterial>{material}, SolidParameters());
       DynamicsParameters parameters;
       parameters.gravity       = 0.;

@@ -159,20 +159,14 @@ namespace
   {
     const std::string file = "geometry_surfaces_" + kind + ending;
     std::ofstream(file) << text;
-    std::string what;
-    try
-      {
-        if (kind == "rail")
-          read_rail_head(file, 20e-3);
-        else if (kind == "wheel")
-          read_wheel_tread(file, 20e-3);
-        else
-          read_longitudinal_profile(file);
-      }
-    catch (const std::runtime_error &error)
-      {
-        what = error.what();
-      }
+    const std::string what = tests::complaint<std::runtime_error>([&] {
+      if (kind == "rail")
+        read_rail_head(file, 20e-3);
+      else if (kind == "wheel")
+        read_wheel_tread(file, 20e-3);
+      else
+        read_longitudinal_profile(file);
+    });
     std::remove(file.c_str());
     return what;
   }

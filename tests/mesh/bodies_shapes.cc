@@ -508,15 +508,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 
   // Impossible requests are refused.
   const auto refused = [](const auto &make) {
-    try
-      {
-        make();
-      }
-    catch (const std::invalid_argument &)
-      {
-        return true;
-      }
-    return false;
+    return !tests::complaint<std::invalid_argument>(make).empty();
   };
   FineZone too_long;
   too_long.x_end = 0.5;

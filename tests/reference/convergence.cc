@@ -8,6 +8,7 @@
 #include <tread/reference/rolling_estimate.h>
 
 #include "check.h"
+#include "thesis_case.h"
 
 #include <algorithm>
 #include <functional>
@@ -123,15 +124,8 @@ namespace
     for (const Case &one : all)
       {
         std::printf("\n--- %s: elements of %.2f mm beside %.2f mm\n", one.name.c_str(), one.coarse, one.fine);
-        RollingCase c;
-        c.curvature_x          = 1. / 0.92;
-        c.curvature_y          = 1. / 0.6;
-        c.normal_force         = 127.1e3;
-        c.friction             = 0.5;
-        c.speed                = 38.888889;
-        c.traction_coefficient = 0.30;
+        RollingCase c = tread::tests::thesis_case(0.3, one.coarse);
         one.change(c);
-        c.element_size                 = 1e-3 * one.coarse;
         const RollingEstimate estimate = estimate_rolling(c);
         c.element_size                 = 1e-3 * one.fine;
         const RollingEstimate limit    = estimate_rolling(c);

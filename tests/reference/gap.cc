@@ -371,15 +371,7 @@ namespace
     std::printf("\n--- bad input: one line that names the argument and what is allowed\n");
     const auto refused = [&](const std::string &what, const std::string &name,
                              const std::function<void()> &call) {
-      std::string got = "nothing thrown";
-      try
-        {
-          call();
-        }
-      catch (const std::invalid_argument &error)
-        {
-          got = error.what();
-        }
+      const std::string got = tread::tests::complaint<std::invalid_argument>(call);
       std::printf("    %s\n", got.c_str());
       check.that(what, got.find(name) != std::string::npos && got.find("allowed") != std::string::npos &&
                          got.find('\n') == std::string::npos);

@@ -5,6 +5,7 @@
 #include <tread/reference/subsurface.h>
 
 #include "check.h"
+#include "thesis_case.h"
 
 #include <algorithm>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include <vector>
 
 using namespace tread::reference;
+using tread::tests::thesis_case;
 
 namespace
 {
@@ -51,20 +53,6 @@ namespace
   double number(const Row &row, const std::string &name)
   {
     return std::stod(row.at(name));
-  }
-
-  /// A 460 mm wheel on a rail head of 300 mm at 127.1 kN, f = 0.5, 140 km/h.
-  RollingCase thesis_case(const double mu, const double dx_mm)
-  {
-    RollingCase c;
-    c.curvature_x          = 1. / 0.92;
-    c.curvature_y          = 1. / 0.6;
-    c.normal_force         = 127.1e3;
-    c.friction             = 0.5;
-    c.speed                = 38.888889;
-    c.traction_coefficient = mu;
-    c.element_size         = dx_mm * 1e-3;
-    return c;
   }
 
   std::string two_digits(const double value)

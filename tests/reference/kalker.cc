@@ -15,27 +15,6 @@
 
 using namespace tread::reference;
 
-namespace
-{
-  void throws(tread::tests::Check         &check,
-              const std::string           &what,
-              const std::string           &message,
-              const std::function<void()> &call)
-  {
-    std::string got;
-    try
-      {
-        call();
-      }
-    catch (const std::invalid_argument &error)
-      {
-        got = error.what();
-      }
-    check.that(what + ": \"" + got + "\"",
-               got.find(message) != std::string::npos && got.find('\n') == std::string::npos);
-  }
-} // namespace
-
 void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   const ElasticPair steel = combine(Elastic{}, Elastic{});
@@ -194,8 +173,8 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.absolute("FASTSIM beside Shen-Hedrick-Elkins, Fx/(f N)", t.longitudinal / 63.55e3,
                    s.longitudinal / 63.55e3, 0.05);
   }
-  throws(check, "axis ratio", "axis_ratio = 20", [] { creepage_coefficients(20., 0.3); });
-  throws(check, "force beyond f N", "force", [&] { shen_hedrick_elkins_creepage(patch, 70e3); });
-  throws(check, "spin in Vermeulen-Johnson", "spin", [&] { vermeulen_johnson(patch, Creepage{0., 0., 1.}); });
-  throws(check, "traction ratio", "traction_ratio", [] { carter_creepage(0.5, 1e11, 1e5, 0.3, 1.2); });
+  check.refuses("axis ratio", "axis_ratio = 20", [] { creepage_coefficients(20., 0.3); });
+  check.refuses("force beyond f N", "force", [&] { shen_hedrick_elkins_creepage(patch, 70e3); });
+  check.refuses("spin in Vermeulen-Johnson", "spin", [&] { vermeulen_johnson(patch, Creepage{0., 0., 1.}); });
+  check.refuses("traction ratio", "traction_ratio", [] { carter_creepage(0.5, 1e11, 1e5, 0.3, 1.2); });
 }

@@ -25,15 +25,7 @@ namespace
 
   std::string complaint(const std::vector<std::string> &settings)
   {
-    try
-      {
-        Scene().read("", settings);
-      }
-    catch (const SceneError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return tests::complaint<SceneError>([&] { Scene().read("", settings); });
   }
 } // namespace
 

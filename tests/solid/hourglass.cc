@@ -9,25 +9,18 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 #include <random>
 
 using namespace tread;
 using dealii::Point;
+using tests::reference_positions;
 
 namespace
 {
-  NodalField reference_positions(const Mesh &mesh)
-  {
-    NodalField x(mesh.nodes.size());
-    for (unsigned int i = 0; i < x.size(); ++i)
-      x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
-    return x;
-  }
-
   /// Eigenvalues (ascending) of the stiffness matrix of a mesh of few nodes, from differences of forces.
   std::vector<double> stiffness_eigenvalues(const Mesh &mesh, const Solid &solid, const double step)
   {
@@ -157,10 +150,10 @@ namespace
     const double    height = 0.01, length = 0.1, width = 0.01, load = 10.; // m, N
     ElasticMaterial material;
     material.poisson_ratio = poisson_ratio;
-    const Body body        = tests::make_box(
-             "beam", Point<3>(), Point<3>(length, width, height),
-             {{static_cast<unsigned int>(std::lround(10 * n_height / stretch)), n_height, n_height}},
-             {{Boundary::support, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free}});
+    const Body body =
+      tests::make_box("beam", Point<3>(), Point<3>(length, width, height),
+                      {{static_cast<unsigned int>(std::lround(10 * n_height / stretch)), n_height, n_height}},
+                      {{tests::Side::left, Boundary::support}});
     const Mesh      mesh(MPI_COMM_SELF, {body});
     SolidParameters parameters;
     parameters.element_type          = type;
@@ -195,9 +188,7 @@ namespace
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
-  const std::array<Boundary, 6> free_faces = {
-    {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::free}};
-  Body cell = tests::make_box("cell", Point<3>(), Point<3>(.01, .01, .01), {{1, 1, 1}}, free_faces);
+  Body cell = tests::make_box("cell", Point<3>(), Point<3>(.01, .01, .01), {{1, 1, 1}});
   check_modes(check, cell, "cube");
   cell.vertices[7] += Point<3>(-.002, .001, .0015) - Point<3>();
   cell.vertices[2] += Point<3>(.0015, -.001, .002) - Point<3>();

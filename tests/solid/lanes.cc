@@ -117,9 +117,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 
       // Cells that share nodes, in another order: the same sums in another order, so rounding of a few
       // times 1e-16 is allowed. 7^3 = 343 cells fill no batch size.
-      Mesh block(MPI_COMM_SELF, {tests::make_box("block", Point<3>(), Point<3>(.07, .07, .07), {{7, 7, 7}},
-                                                 {{Boundary::free, Boundary::free, Boundary::free,
-                                                   Boundary::free, Boundary::free, Boundary::free}})});
+      Mesh block(MPI_COMM_SELF, {tests::make_box("block", Point<3>(), Point<3>(.07, .07, .07), {{7, 7, 7}})});
       random_motion(block, x, v);
       const NodalField expected = forces(block, steel, parameters, x, v);
       std::mt19937     random(11);

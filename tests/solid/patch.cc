@@ -6,8 +6,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 
@@ -51,9 +51,7 @@ namespace
                            const double           perturbation)
   {
     using dealii::Utilities::MPI::max;
-    std::vector<char> hanging(mesh.nodes.size(), false);
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      hanging[h.node] = true;
+    const std::vector<char> hanging = tests::which_hang(mesh);
 
     // The inner node to be perturbed is found by its place, so that every rank that holds it moves it.
     double nearest = -1e300;

@@ -5,14 +5,16 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 #include <random>
 
 using namespace tread;
 using dealii::Point;
+using tests::largest;
+using tests::turned;
 
 namespace
 {
@@ -26,26 +28,6 @@ namespace
     if (kinematic)
       material.backstresses = {{60e9, 300.}, {10e9, 0.}};
     return material;
-  }
-
-  NodalField turned(const NodalField &x, const double angle)
-  {
-    const Point<3> axis(1. / std::sqrt(14.), 2. / std::sqrt(14.), 3. / std::sqrt(14.));
-    NodalField     y(x.size());
-    for (unsigned int i = 0; i < x.size(); ++i)
-      {
-        const Point<3> p = tests::turn(Point<3>(x[i][0], x[i][1], x[i][2]), axis, angle);
-        y[i]             = Row{p[0], p[1], p[2], 0.};
-      }
-    return y;
-  }
-
-  double largest(const NodalField &f)
-  {
-    double square = 0.;
-    for (const Row &row : f)
-      square = std::max(square, dot(row, row));
-    return std::sqrt(square);
   }
 
   double distance(const NodalField &a, const NodalField &b)
@@ -71,14 +53,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
   const auto            everywhere = [](const Point<3> &) {
     return true;
   };
-  NodalField                       reference(mesh.nodes.size()), direction(mesh.nodes.size());
+  const NodalField                 reference = tests::reference_positions(mesh);
+  NodalField                       direction(mesh.nodes.size());
   std::mt19937                     random(3);
   std::uniform_real_distribution<> number(-1., 1.);
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-    {
-      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
-      direction[i] = Row{number(random), number(random), number(random), 0.};
-    }
+    direction[i] = Row{number(random), number(random), number(random), 0.};
   const NodalField at_rest(reference.size(), Row{});
   const auto       moved = [&](const double size) {
     NodalField x(reference);

@@ -23,9 +23,8 @@ namespace
   /// Six blocks between two spheres, n cells along each edge and across the wall.
   Body make_sphere(const unsigned int n, const unsigned int n_radial)
   {
-    Body body = tests::make_box(
-      "sphere", Point<3>(-1., -1., 0.), Point<3>(1., 1., 1.), {{n, n, n_radial}},
-      {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::support, Boundary::free}});
+    Body body = tests::make_box("sphere", Point<3>(-1., -1., 0.), Point<3>(1., 1., 1.), {{n, n, n_radial}},
+                                {{tests::Side::bottom, Boundary::support}});
     const auto block_vertices = body.vertices;
     const auto block_cells    = body.cells;
     body.vertices.clear();

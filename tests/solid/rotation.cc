@@ -5,59 +5,26 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/tensor.h>
 
-#include "boxes.h"
 #include "check.h"
+#include "fields.h"
 
 #include <algorithm>
 #include <random>
 
 using namespace tread;
 using dealii::Point;
-using dealii::Tensor;
+using tests::largest;
+using tests::turned;
 
 namespace
 {
-  /// Rodrigues' formula about the skew axis (1, 2, 3).
-  Tensor<2, 3> rotation(const double angle)
-  {
-    const double n[3]    = {1. / std::sqrt(14.), 2. / std::sqrt(14.), 3. / std::sqrt(14.)};
-    const double W[3][3] = {{0., -n[2], n[1]}, {n[2], 0., -n[0]}, {-n[1], n[0], 0.}};
-    Tensor<2, 3> R;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        R[i][j] =
-          (i == j ? std::cos(angle) : 0.) + std::sin(angle) * W[i][j] + (1. - std::cos(angle)) * n[i] * n[j];
-    return R;
-  }
-
-  NodalField turned(const NodalField &x, const double angle, const Row translation)
-  {
-    const Tensor<2, 3> R = rotation(angle);
-    NodalField         y(x.size());
-    for (unsigned int i = 0; i < x.size(); ++i)
-      {
-        const Tensor<1, 3> p = R * Tensor<1, 3>({x[i][0], x[i][1], x[i][2]});
-        y[i]                 = Row{p[0], p[1], p[2], 0.} + translation;
-      }
-    return y;
-  }
-
   NodalField forces(const Mesh &mesh, const Solid &solid, const NodalField &x)
   {
     NodalField f(x.size(), Row{});
     solid.add_internal_forces(x.data(), x.data(), f.data());
     mesh.condense_hanging_nodes(f.data());
     return f;
-  }
-
-  double largest(const NodalField &f)
-  {
-    double square = 0.;
-    for (const Row &row : f)
-      square = std::max(square, dot(row, row));
-    return std::sqrt(square);
   }
 } // namespace
 
@@ -68,10 +35,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   const ElasticMaterial material;
   Body                  body = tests::make_patch_cube(edge);
   tests::refine_near(body, Point<3>(edge, edge, edge), 0.2 * edge, 0.2 * edge);
-  const Mesh mesh(MPI_COMM_WORLD, {body});
-  NodalField reference(mesh.nodes.size());
-  for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-    reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+  const Mesh       mesh(MPI_COMM_WORLD, {body});
+  const NodalField reference = tests::reference_positions(mesh);
 
   NodalField                       deformed = reference;
   std::mt19937                     random(1);
@@ -101,13 +66,13 @@ void run_test(tests::Check &check, const tests::Arguments &)
           rigid_energy             = std::max(rigid_energy, (e.strain + e.hourglass) / energy_scale);
           rigid_force              = std::max(rigid_force, largest(forces(mesh, solid, rigid)) / force_scale);
 
-          const NodalField   x      = turned(deformed, angle, Row{});
+          const NodalField   x      = turned(deformed, angle);
           const StrainEnergy energy = solid.strain_energy(x.data());
           energy_change =
             std::max({energy_change, std::abs(energy.strain / energy_0.strain - 1.),
                       energy_0.hourglass > 0. ? std::abs(energy.hourglass / energy_0.hourglass - 1.) : 0.});
           const NodalField f        = forces(mesh, solid, x);
-          const NodalField expected = turned(force_0, angle, Row{});
+          const NodalField expected = turned(force_0, angle);
           const double     scale    = largest(force_0);
           for (unsigned int i = 0; i < f.size(); ++i)
             {

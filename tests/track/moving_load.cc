@@ -44,8 +44,9 @@ namespace
                               dealii::Point<3>(-.5 * length, -.5 * width, -height),
                               dealii::Point<3>(.5 * length, .5 * width, 0.),
                               {{n, 2, 6}},
-                              {{Boundary::end, Boundary::end, Boundary::free, Boundary::free,
-                                Boundary::support, Boundary::free}})})
+                              {{tests::Side::left, Boundary::end},
+                               {tests::Side::right, Boundary::end},
+                               {tests::Side::bottom, Boundary::support}})})
       , solid(mesh, {tests::steel()}, SolidParameters())
       , dynamics(mesh,
                  solid,

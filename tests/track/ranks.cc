@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include "check.h"
+#include "fields.h"
 #include "track_rail.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ namespace
     history.n_hanging = rail.mesh->n_global_hanging_nodes;
     for (unsigned int n = 1; n <= 4000; ++n)
       {
-        rail.load(struck, n < 400 ? 5e3 * n : n < 800 ? 5e3 * (800 - n) : 0.);
+        rail.load(struck, tests::blow(n));
         rail.dynamics->step();
         if (n % 130 == 0)
           {
@@ -52,17 +53,6 @@ namespace
           }
       }
     return history;
-  }
-
-  double difference(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    double largest = 0., scale = 0.;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      {
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-        scale   = std::max(scale, std::abs(b[i]));
-      }
-    return dealii::Utilities::MPI::max(largest / scale, MPI_COMM_WORLD);
   }
 } // namespace
 
@@ -88,9 +78,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.relative(name + "time step (us)", 1e6 * together.time_step, 1e6 * alone.time_step, 1e-12);
       // Sums over ranks differ in order: 1e-16 a step, and rounding of positions (1e-16 m) over displacements
       // of mm.
-      check.below(name + "forces on other ranks", difference(together.forces, alone.forces), 1e-10);
+      check.below(name + "forces on other ranks", tests::difference(together.forces, alone.forces), 1e-10);
       check.below(name + "displacements on other ranks",
-                  difference(together.displacements, alone.displacements), 1e-10);
-      check.below(name + "energies on other ranks", difference(together.energies, alone.energies), 1e-10);
+                  tests::difference(together.displacements, alone.displacements), 1e-10);
+      check.below(name + "energies on other ranks", tests::difference(together.energies, alone.energies),
+                  1e-10);
     }
 }
