@@ -13,6 +13,7 @@
 using namespace tread;
 using tests::Check;
 using tests::cross;
+using tests::size;
 using dealii::Point;
 
 namespace
