@@ -7,17 +7,34 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 
 namespace tread::tests
 {
-  /// A box of n cells a direction; boundary of its six faces (-x, +x, -y, +y, -z, +z) as given.
-  inline Body make_box(const std::string                 &name,
-                       const dealii::Point<3>            &low,
-                       const dealii::Point<3>            &high,
-                       const std::array<unsigned int, 3> &n,
-                       const std::array<Boundary, 6>     &boundaries)
+  /// Faces of a box at -x, +x, -y, +y, -z and +z.
+  enum class Side
   {
+    left,
+    right,
+    front,
+    back,
+    bottom,
+    top
+  };
+
+  /// A box of n cells a direction; faces that are not named are free.
+  inline Body make_box(const std::string                                      &name,
+                       const dealii::Point<3>                                 &low,
+                       const dealii::Point<3>                                 &high,
+                       const std::array<unsigned int, 3>                      &n,
+                       const std::initializer_list<std::pair<Side, Boundary>> &named = {})
+  {
+    std::array<Boundary, 6> boundaries;
+    boundaries.fill(Boundary::free);
+    for (const auto &[side, boundary] : named)
+      boundaries[static_cast<unsigned int>(side)] = boundary;
     Body body;
     body.name = name;
     for (unsigned int k = 0; k <= n[2]; ++k)

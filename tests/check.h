@@ -4,12 +4,28 @@
 
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace tread::tests
 {
+  /// The text of the exception that a call ends with, "" if it does not; other types of exceptions go on.
+  template <typename Exception, typename Call>
+  std::string complaint(const Call &call)
+  {
+    try
+      {
+        call();
+      }
+    catch (const Exception &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
   /// Counts and prints comparisons: computed, reference, error, allowed, PASS or FAIL.
-  /// A test program returns check.exit_code() from main().
   class Check
   {
   public:
@@ -43,10 +59,26 @@ namespace tread::tests
       return line(what, holds ? 1. : 0., 1., holds ? 0. : 1., 0.);
     }
 
+    /// An invalid argument must be refused in one line with these words.
+    template <typename Call>
+    bool refuses(const std::string &what, const std::string &words, const Call &call)
+    {
+      const std::string text = complaint<std::invalid_argument>(call);
+      return that(what + ": \"" + text + "\"", text.find(words) != std::string::npos && !text.empty() &&
+                                                 text.find('\n') == std::string::npos);
+    }
+
+    /// Prints how many comparisons there were; 1 if any failed or there was none, otherwise 0.
     int exit_code() const
     {
       std::printf("%u comparisons, %u failed\n", n_lines, n_failed);
       return (n_failed == 0 && n_lines > 0) ? 0 : 1;
+    }
+
+    /// What failed first.
+    const std::string &first_failure() const
+    {
+      return failed_first;
     }
 
   private:
@@ -58,7 +90,8 @@ namespace tread::tests
     {
       const bool pass = error <= allowed; // false for NaN
       ++n_lines;
-      n_failed += pass ? 0 : 1;
+      if (!pass && n_failed++ == 0)
+        failed_first = what;
       std::printf("%-52s computed %15.8g  reference %15.8g  error %9.2e  allowed %9.2e  %s\n", what.c_str(),
                   computed, reference, error, allowed, pass ? "PASS" : "FAIL");
       return pass;
@@ -66,7 +99,15 @@ namespace tread::tests
 
     unsigned int n_lines  = 0;
     unsigned int n_failed = 0;
+    std::string  failed_first;
   };
+
+  /// What stands on the command line behind the program's name: the part of the test that is wanted.
+  using Arguments = std::vector<std::string>;
 } // namespace tread::tests
+
+/// The test: each program defines it, and main.cc calls it. It lies in no namespace, like main, so that a
+/// test's own names go before those of tread::tests.
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &arguments);
 
 #endif

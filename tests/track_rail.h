@@ -50,10 +50,11 @@ namespace tread::tests
     constexpr double width = 0.06, height = 0.15, nu = 0.3;
     const double     end = 0.5 * spacing * n_supports;
     return {
-      make_box(
-        "rail", dealii::Point<3>(-end, -0.5 * width, -height), dealii::Point<3>(end, 0.5 * width, 0.),
-        {{n_supports * cells_per_span, 2, 6}},
-        {{Boundary::end, Boundary::end, Boundary::free, Boundary::free, Boundary::support, Boundary::free}}),
+      make_box("rail", dealii::Point<3>(-end, -0.5 * width, -height), dealii::Point<3>(end, 0.5 * width, 0.),
+               {{n_supports * cells_per_span, 2, 6}},
+               {{tests::Side::left, Boundary::end},
+                {tests::Side::right, Boundary::end},
+                {tests::Side::bottom, Boundary::support}}),
       beam_section(width * height, width * std::pow(height, 3) / 12., 10. * (1. + nu) / (12. + 11. * nu)),
       height};
   }
@@ -79,6 +80,12 @@ namespace tread::tests
     zone.depth            = 0.5 * cell_size;
     return {make_whole_rail(profile, rail, zone),
             beam_section(profile.section().area, profile.section().inertia_y, 0.4), profile.height()};
+  }
+
+  /// Force (N) of a blow that rises and falls within 800 steps.
+  inline double blow(const unsigned int step)
+  {
+    return step < 400 ? 5e3 * step : step < 800 ? 5e3 * (800 - step) : 0.;
   }
 
   /// A rail on supports that begin and end half a spacing from its symmetric ends; the middle support is at

@@ -20,7 +20,7 @@ namespace tread::reference
   /// adhesion where the square of what is left to the friction bound and, beyond, that of the slip go through
   /// zero (both begin as the square root of the distance; Carter 1926), the largest shear on that border, the
   /// largest slip at the trailing edge. The uncertainty comes from a second grid with elements half as large
-  /// again; tests/unit/reference_convergence.cc compares it with the true error.
+  /// again; tests/reference/convergence.cc compares it with the true error.
   struct RollingEstimate
   {
     Estimate max_pressure;         ///< [Pa]

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Damping dissipates the correct energy: a pulsating cube has one frequency and decays at a rate that is
+// known for damping in proportion to stiffness and to mass; the ledger counts exactly the energy that the
+// motion loses.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include "boxes.h"
+#include "check.h"
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  constexpr double edge = 0.01; // m
+
+  struct Decay
+  {
+    double rate;     ///< of the energy, 1/s
+    double counted;  ///< damping work over the energy lost
+    double residual; ///< over the damping work
+  };
+
+  /// @param share of the time step of the critical one; damping in time steps and in 1/s.
+  Decay decay(const double share, const double damping_steps, const double mass_damping, double &beta)
+  {
+    const Mesh            mesh(MPI_COMM_SELF,
+                               {tests::make_box("cube", Point<3>(), Point<3>(edge, edge, edge), {{1, 1, 1}})});
+    const ElasticMaterial steel;
+    const Solid           solid(mesh, {steel}, SolidParameters());
+    DynamicsParameters    parameters;
+    parameters.courant_number                = share;
+    parameters.damping_steps                 = damping_steps;
+    parameters.mass_damping                  = mass_damping;
+    parameters.gravity                       = 0.;
+    parameters.steps_between_damping_samples = 1;
+    ExplicitDynamics dynamics(mesh, solid, parameters);
+    double           energy = 0.;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      {
+        const double per_m = 1e-3 / edge; // small strain: 1 mm/s at the faces makes some 1e-8
+        for (unsigned int d = 0; d < 3; ++d)
+          dynamics.v[i][d] = per_m * (mesh.nodes[i][d] - 0.5 * edge);
+        energy += 0.5 * dynamics.true_masses()[i] * dot(dynamics.v[i], dynamics.v[i]);
+      }
+    dynamics.start();
+    beta = damping_steps * dynamics.time_step;
+    // U = V (9 lambda + 6 mu)/2 e^2, K = rho V (3 edge^2/4)/2 (de/dt)^2.
+    const double frequency =
+      std::sqrt(4. * (3. * steel.lame() + 2. * steel.shear_modulus()) / steel.density) / edge;
+    const double duration = 20. * dealii::numbers::PI / frequency; // ten whole periods
+    while (dynamics.time < duration)
+      dynamics.step();
+    const EnergyLedger ledger = dynamics.ledger();
+    const double       lost   = -(ledger.kinetic + ledger.strain + ledger.hourglass);
+    std::printf("%u steps, %.4g nJ at first, lost %.4g nJ, damping %.4g nJ\n", unsigned(dynamics.n_steps),
+                1e9 * energy, 1e9 * lost, 1e9 * ledger.damping);
+    return {-std::log(1. - lost / energy) / dynamics.time, ledger.damping / lost,
+            ledger.residual() / ledger.damping};
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  const ElasticMaterial steel;
+  const double square = 4. * (3. * steel.lame() + 2. * steel.shear_modulus()) / (steel.density * edge * edge);
+  double       beta   = 0.;
+  // Central differences with Omega dt = 0.2 and less shift frequency and rate by (Omega dt)^2/8 or 0.5 %.
+  const Decay of_stiffness = decay(.1, .05, 0., beta);
+  check.relative("stiffness damping: rate of decay, 1/ms", 1e-3 * of_stiffness.rate, 1e-3 * beta * square,
+                 0.01);
+  check.relative("stiffness damping: counted over lost", of_stiffness.counted, 1., 1e-6);
+  check.below("stiffness damping: residual over the damping", of_stiffness.residual, 1e-6);
+  const double alpha   = 2000.;
+  const Decay  of_mass = decay(.05, 0., alpha, beta);
+  check.relative("mass damping: rate of decay, 1/ms", 1e-3 * of_mass.rate, 1e-3 * alpha, 0.01);
+  // It is counted with the velocities before a step, (Omega dt)^2/4 or 0.25 % too much.
+  check.relative("mass damping: counted over lost", of_mass.counted, 1., 0.005);
+  check.below("mass damping: residual over the damping", of_mass.residual, 0.005);
+  const Decay both = decay(.1, .05, alpha, beta);
+  check.relative("both: rate of decay, 1/ms", 1e-3 * both.rate, 1e-3 * (alpha + beta * square), 0.01);
+  // At the Courant number of runs, where each step counts.
+  const Decay fast = decay(.9, .1, 0., beta);
+  check.below("Courant number 0.9: residual over the damping", fast.residual, 1e-5);
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The energy ledger must close: the work of prescribed forces and weight equals kinetic, strain and hourglass
+// energy plus the energy dissipated by damping.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include "check.h"
+#include "driven_ring.h"
+#include "fields.h"
+
+#include <algorithm>
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  struct Case
+  {
+    const char *name;
+    double      damping_steps, viscosity, gravity;
+    ElementType type;
+  };
+
+  /// A ring that a hub drives at 60 rad/s under its suspension, loaded at its lowest point: the hub's part of
+  /// the ledger.
+  void hub_energy(tests::Check &check,
+                  const Drive   drive,
+                  const double  density_scale,
+                  const double  mass_damping)
+  {
+    const Mesh      mesh(MPI_COMM_WORLD, {tests::make_driven_ring()});
+    SolidParameters solid_parameters;
+    solid_parameters.density_scale = density_scale;
+    const Solid        solid(mesh, {ElasticMaterial()}, solid_parameters);
+    DynamicsParameters parameters;
+    parameters.density_scale                 = density_scale;
+    parameters.mass_damping                  = mass_damping;
+    parameters.steps_between_damping_samples = 1;
+    ExplicitDynamics dynamics(mesh, solid, parameters);
+    WheelHub         hub(tests::sprung_hub());
+    hub.motion.velocity_x       = 27.6;
+    hub.motion.angular_velocity = 60.;
+    hub.drive                   = drive;
+    hub.drive_torque            = 20000.;
+    dynamics.attach_hub(hub, 0, 60.);
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      dynamics.v[i] = hub.velocity_at(dynamics.position(i));
+    const std::vector<char> hanging = tests::which_hang(mesh);
+    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (!hanging[i] && mesh.nodes[i][2] < -.46 + 1e-3)
+        dynamics.external_force[i] = Row{-500., 200., 5000., 0.};
+    dynamics.start();
+    double       worst = 0., worst_of_damping = 0.;
+    EnergyLedger ledger;
+    for (unsigned int n = 1; n <= 3000; ++n)
+      {
+        dynamics.step();
+        if (n > 500 && n % 130 == 0)
+          {
+            ledger           = dynamics.ledger();
+            worst            = std::max(worst, std::abs(ledger.residual_share()));
+            worst_of_damping = std::max(worst_of_damping, std::abs(ledger.residual() / ledger.damping));
+          }
+      }
+    std::printf(
+      "hub: %u steps, work %.5g J (gross %.5g), kinetic %.5g, strain %.4g, hourglass %.4g, damping %.4g, "
+      "residual %.2g J\n",
+      unsigned(dynamics.n_steps), ledger.external_work, ledger.gross_work, ledger.kinetic, ledger.strain,
+      ledger.hourglass, ledger.damping, ledger.residual());
+    const std::string name = std::string("hub, ") + (drive == Drive::torque ? "torque" : "creepage") +
+                             ", density times " + std::to_string(int(density_scale)) + ", mass damping " +
+                             std::to_string(int(mass_damping));
+    // A torque makes kilojoules of kinetic energy, which damping is no measure for.
+    if (drive == Drive::torque)
+      check.below(name + ": residual/gross work", worst, 5e-6);
+    else
+      check.below(name + ": residual/damping", worst_of_damping, 0.01);
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  const ElasticMaterial steel;
+  hub_energy(check, Drive::torque, 1., 0.);
+  hub_energy(check, Drive::creepage, 1., 0.);
+  hub_energy(check, Drive::torque, 4., 0.);
+  // The reaction of mass damping acts on the hub, which moves 1e4 times as fast as the nodes do on top of it.
+  hub_energy(check, Drive::creepage, 1., 2000.);
+  Body body = tests::make_box("block", Point<3>(), Point<3>(.06, .02, .02), {{6, 2, 2}},
+                              {{tests::Side::left, Boundary::support}});
+  tests::refine_near(body, Point<3>(.06, .02, .02), .012, .005);
+  const Mesh mesh(MPI_COMM_WORLD, {body});
+  check.that("mesh has hanging nodes", mesh.n_global_hanging_nodes > 0);
+
+  // The nodes of the end face that do not hang share the load alike: what the ledger sums does not depend on
+  // how.
+  const std::vector<char> hanging = tests::which_hang(mesh);
+
+  for (const Case &c :
+       {Case{"no damping", 0., 0., 0., ElementType::one_point},
+        Case{"stiffness damping 0.1", .1, 0., 0., ElementType::one_point},
+        Case{"stiffness damping 1", 1., 0., 0., ElementType::one_point},
+        Case{"stiffness damping 0.1, fully integrated", .1, 0., 0., ElementType::fully_integrated},
+        Case{"bulk viscosity", 0., 1., 0., ElementType::one_point},
+        Case{"both and weight", .1, 1., 9.81e4, ElementType::one_point}})
+    {
+      SolidParameters solid_parameters;
+      solid_parameters.element_type             = c.type;
+      solid_parameters.linear_bulk_viscosity    = .06 * c.viscosity;
+      solid_parameters.quadratic_bulk_viscosity = 1.2 * c.viscosity;
+      DynamicsParameters parameters;
+      parameters.damping_steps                 = c.damping_steps;
+      parameters.gravity                       = c.gravity;
+      parameters.steps_between_damping_samples = 1;
+      const Solid      solid(mesh, {steel}, solid_parameters);
+      ExplicitDynamics dynamics(mesh, solid, parameters);
+      dynamics.fix_nodes(dynamics.support_nodes(0));
+      dynamics.external_force.assign(mesh.nodes.size(), Row{});
+      dynamics.start();
+
+      // A push that starts and ends smoothly within half a period of the first bending mode, then free
+      // ringing.
+      const double duration = 100e-6, force = 500.;
+      double       worst = 0., damping = 0., last_damping = 0., gross = 0.;
+      bool         damping_grows = true;
+      EnergyLedger ledger;
+      while (dynamics.time < 1000e-6)
+        {
+          const double s = dynamics.time / duration;
+          const double f = s < 1. ? 0.5 * (1. - std::cos(2. * dealii::numbers::PI * s)) * force : 0.;
+          for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+            if (!hanging[i] && mesh.nodes[i][0] > .06 - 1e-9)
+              dynamics.external_force[i] = Row{.5 * f, 0., f, 0.};
+          dynamics.step();
+          // Not a multiple of the steps between the ledger's own samples of damping, and rarer than these.
+          if (dynamics.n_steps % 130 == 0)
+            {
+              ledger = dynamics.ledger();
+              if (s >= 1.)
+                worst = std::max(worst, std::abs(ledger.residual_share()));
+              damping_grows = damping_grows && ledger.damping >= last_damping - 1e-6 * ledger.gross_work;
+              last_damping  = ledger.damping;
+            }
+        }
+      damping = ledger.damping;
+      gross   = ledger.gross_work;
+      std::printf(
+        "%s: %u steps, work %.4g mJ (gross %.4g), kinetic %.4g, strain %.4g, hourglass %.4g, damping %.4g, "
+        "residual %.2g mJ\n",
+        c.name, unsigned(dynamics.n_steps), 1e3 * ledger.external_work, 1e3 * gross, 1e3 * ledger.kinetic,
+        1e3 * ledger.strain, 1e3 * ledger.hourglass, 1e3 * damping, 1e3 * ledger.residual());
+      // All of this work is the push's; without damping the ledger closes to 1e-7 of it.
+      check.below(std::string(c.name) + ": residual/gross work", worst, 2e-5);
+      if (c.damping_steps > 0. || c.viscosity > 0.)
+        {
+          check.that(std::string(c.name) + ": damping takes energy", damping > 1e-3 * gross);
+          check.that(std::string(c.name) + ": damping never gives", damping_grows);
+        }
+      else
+        check.below(std::string(c.name) + ": damping/gross work", damping / gross, 0.);
+    }
+}

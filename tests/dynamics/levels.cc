@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Levels of time steps: they are stable over 1e5 steps, conserve momentum and close the ledger, a loaded body
+// remains at rest, and the answer is that of a single step for all cells.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include "check.h"
+#include "fields.h"
+
+#include <algorithm>
+#include <memory>
+#include <random>
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  /// Cells of 10, 5 and 2.5 mm.
+  Body graded_block(const Boundary left)
+  {
+    Body body =
+      tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}}, {{tests::Side::left, left}});
+    tests::refine_near(body, Point<3>(.08, .03, .03), .012, .0025);
+    return body;
+  }
+
+  struct Block
+  {
+    Mesh                              mesh;
+    Solid                             solid;
+    std::unique_ptr<ExplicitDynamics> dynamics;
+
+    Block(const Boundary left, const unsigned int max_level, const double courant, const double damping)
+      : mesh(MPI_COMM_WORLD, {graded_block(left)})
+      , solid(mesh, {ElasticMaterial()}, [&] {
+        SolidParameters p;
+        p.max_level = max_level;
+        return p;
+      }())
+    {
+      DynamicsParameters parameters;
+      parameters.courant_number = courant;
+      parameters.damping_steps  = damping;
+      parameters.gravity        = 0.;
+      dynamics                  = std::make_unique<ExplicitDynamics>(mesh, solid, parameters);
+      dynamics->fix_nodes(dynamics->support_nodes(0));
+    }
+
+    void advance()
+    {
+      do
+        dynamics->step();
+      while (!dynamics->synchronised());
+    }
+
+    /// Share the force (N) among the nodes of the free end that do not hang.
+    void load_end(const Row force)
+    {
+      const std::vector<char>   hanging = tests::which_hang(mesh);
+      double                    n       = 0.;
+      std::vector<unsigned int> end;
+      for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+        if (!hanging[i] && mesh.nodes[i][0] > .08 - 1e-9)
+          {
+            end.push_back(i);
+            n += mesh.shared_nodes.is_owned(i);
+          }
+      n = dealii::Utilities::MPI::sum(n, mesh.comm);
+      dynamics->external_force.assign(mesh.nodes.size(), Row{});
+      for (const unsigned int i : end)
+        dynamics->external_force[i] = (1. / n) * force;
+    }
+
+    /// Mean displacement of the end, m.
+    double deflection() const
+    {
+      double sum = 0., n = 0.;
+      for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+        if (mesh.nodes[i][0] > .08 - 1e-9 && mesh.shared_nodes.is_owned(i))
+          {
+            sum += dynamics->position(i)[2] - mesh.nodes[i][2];
+            n += 1.;
+          }
+      return dealii::Utilities::MPI::sum(sum, mesh.comm) / dealii::Utilities::MPI::sum(n, mesh.comm);
+    }
+  };
+
+  void set_random_velocities(Block &block, const double speed)
+  {
+    std::mt19937                     random(17);
+    std::uniform_real_distribution<> component(-speed, speed);
+    ExplicitDynamics                &dynamics = *block.dynamics;
+    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+      {
+        const auto key = block.mesh.node_key(i); // the same on all ranks
+        random.seed(key[1] + 1000003 * key[2] + 998244353 * key[3]);
+        dynamics.v[i] = Row{component(random), component(random), component(random), 0.};
+      }
+    block.mesh.distribute_hanging_nodes(dynamics.v.data());
+    for (const unsigned int i : dynamics.support_nodes(0))
+      dynamics.v[i] = Row{};
+  }
+
+  Row momentum(const Block &block)
+  {
+    Row sum{};
+    for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
+      if (block.mesh.shared_nodes.is_owned(i))
+        sum += block.dynamics->true_masses()[i] * block.dynamics->v[i];
+    return tests::sum_over_ranks(sum, block.mesh.comm);
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  {
+    const Block block(Boundary::support, 3, .95, .1);
+    check.that("three levels of cells", block.dynamics->max_level() == 2);
+    std::printf("%u cells, %.2f times fewer updates\n", unsigned(block.mesh.n_global_cells),
+                block.dynamics->ideal_gain_of_levels());
+    const Block plain(Boundary::support, 0, .95, .1);
+    check.below("the smallest step is not much shortened by coarse cells",
+                plain.dynamics->critical_time_step() / block.dynamics->critical_time_step(), 1.05);
+  }
+
+  // Any motion of the grid: energy only falls, over 1e5 of the smallest steps at Courant number 0.95.
+  {
+    Block block(Boundary::support, 2, .95, .1);
+    set_random_velocities(block, 1.);
+    block.dynamics->start();
+    EnergyLedger ledger           = block.dynamics->ledger();
+    double       kinetic_at_first = 0.;
+    for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
+      if (block.mesh.shared_nodes.is_owned(i))
+        kinetic_at_first +=
+          .5 * block.dynamics->true_masses()[i] * dot(block.dynamics->v[i], block.dynamics->v[i]);
+    kinetic_at_first = dealii::Utilities::MPI::sum(kinetic_at_first, block.mesh.comm);
+    double highest   = 0.;
+    while (block.dynamics->n_steps < 100000)
+      {
+        block.advance();
+        if (block.dynamics->n_steps % 1000 == 0)
+          {
+            ledger  = block.dynamics->ledger();
+            highest = std::max(highest, ledger.kinetic + ledger.strain + ledger.hourglass);
+          }
+      }
+    std::printf("random motion: %.4g J at first, change %.4g J, damping %.4g J\n", kinetic_at_first,
+                ledger.kinetic + ledger.strain + ledger.hourglass, ledger.damping);
+    check.below("random motion: energy never above the first", highest / kinetic_at_first, 1e-3);
+    check.relative("random motion: nearly all of it is damped",
+                   -(ledger.kinetic + ledger.strain + ledger.hourglass) / kinetic_at_first, 1., .1);
+  }
+
+  // A free block: the pushes that make up for late forces come before those that they make up for, so
+  // momentum is lent, not given. When the grid has come to rest all is paid back.
+  {
+    Block block(Boundary::free, 2, .9, .1);
+    set_random_velocities(block, 1.);
+    block.dynamics->start();
+    const Row before = momentum(block);
+    double    scale  = 0.;
+    for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
+      scale += block.dynamics->true_masses()[i] * std::sqrt(dot(block.dynamics->v[i], block.dynamics->v[i]));
+    const auto change = [&] {
+      const Row difference = momentum(block) - before;
+      return std::sqrt(dot(difference, difference)) / scale;
+    };
+    double largest = 0.;
+    while (block.dynamics->n_steps < 100000)
+      {
+        block.advance();
+        largest = std::max(largest, change());
+      }
+    check.below("free block: momentum lent over the sum of its amounts", largest, 1e-2);
+    check.below("free block: momentum not paid back, as it still turns", change(), 2e-4);
+  }
+
+  // Loaded and at rest: without the steady shares the border between levels would rattle.
+  {
+    Block block(Boundary::support, 2, .9, .1);
+    block.load_end(Row{0., 0., 2e4, 0.});
+    block.dynamics->relax(1e-10, 100000, {});
+    block.dynamics->start();
+    const double at_rest = block.deflection();
+    while (block.dynamics->n_steps < 20000)
+      block.advance();
+    check.relative("loaded and at rest: deflection stays", block.deflection() / at_rest, 1., 1e-7);
+    double fastest = 0.;
+    for (const Row &v : block.dynamics->v)
+      fastest = std::max(fastest, std::sqrt(dot(v, v)));
+    fastest = dealii::Utilities::MPI::max(fastest, block.mesh.comm);
+    std::printf("loaded and at rest: deflection %.4g um, fastest node %.2g m/s\n", 1e6 * at_rest, fastest);
+    check.below("loaded and at rest: fastest node, m/s", fastest, 1e-5);
+  }
+
+  // A smooth push, then free ringing: the ledger closes over 1e5 steps, and the deflection follows that of
+  // one step.
+  {
+    Block        levels(Boundary::support, 2, .9, .1), plain(Boundary::support, 0, .9, .1);
+    const double duration       = 100e-6;
+    double       worst_residual = 0., worst_deflection = 0., largest_deflection = 0.;
+    for (Block *block : {&levels, &plain})
+      block->dynamics->start();
+    const auto push = [&](Block &block) {
+      do
+        {
+          const double s = block.dynamics->time / duration;
+          block.load_end(Row{0., 0., s < 1. ? 250. * (1. - std::cos(2. * dealii::numbers::PI * s)) : 0., 0.});
+          block.dynamics->step();
+        }
+      while (!block.dynamics->synchronised());
+    };
+    while (levels.dynamics->time < 1e-3)
+      {
+        push(levels);
+        double before = plain.deflection(), time_before = plain.dynamics->time;
+        while (plain.dynamics->time < levels.dynamics->time)
+          {
+            before      = plain.deflection();
+            time_before = plain.dynamics->time;
+            push(plain);
+          }
+        const double share = (levels.dynamics->time - time_before) / (plain.dynamics->time - time_before);
+        const double then  = before + share * (plain.deflection() - before);
+        largest_deflection = std::max(largest_deflection, std::abs(then));
+        worst_deflection   = std::max(worst_deflection, std::abs(levels.deflection() - then));
+      }
+    levels.load_end(Row{});
+    while (levels.dynamics->n_steps < 100000)
+      {
+        levels.advance();
+        if (levels.dynamics->n_steps % 5000 == 0)
+          worst_residual = std::max(worst_residual, std::abs(levels.dynamics->ledger().residual_share()));
+      }
+    const EnergyLedger ledger = levels.dynamics->ledger();
+    std::printf("push: work %.4g J, damping %.4g, residual %.2g J\n", ledger.external_work, ledger.damping,
+                ledger.residual());
+    // Nearly all of this block's motion is in the slow cells, right at the border: harsher than any scene.
+    // Their forces act on the faster nodes at other instants than those at which the ledger takes them; with
+    // one step for all what is left is between the samples of the damping.
+    check.below("push: energy residual over the work, 1e5 steps", worst_residual, 7e-3);
+    check.below("push with one step for all: energy residual over the work",
+                plain.dynamics->ledger().residual_share(), 1e-4);
+    check.below("push: deflection against one step for all", worst_deflection / largest_deflection, 2e-3);
+  }
+}

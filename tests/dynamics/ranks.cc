@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The same history on any number of ranks: the result that all ranks compute together is compared with that
+// of each rank alone.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "check.h"
+#include "driven_ring.h"
+#include "fields.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  struct History
+  {
+    /// Displacement (m) and velocity (m/s) by Mesh::node_key(): the numbers of nodes differ between ranks.
+    std::map<std::array<long long, 4>, std::array<double, 6>> nodes;
+    std::vector<double>                                       tip; ///< kinetic + strain energy (J) on the way
+    WheelHub::Motion                                          hub;
+    unsigned int                                              n_cells = 0, n_hanging = 0;
+    double largest_share = 0.; ///< of what the cells cost, over the mean of the ranks
+  };
+
+  History run(const MPI_Comm comm, const bool with_hub, const ElementType type, const unsigned int n_steps)
+  {
+    Body body;
+    if (with_hub)
+      body = tests::make_driven_ring();
+    else
+      {
+        body = tests::make_box("block", Point<3>(), Point<3>(.06, .03, .03), {{6, 3, 3}},
+                               {{tests::Side::left, Boundary::support}});
+        tests::refine_near(body, Point<3>(.06, .03, .03), .012, .005);
+      }
+    // One end of the body costs four times as much as the rest.
+    const auto cost = [](const unsigned int, const auto &corners, const unsigned int) {
+      return corners[0][0] > .03 ? 4. : 1.;
+    };
+    const Mesh mesh(comm, {body}, 0, cost);
+    double     share = 0.;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      share += cost(0, mesh.corners(c), 0);
+    const auto      shares = dealii::Utilities::MPI::min_max_avg(share, comm);
+    SolidParameters solid_parameters;
+    solid_parameters.element_type = type;
+    if (type == ElementType::one_point)
+      {
+        solid_parameters.linear_bulk_viscosity    = .06;
+        solid_parameters.quadratic_bulk_viscosity = 1.2;
+      }
+    const Solid        solid(mesh, {ElasticMaterial()}, solid_parameters);
+    DynamicsParameters parameters;
+    parameters.courant_number = 0.7;
+    ExplicitDynamics dynamics(mesh, solid, parameters);
+
+    WheelHub hub(tests::sprung_hub());
+    if (with_hub)
+      {
+        hub.motion.velocity_x       = 30.;
+        hub.motion.angular_velocity = 60.;
+        hub.drive                   = Drive::torque;
+        hub.drive_torque            = 5000.;
+        dynamics.attach_hub(hub, 0, 60.);
+        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+          dynamics.v[i] = hub.velocity_at(dynamics.position(i));
+      }
+    else
+      dynamics.fix_nodes(dynamics.support_nodes(0));
+
+    const std::vector<char> hanging = tests::which_hang(mesh);
+    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    const double extreme = with_hub ? -.46 + 1e-3 : .03 - 1e-9;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (!hanging[i] && (with_hub ? mesh.nodes[i][2] < extreme : mesh.nodes[i][2] > extreme))
+        dynamics.external_force[i] = Row{300., -200., 1000., 0.};
+
+    dynamics.start();
+    History history;
+    for (unsigned int n = 1; n <= n_steps; ++n)
+      {
+        dynamics.step();
+        if (n % (n_steps / 20) == 0)
+          {
+            const EnergyLedger ledger = dynamics.ledger();
+            history.tip.push_back(ledger.kinetic + ledger.strain + ledger.hourglass);
+            history.tip.push_back(ledger.external_work);
+            history.tip.push_back(ledger.damping);
+          }
+      }
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      history.nodes[mesh.node_key(i)] = {
+        {dynamics.position(i)[0] - mesh.nodes[i][0], dynamics.position(i)[1] - mesh.nodes[i][1],
+         dynamics.position(i)[2] - mesh.nodes[i][2], dynamics.v[i][0], dynamics.v[i][1], dynamics.v[i][2]}};
+    history.hub       = hub.motion;
+    history.n_cells   = mesh.n_global_cells;
+    history.n_hanging = mesh.n_global_hanging_nodes;
+
+    history.largest_share = shares.max / shares.avg;
+    std::printf("shares of the ranks: %g to %g\n", shares.min, shares.max);
+    return history;
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  using dealii::Utilities::MPI::max;
+
+  struct Case
+  {
+    const char *name;
+    bool        with_hub;
+    ElementType type;
+  };
+  for (const Case &c : {Case{"block", false, ElementType::one_point},
+                        Case{"block, fully integrated", false, ElementType::fully_integrated},
+                        Case{"ring on a hub", true, ElementType::one_point}})
+    {
+      const History together = run(MPI_COMM_WORLD, c.with_hub, c.type, 2000);
+      const History alone    = run(MPI_COMM_SELF, c.with_hub, c.type, 2000);
+      // Scales: the largest displacement and velocity anywhere.
+      double scale[2] = {0., 0.}, error[2] = {0., 0.}, missing = 0.;
+      for (const auto &[p, value] : alone.nodes)
+        for (unsigned int d = 0; d < 6; ++d)
+          scale[d / 3] = std::max(scale[d / 3], std::abs(value[d]));
+      for (const auto &[p, value] : together.nodes)
+        {
+          const auto same = alone.nodes.find(p);
+          if (same == alone.nodes.end())
+            ++missing;
+          else
+            for (unsigned int d = 0; d < 6; ++d)
+              error[d / 3] = std::max(error[d / 3], std::abs(value[d] - same->second[d]) / scale[d / 3]);
+        }
+      const std::string name = std::string(c.name) + ": ";
+      std::printf("%s%u cells, %u hanging nodes, largest displacement %.4g um, velocity %.4g m/s\n",
+                  name.c_str(), alone.n_cells, alone.n_hanging, 1e6 * scale[0], scale[1]);
+      // Eight siblings stay together.
+      check.below(name + "largest share of the cells' cost over the mean", together.largest_share, 1.15);
+      check.that(name + "has hanging nodes", alone.n_hanging > 0);
+      check.absolute(name + "cells", together.n_cells, alone.n_cells, 0.);
+      check.absolute(name + "hanging nodes", together.n_hanging, alone.n_hanging, 0.);
+      check.absolute(name + "nodes in other places", max(missing, MPI_COMM_WORLD), 0., 0.);
+      // Sums over ranks differ in order: 1e-16 a step, and rounding of positions (1e-17 m) over displacements
+      // of um.
+      check.below(name + "displacement", max(error[0], MPI_COMM_WORLD), 1e-10);
+      check.below(name + "velocity", max(error[1], MPI_COMM_WORLD), 1e-10);
+      check.below(name + "energies", tests::difference(together.tip, alone.tip), 1e-10);
+      if (c.with_hub)
+        {
+          check.relative(name + "hub height (um)", 1e6 * together.hub.z, 1e6 * alone.hub.z, 1e-10);
+          check.relative(name + "angular velocity (rad/s)", together.hub.angular_velocity,
+                         alone.hub.angular_velocity, 1e-12);
+        }
+    }
+}

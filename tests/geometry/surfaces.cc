@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Treads, inclined and measured rails, where they touch first, and the height of defects.
+#include <tread/geometry/defect.h>
+#include <tread/geometry/measured_line.h>
+#include <tread/geometry/rail_profile.h>
+#include <tread/geometry/running_surfaces.h>
+#include <tread/geometry/wheel_tread.h>
+
+#include "check.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+using namespace tread;
+
+namespace
+{
+  std::function<double(double)> rail(const RailProfile &profile, const double slope)
+  {
+    const auto own = [profile](const double y) {
+      const double edge = 0.999 * profile.head_half_width(), on_head = std::clamp(y, -edge, edge);
+      return profile.z_top(on_head) - std::abs(y - on_head);
+    };
+    return [own, angle = std::atan(slope)](const double y) {
+      return turned_line(own, angle, y);
+    };
+  }
+
+  void check_treads(tests::Check &check)
+  {
+    // EN 13715: running circle, flange tip, chamfer.
+    check.absolute("S1002 at the running circle, mm", 1e3 * s1002_offset(0.), 0., 1e-12);
+    check.absolute("S1002 flange height, mm", 1e3 * s1002_offset(-55e-3), 28., 1e-9);
+    check.absolute("S1002 at y = 60 mm, mm", 1e3 * s1002_offset(60e-3), -2.6357, 1e-4);
+    check.absolute("S1002 slope at the running circle", (s1002_offset(1e-6) - s1002_offset(-1e-6)) / 2e-6,
+                   -3.358537058e-2, 1e-6);
+    double jump = 0.;
+    for (const double joint : {32.15796, -26., -35., -38.426669, -39.764474, -49.662510, -62.764706})
+      jump =
+        std::max(jump, std::abs(s1002_offset(1e-3 * joint + 1e-10) - s1002_offset(1e-3 * joint - 1e-10)));
+    check.below("S1002 steps between its parts, mm", 1e3 * jump, 2e-4); // the coefficients' last digits
+    const auto s1002 = tread_offset("S1002", 0.);
+    check.absolute("S1002 as meshed is the profile on the tread, mm", 1e3 * s1002(-20e-3),
+                   1e3 * s1002_offset(-20e-3), 1e-12);
+    check.that("and goes on level where the flange is steep", s1002(-60e-3) == s1002(-45e-3));
+    check.that("a cylinder has no offset", !tread_offset("cylinder", 0.));
+    check.absolute("cone 1:40 at 10 mm, mm", 1e3 * tread_offset("cone 1:40", 0.)(10e-3), -0.25, 1e-12);
+  }
+
+  void check_first_contact(tests::Check &check)
+  {
+    for (const double slope : {1. / 40., 1. / 20.})
+      {
+        // On a circle of radius 300 mm, turned by the angle a: highest point 300 mm sin(a) beside the middle,
+        // 300 mm (1 - cos(a)) above it. 15 mm is beside the crown arc (10.2 mm): there by the arc R80.
+        const RailProfile profile = RailProfile::rail_60e1();
+        RunningSurfaces   surfaces;
+        surfaces.rail_top      = rail(profile, slope);
+        const FirstContact top = first_contact(surfaces, 0.);
+        if (slope < 0.03)
+          {
+            check.absolute("cylinder on 1:40: y, mm", 1e3 * top.y, 300. * std::sin(std::atan(slope)), 0.011);
+            check.absolute("cylinder on 1:40: lift, um", 1e6 * top.lift,
+                           3e5 * (1. - std::cos(std::atan(slope))), 0.02);
+          }
+        surfaces.tread_offset = [slope](const double y) {
+          return -slope * y;
+        };
+        const FirstContact cone = first_contact(surfaces, 0.);
+        check.absolute("cone of the rail's slope: y, mm", 1e3 * cone.y, 0., 0.011);
+        check.below("cone of the rail's slope: lift, um", 1e6 * cone.lift, 1e-3);
+        check.relative("cone of the rail's slope: lateral radius, mm", 1e3 * cone.lateral_radius, 300., 5e-3);
+
+        // For any shift of the tread the surfaces touch without overlapping.
+        for (const double shift : {-6., -3., 0., 2., 8.})
+          {
+            surfaces.tread_offset = [shift, tread = tread_offset("S1002", 0.)](const double y) {
+              return tread(y - 1e-3 * shift);
+            };
+            const FirstContact contact = first_contact(surfaces, 0.);
+            double             least   = surfaces.gap(contact.y) + contact.lift;
+            for (double y = -surfaces.half_width; y <= surfaces.half_width; y += 3.3e-6)
+              least = std::min(least, surfaces.gap(y) + contact.lift);
+            check.below("S1002 moved by " + std::to_string(int(shift)) + " mm: least gap, nm", 1e9 * least,
+                        5.);
+          }
+      }
+
+    // Over the middle of a dip the wheel (R = 460 mm) rests on the edges: chord of 20 mm, 0.1087 mm, or on
+    // the bottom if that is higher.
+    RunningSurfaces surfaces;
+    surfaces.rail_top = rail(RailProfile::rail_54e1(), 0.);
+    Defect dip;
+    dip.begin       = -10e-3;
+    dip.width       = 60e-3;
+    dip.depth       = 0.05e-3;
+    surfaces.defect = [&](const double x, const double y) {
+      return dip.height(x, y);
+    };
+    check.absolute("in a flat dip: lift, um", 1e6 * first_contact(surfaces, 0.).lift, -50., 0.5);
+    dip.depth = 1e-3;
+    check.absolute("over a deep dip: lift, um", 1e6 * first_contact(surfaces, 0.).lift,
+                   1e6 * (std::sqrt(0.46 * 0.46 - 1e-4) - 0.46), 0.5);
+  }
+
+  void check_defects(tests::Check &check)
+  {
+    Defect dip;
+    dip.begin  = 5e-3;
+    dip.length = 20e-3;
+    dip.width  = 30e-3;
+    dip.depth  = 0.2e-3;
+    check.absolute("dip: depth in its middle, um", 1e6 * dip.height(15e-3, 0.), -200., 1e-9);
+    check.that("dip: none beside it", dip.height(4.999e-3, 0.) == 0. && dip.height(25.001e-3, 0.) == 0. &&
+                                        dip.height(15e-3, 15.001e-3) == 0. && dip.height(7e-3, 14e-3) == 0.);
+    double       volume = 0.;
+    const double step   = 0.1e-3;
+    for (double x = 0.5 * step; x < 30e-3; x += step)
+      for (double y = -20e-3 + 0.5 * step; y < 20e-3; y += step)
+        volume -= step * step * dip.height(x, y);
+    check.relative("dip: volume of a paraboloid, mm3", 1e9 * volume, 3.14159265 / 8. * 0.2 * 20. * 30., 1e-3);
+    // A sphere's cap of 20 mm and 0.2 mm: radius 250.1 mm.
+    dip.width          = dip.length;
+    const double cap_r = (0.25 * 20. * 20. + 0.2 * 0.2) / (2. * 0.2);
+    check.absolute("dip: a sphere's cap at half its radius, um", 1e6 * dip.height(20e-3, 0.),
+                   -1e3 * (std::sqrt(cap_r * cap_r - 25.) - (cap_r - 0.2)), 0.1);
+
+    // Slopes jump at a sharp edge by 4 d/L = 0.04; a rounding spreads that evenly over its length.
+    const auto slope = [&](const double x) {
+      return (dip.height(x + 1e-7, 0.) - dip.height(x - 1e-7, 0.)) / 2e-7;
+    };
+    check.absolute("dip: slope behind the sharp leading edge", slope(5.001e-3), -0.04, 1e-4);
+    dip.trailing_rounding = 4e-3;
+    check.absolute("dip: slope in front of the rounded trailing edge", slope(22.7e-3), 0.0308, 1e-4);
+    check.absolute("dip: slope in its middle", slope(25e-3), 0.02, 2e-3); // r^2 curves over 4 mm by a tenth
+    check.below("dip: slope behind it", slope(27.5e-3), 1e-9);
+    check.absolute("dip: the leading edge stays sharp", slope(5.001e-3), -0.04, 1e-4);
+
+    // A measured line on a slope: depth counts from its chord.
+    const MeasuredLine line({0., 10e-3, 20e-3, 30e-3, 40e-3}, {1e-3, 0.6e-3, 0.4e-3, 0.4e-3, 0.2e-3});
+    Defect             along = defect_along(line, false);
+    along.width              = 40e-3;
+    check.absolute("profile: length, mm", 1e3 * along.length, 40., 1e-9);
+    check.absolute("profile: at a point of the file, um", 1e6 * along.height(10e-3, 0.), -200., 1e-6);
+    check.absolute("profile: half way to the side a parabola, um", 1e6 * along.height(10e-3, 10e-3), -150.,
+                   1e-6);
+    along.width = std::numeric_limits<double>::infinity();
+    check.absolute("profile: uniform, um", 1e6 * along.height(10e-3, 30e-3), -200., 1e-6);
+    Defect back = defect_along(line, true);
+    back.width  = 40e-3;
+    check.absolute("profile: reversed, um", 1e6 * back.height(30e-3, 0.), -200., 1e-6);
+  }
+
+  /// Writes the text and reads it as `kind`; what the program says, empty if it takes it.
+  std::string complaint(const std::string &kind, const std::string &ending, const std::string &text)
+  {
+    const std::string file = "geometry_surfaces_" + kind + ending;
+    std::ofstream(file) << text;
+    const std::string what = tests::complaint<std::runtime_error>([&] {
+      if (kind == "rail")
+        read_rail_head(file, 20e-3);
+      else if (kind == "wheel")
+        read_wheel_tread(file, 20e-3);
+      else
+        read_longitudinal_profile(file);
+    });
+    std::remove(file.c_str());
+    return what;
+  }
+
+  void check_files(tests::Check &check)
+  {
+    // The same arc of 300 mm in all formats.
+    const auto arc = [](const double y_mm) {
+      return 300. - std::sqrt(9e4 - y_mm * y_mm);
+    };
+    std::string table = "y_mm, z_mm\n", miniprof = "Gauge=1435\nXYPoints=61\n",
+                simpack = "header.begin\nheader.end\nspline.begin\n units.len.f = 1.0e3 ! mm\npoint.begin\n";
+    for (int y = -30; y <= 30; ++y)
+      {
+        const std::string a = std::to_string(y), z = std::to_string(arc(y));
+        table += a + ", -" + z + "\n";
+        miniprof += std::to_string(-y) + " " + z + " 0.1 0.003\n";
+        simpack += a + " " + z + " 1.0\n";
+      }
+    simpack += "point.end\nspline.end\n";
+    const std::pair<std::string, std::string> formats[] = {{".txt", table},
+                                                           {".ban", miniprof},
+                                                           {".prr", simpack}};
+    for (const auto &[ending, text] : formats)
+      {
+        const std::string file = "geometry_surfaces" + ending;
+        std::ofstream(file) << text;
+        const MeasuredLine line = read_rail_head(file, 25e-3);
+        std::remove(file.c_str());
+        check.absolute("rail head from " + ending + " at 10.5 mm, um", 1e6 * line(10.5e-3), -1e3 * arc(10.5),
+                       0.5);
+        check.absolute("rail head from " + ending + " reaches to, mm", 1e3 * line.end(), 30., 1e-9);
+      }
+
+    // S1002 as a file of Simpack: y towards the flange, z down.
+    std::string prw = "units.len.f = 1000\npoint.begin\n";
+    for (int s = 45; s >= -60; --s)
+      prw += std::to_string(-s) + " " + std::to_string(1e3 * s1002_offset(1e-3 * s)) + "\n";
+    std::ofstream("geometry_surfaces.prw") << prw + "point.end\n";
+    const auto tread = tread_offset("geometry_surfaces.prw", 25e-3);
+    std::remove("geometry_surfaces.prw");
+    for (const double y : {-20.3, -7.7, 11.4, 24.6})
+      check.absolute("S1002 from .prw at " + std::to_string(y) + " mm, um", 1e6 * tread(1e-3 * y),
+                     1e6 * s1002_offset(1e-3 * y), 2.);
+
+    // Invalid files: the error names the file and the line.
+    const auto says = [&](const std::string &what, const std::string &said,
+                          const std::vector<std::string> &words) {
+      bool all = !said.empty();
+      for (const std::string &word : words)
+        all = all && said.find(word) != std::string::npos;
+      if (!check.that(what, all))
+        std::printf("    %s\n", said.c_str());
+    };
+    check.that("a good longitudinal profile",
+               complaint("defect", ".txt", "# a\n0 0\n1 -.1\n2 -.2\n3 0\n").empty());
+    says("three columns", complaint("defect", ".txt", "0 0\n1 -.1 5\n2 -.2\n3 0\n"),
+         {"line 2", "two numbers"});
+    says("words", complaint("defect", ".txt", "0 0\n1 -.1\n2 deep\n3 0\n"), {"line 3", "two numbers"});
+    says("not a number", complaint("defect", ".txt", "0 0\n1 nan\n2 -.1\n3 0\n"), {"line 2", "two numbers"});
+    says("x turns back", complaint("defect", ".txt", "0 0\n2 -.1\n1 -.2\n3 0\n"), {"line 3", "increase"});
+    says("a gap", complaint("defect", ".txt", "0 0\n1 -.1\n2 -.2\n3 -.2\n30 0\n31 0\n"),
+         {"line 5", "gap", "27 mm"});
+    says("too few points", complaint("defect", ".txt", "0 0\n1 0\n"), {"2 points"});
+    says("a narrow rail head", complaint("rail", ".txt", "-5 -.1\n-2 0\n2 0\n5 -.1\n"), {"-5 mm", "20 mm"});
+    says("a rail head that folds back",
+         complaint("rail", ".txt", "-25 -2\n-15 -1\n-5 0\n5 0\n10 -.5\n9 -.6\n20 -2\n25 -3\n"),
+         {"line 6", "turns back"});
+    says("a .prr without points", complaint("rail", ".prr", "header.begin\n"), {"point.begin"});
+    says("a .ban with one column", complaint("rail", ".ban", "A=1\n1\n"), {"line 2", "two numbers"});
+  }
+} // namespace
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  check_treads(check);
+  check_first_contact(check);
+  check_defects(check);
+  check_files(check);
+}

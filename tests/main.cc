@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The main function of all tests. Compiled with TREAD_TESTS_WITHOUT_MPI it serves those of the reference
+// library, which is there without deal.II.
+#include "check.h"
+
+#ifndef TREAD_TESTS_WITHOUT_MPI
+#include <deal.II/base/mpi.h>
+#endif
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
+using namespace tread;
+
+namespace
+{
+  /// 0 when everything was as it must be, otherwise 1. Rank 0 prints all comparisons; another rank speaks
+  /// only when one of its own fails.
+  int run(const tests::Arguments &arguments, const unsigned int rank, const unsigned int n_ranks)
+  {
+    tests::Check check;
+    try
+      {
+        if (rank != 0 && !std::freopen("/dev/null", "w", stdout))
+          throw std::runtime_error("cannot open /dev/null");
+        run_test(check, arguments);
+      }
+    catch (const std::exception &error)
+      {
+        std::string text = error.what();
+        std::replace(text.begin(), text.end(), '\n', ' ');
+        std::fflush(stdout);
+        std::fprintf(stderr, "rank %u: %s\n", rank, text.c_str());
+#ifndef TREAD_TESTS_WITHOUT_MPI
+        if (n_ranks > 1) // the others may wait for this one
+          MPI_Abort(MPI_COMM_WORLD, 1);
+#endif
+        return 1;
+      }
+    const int code = check.exit_code();
+    if (rank != 0 && code != 0)
+      std::fprintf(stderr, "rank %u of %u: failed first: %s\n", rank, n_ranks, check.first_failure().c_str());
+    return code;
+  }
+} // namespace
+
+
+int main(int argc, char **argv)
+{
+#ifdef TREAD_TESTS_WITHOUT_MPI
+  return run({argv + 1, argv + argc}, 0, 1);
+#else
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  return run({argv + 1, argv + argc}, dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+             dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+#endif
+}
