@@ -249,6 +249,7 @@ namespace tread
     velocity_before.assign(involved.size(), Row{});
     mean_velocity.assign(involved.size(), Row{});
     gap_rate.resize(problem.constraints.size());
+    slips.assign(problem.constraints.size(), false);
     const unsigned int n_ranks = involved_of_rank.size();
     strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
                                                   : Strips(problem, impulse, involved.size(), comm);
@@ -439,8 +440,8 @@ namespace tread
         if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
           impulse[j] = guess;
       }
-    const CoulombSolverResult result =
-      solve_coulomb(problem, *friction, parameters.solver, strips, gap_rate, velocity, impulse, given_ratio);
+    const CoulombSolverResult result = solve_coulomb(problem, *friction, parameters.solver, strips, gap_rate,
+                                                     velocity, impulse, slips, given_ratio);
 
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;
@@ -449,9 +450,7 @@ namespace tread
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        const Row                         p          = impulse[j];
-        const double                      normal     = dot(p, constraint.normal);
-        if (normal <= 0. || adheres(p, normal, constraint.normal))
+        if (dot(impulse[j], constraint.normal) <= 0. || !slips[j])
           continue;
         const Row after = problem.combine(constraint, velocity);
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
@@ -507,16 +506,8 @@ namespace tread
         const Row    tangential = impulse[j] - normal * constraint.normal;
         const double lost       = -dot(tangential, u);
         work.normal -= normal * dot(u, constraint.normal);
-        (adheres(impulse[j], normal, constraint.normal) ? work.adhesion : work.friction) += lost;
+        (slips[j] ? work.friction : work.adhesion) += lost;
       }
-  }
-
-
-  bool Contact::adheres(const Row p, const double normal_impulse, const Row normal) const
-  {
-    const Row    tangential = p - normal_impulse * normal;
-    const double limit      = friction->coefficient(0.) * normal_impulse * (1. - 1e-9);
-    return dot(tangential, tangential) < limit * limit;
   }
 
 
@@ -584,7 +575,7 @@ namespace tread
         state.slip     = u - dot(u, constraint.normal) * constraint.normal;
         state.area     = constraint.area;
         state.gap      = dot(problem.combine(constraint, position), constraint.normal);
-        state.adhesion = adheres(impulse[j], normal, constraint.normal);
+        state.adhesion = !slips[j];
         states.push_back(state);
       }
     return gathered(states, comm);

@@ -48,6 +48,7 @@ namespace tread
               (drive == "creepage" && !predicts_creepage()),
             "'Motion/Traction coefficient' " + number(traction_coefficient) +
               " must be below 'Contact/Friction coefficient' " + number(friction) + " in size");
+    friction_law();
     if (!predicts_creepage())
       {
         double      value = 0.;
@@ -220,6 +221,26 @@ namespace tread
   }
 
 
+  std::shared_ptr<const FrictionLaw> Scene::friction_law() const
+  {
+    handler.enter_subsection("Contact");
+    std::shared_ptr<const FrictionLaw> law;
+    std::string                        problem;
+    try
+      {
+        law = make_friction_law(friction_law_name, friction, handler);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        problem = error.what();
+      }
+    handler.leave_subsection();
+    if (!law)
+      throw SceneError(problem);
+    return law;
+  }
+
+
   std::vector<std::string> Scene::assumptions() const
   {
     std::vector<std::string> list;
@@ -238,6 +259,10 @@ namespace tread
     list.push_back(start_tractions == "predicted"
                      ? "the start has the tractions that half-space theory predicts for steady rolling"
                      : "the start has no tractions; they build up while rolling");
+    if (!friction_law()->is_constant())
+      list.push_back("half-space theory, of the references and of what is predicted, has the friction "
+                     "coefficient without slip, " +
+                     number(friction_law()->coefficient(0.)) + ", everywhere");
     if (damping_steps == 0.)
       list.push_back("no stiffness damping: micro-slip may chatter at the frequency of the cells");
     return list;

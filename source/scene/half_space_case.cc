@@ -15,7 +15,7 @@ namespace tread
     c.curvature_x     = 0.5 / scene.rolling_radius();
     c.curvature_y     = 0.5 / scene.lateral_radius();
     c.normal_force    = normal_force;
-    c.friction        = scene.friction;
+    c.friction        = scene.friction_law()->coefficient(0.);
     c.speed           = scene.speed();
     c.wheel           = {scene.wheel_material.si().young_modulus, scene.wheel_material.si().poisson_ratio};
     c.rail            = {scene.rail_material.si().young_modulus, scene.rail_material.si().poisson_ratio};

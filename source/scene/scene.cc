@@ -291,8 +291,12 @@ namespace tread
     prm.leave_subsection();
 
     prm.enter_subsection("Contact");
-    prm.add_parameter("Friction coefficient", friction, "Coulomb's, for stick and slip. 0 is frictionless.",
+    prm.add_parameter("Friction coefficient", friction,
+                      "Without slip; that of Coulomb's law is the same at any slip speed. 0 is frictionless. "
+                      "Half-space references, the predicted start among them, know this number only.",
                       Double(0., 2.));
+    prm.add_parameter("Friction law", friction_law_name, friction_law_help(), friction_law_pattern());
+    declare_friction_laws(prm);
     prm.add_parameter(
       "Tolerance", contact_tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",

@@ -48,7 +48,7 @@ namespace tread
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
-    , contact(mesh, contact_parameters(scene), std::make_shared<CoulombFriction>(scene.friction))
+    , contact(mesh, contact_parameters(scene), scene.friction_law())
     , end_position(scene.path_end() + 0.5e-3 * scene.finest_mm)
   {
     const double omega = scene.speed() / scene.rolling_radius();
@@ -251,7 +251,6 @@ namespace tread
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
 
-    contact.set_friction(std::make_shared<CoulombFriction>(scene.friction));
     contact.give_tractions({});
     hub.drive             = Drive::creepage;
     hub.motion.velocity_x = scene.speed();

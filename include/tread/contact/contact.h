@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace tread
 {
@@ -60,9 +61,10 @@ namespace tread
     /// Nodal inverse masses (1/kg; 0 where motion is prescribed), by node of this rank. Collective.
     void set_inverse_masses(const std::vector<double> &inverse_masses);
 
-    void set_friction(std::shared_ptr<const FrictionLaw> law)
+    /// @returns the law until now, for who must restore it.
+    std::shared_ptr<const FrictionLaw> set_friction(std::shared_ptr<const FrictionLaw> law)
     {
-      friction = std::move(law);
+      return std::exchange(friction, std::move(law));
     }
 
     /// Prescribe tangential tractions instead of finding them, from the next refresh on, which becomes due by
@@ -140,8 +142,6 @@ namespace tread
     const ContactSurfaces surfaces;
 
   private:
-    /// Whether an impulse is below the bound of friction.
-    bool adheres(const Row impulse, const double normal_impulse, const Row normal) const;
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
     /// Largest speeds of this rank's own slave and master nodes, m/s.
@@ -186,6 +186,7 @@ namespace tread
     std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
     std::vector<Row>          given_ratio;      ///< by constraint: of impulses, tangential over normal
     std::vector<double>       gap_rate;         ///< by constraint of the strip
+    std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
     std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
     /// Effect of the constraints on a node of the strip or of this rank. It is summed in the same order on

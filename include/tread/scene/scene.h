@@ -2,6 +2,7 @@
 #ifndef tread_scene_scene_h
 #define tread_scene_scene_h
 
+#include <tread/contact/friction_law.h>
 #include <tread/geometry/defect.h>
 #include <tread/geometry/rail_profile.h>
 #include <tread/geometry/running_surfaces.h>
@@ -97,7 +98,8 @@ namespace tread
            quadratic_bulk_viscosity = 0.;
     // Contact
     double       friction = 0.5, contact_tolerance = 1e-7;
-    unsigned int max_sweeps = 200;
+    std::string  friction_law_name = "Coulomb";
+    unsigned int max_sweeps        = 200;
     // Track
     std::string foundation = "rigid", sleepers = "mass";
     double      sleeper_spacing_m = 0.6, support_0_mm = 0.;
@@ -160,6 +162,9 @@ namespace tread
     /// Numerical assumptions that are not part of the physics of the scene (scaled density, mass damping,
     /// predicted start), one line each.
     std::vector<std::string> assumptions() const;
+
+    /// The law that the scene names, with its parameters. @throws SceneError
+    std::shared_ptr<const FrictionLaw> friction_law() const;
 
     bool predicts_creepage() const
     {
