@@ -183,7 +183,7 @@ namespace tread
             }
           if (nearest > search_reach || dot(cross(x[m[2]] - x[m[0]], x[m[3]] - x[m[1]]), slave.normal) >= 0.)
             continue; // too far, or not facing each other
-          if (nearest > 0.5 * reach)
+          if (nearest > MortarCoupling::candidates * reach)
             time_to_touch = std::min(time_to_touch, nearest / std::max(closing, 1e-30));
           slave.is_near = slave.is_near || nearest <= reach;
           slave.opposite.push_back(f);

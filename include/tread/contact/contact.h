@@ -18,9 +18,14 @@ namespace tread
   {
     unsigned int            slave_body = 0, master_body = 1;
     CoulombSolverParameters solver;
-    /// The coupling is integrated anew when surfaces have slid over each other by this share of a face.
+    // Chosen by trial. In prm/smooth-rolling.prm with cells of 1.3 mm, rolled 12 mm, the coupling is
+    // integrated 18 times with these; half and double of each change the frictional power by up to 0.1 %, the
+    // traction coefficient by up to 3e-5 of it.
+    /// The coupling is integrated anew when surfaces have slid over each other by this share of a face: 23
+    /// and 16 times with half and double of it.
     double sliding_share = 0.02;
-    /// ... or when the loaded slave faces have turned by this angle, rad.
+    /// ... or when the loaded slave faces have turned by this angle, rad: 22 times with half of it, 18 with
+    /// double.
     double turning = 2e-3;
   };
 
