@@ -14,52 +14,77 @@ namespace tread
   {
     /// Body and position in nm: a name that does not depend on the number of ranks.
     using Key = std::array<long long, 4>;
+
+    // Flat lists that deal.II can send.
+    using SentFace        = std::array<long long, 14>; ///< body, left out or not, four positions in nm
+    using SentHangingNode = std::array<long long, 12>; ///< keys of the node and its two parents
+
+    /// The contact faces of this rank's cells, and the nodes that hang on an edge across the path.
+    void list_faces(const Mesh &mesh, std::vector<SentFace> &faces, std::vector<SentHangingNode> &hanging)
+    {
+      std::vector<const Mesh::HangingNode *> hangs(mesh.nodes.size(), nullptr);
+      for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+        hangs[h.node] = &h;
+
+      for (const Mesh::Face &face : mesh.faces)
+        if (face.boundary == Boundary::contact)
+          {
+            SentFace entry{};
+            entry[0] = face.body;
+            for (unsigned int v = 0; v < 4; ++v)
+              {
+                const unsigned int node = face.nodes[v];
+                const Key          key  = mesh.node_key(node);
+                for (unsigned int d = 0; d < 3; ++d)
+                  entry[2 + 3 * v + d] = key[1 + d];
+                if (!hangs[node])
+                  continue;
+                const std::set<unsigned int> parents(hangs[node]->parents.begin(),
+                                                     hangs[node]->parents.end());
+                const auto edge = mesh.nodes[*parents.rbegin()] - mesh.nodes[*parents.begin()];
+                if (parents.size() == 2 && std::abs(edge[1]) > 0.5 * edge.norm())
+                  {
+                    const Key names[3] = {key, mesh.node_key(*parents.begin()),
+                                          mesh.node_key(*parents.rbegin())};
+                    hanging.emplace_back();
+                    for (unsigned int k = 0; k < 12; ++k)
+                      hanging.back()[k] = names[k / 4][k % 4];
+                  }
+                else
+                  entry[1] = 1;
+              }
+            faces.push_back(entry);
+          }
+    }
+
+    /// Beyond an edge along the path that only one face has, nothing can be touched.
+    void mark_rims(const std::vector<ContactSurfaces::Face> &faces, std::vector<ContactSurfaces::Node> &nodes)
+    {
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> n_faces;
+      for (const ContactSurfaces::Face &face : faces)
+        for (unsigned int v = 0; v < 4; ++v)
+          {
+            const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
+            const Row          edge = nodes[b].reference - nodes[a].reference;
+            if (4. * edge[1] * edge[1] <= dot(edge, edge))
+              ++n_faces[std::minmax(a, b)];
+          }
+      for (const auto &[ends, count] : n_faces)
+        if (count == 1)
+          nodes[ends.first].at_rim = nodes[ends.second].at_rim = true;
+    }
   } // namespace
 
 
   ContactSurfaces::ContactSurfaces(const Mesh &mesh)
     : comm(mesh.comm)
   {
-    std::vector<const Mesh::HangingNode *> hangs(mesh.nodes.size(), nullptr);
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      hangs[h.node] = &h;
+    std::vector<SentFace>        own_faces;
+    std::vector<SentHangingNode> own_hanging;
+    list_faces(mesh, own_faces, own_hanging);
 
-    // Flat lists that deal.II can send: body, left out or not, and the four positions in nm; three keys.
-    std::vector<std::array<long long, 14>> own_faces;
-    std::vector<std::array<long long, 12>> own_hanging;
-    for (const Mesh::Face &face : mesh.faces)
-      if (face.boundary == Boundary::contact)
-        {
-          std::array<long long, 14> entry{};
-          entry[0] = face.body;
-          for (unsigned int v = 0; v < 4; ++v)
-            {
-              const unsigned int node = face.nodes[v];
-              const Key          key  = mesh.node_key(node);
-              for (unsigned int d = 0; d < 3; ++d)
-                entry[2 + 3 * v + d] = key[1 + d];
-              if (!hangs[node])
-                continue;
-              const std::set<unsigned int> parents(hangs[node]->parents.begin(), hangs[node]->parents.end());
-              const auto edge = mesh.nodes[*parents.rbegin()] - mesh.nodes[*parents.begin()];
-              if (parents.size() == 2 && std::abs(edge[1]) > 0.5 * edge.norm())
-                {
-                  const Key names[3] = {key, mesh.node_key(*parents.begin()),
-                                        mesh.node_key(*parents.rbegin())};
-                  own_hanging.emplace_back();
-                  for (unsigned int k = 0; k < 12; ++k)
-                    own_hanging.back()[k] = names[k / 4][k % 4];
-                }
-              else
-                entry[1] = 1;
-            }
-          own_faces.push_back(entry);
-        }
-
-    std::vector<std::vector<std::array<long long, 14>>> all_faces =
-      dealii::Utilities::MPI::all_gather(comm, own_faces);
-    std::vector<std::array<long long, 14>> sorted;
-    for (const auto &list : all_faces)
+    std::vector<SentFace> sorted;
+    for (const auto &list : dealii::Utilities::MPI::all_gather(comm, own_faces))
       sorted.insert(sorted.end(), list.begin(), list.end());
     std::sort(sorted.begin(), sorted.end());
 
@@ -121,19 +146,7 @@ namespace tread
     for (unsigned int i = 0; i < n; ++i)
       nodes[i].reference = rows[i];
 
-    // Beyond an edge along the path that only one face has, nothing can be touched.
-    std::map<std::pair<unsigned int, unsigned int>, unsigned int> n_faces;
-    for (const Face &face : faces)
-      for (unsigned int v = 0; v < 4; ++v)
-        {
-          const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
-          const Row          edge = nodes[b].reference - nodes[a].reference;
-          if (4. * edge[1] * edge[1] <= dot(edge, edge))
-            ++n_faces[std::minmax(a, b)];
-        }
-    for (const auto &[ends, count] : n_faces)
-      if (count == 1)
-        nodes[ends.first].at_rim = nodes[ends.second].at_rim = true;
+    mark_rims(faces, nodes);
   }
 
 

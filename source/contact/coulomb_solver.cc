@@ -13,13 +13,17 @@ namespace tread
                                     const std::vector<double>     &gap_rate,
                                     std::vector<Row>              &velocity,
                                     std::vector<Row>              &impulse,
+                                    std::vector<char>             &slips,
                                     const std::vector<Row>        &given)
   {
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
         problem.apply(problem.constraints[j], impulse[j], velocity);
 
+    const double static_coefficient = friction.coefficient(0.);
+
     // Open constraints wait: they are looked at in the first sweep, and again before the end.
+    slips.assign(problem.constraints.size(), false);
     std::vector<char>   waits(problem.constraints.size(), false);
     bool                all = true;
     CoulombSolverResult result{0, 0.};
@@ -44,13 +48,22 @@ namespace tread
             {
               const Row slip = u - dot(u, constraint.normal) * constraint.normal;
               tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
-              const double limit = friction.coefficient(std::sqrt(dot(slip, slip))) * new_normal;
+              const double bound = static_coefficient * new_normal; // of adhesion
               const double size2 = dot(tangential, tangential);
-              if (size2 > limit * limit)
-                tangential *= limit / std::sqrt(size2);
+              slips[j]           = !(size2 < bound * bound);
+              if (size2 > bound * bound)
+                {
+                  const double size = std::sqrt(size2);
+                  const double speed = friction.slip(constraint.compliance * size, // at the end of the step
+                                                              constraint.compliance * new_normal);
+                  tangential *= friction.coefficient(speed) * new_normal / size;
+                }
             }
           else
-            tangential = new_normal * (given[j] - dot(given[j], constraint.normal) * constraint.normal);
+            {
+              tangential = new_normal * (given[j] - dot(given[j], constraint.normal) * constraint.normal);
+              slips[j] = true;
+            }
 
           impulse[j]       = new_normal * constraint.normal + tangential;
           const Row change = impulse[j] - old;

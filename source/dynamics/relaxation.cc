@@ -80,10 +80,11 @@ namespace tread
     wheel_load = sum(wheel_load, mesh.comm) + hub_load;
 
     std::fill(v.begin(), v.end(), Row{});
+    std::shared_ptr<const FrictionLaw> law; // of the motion to come
     if (contact)
       {
         contact->set_inverse_masses(inverse);
-        contact->set_friction(std::make_shared<CoulombFriction>(0.));
+        law = contact->set_friction(std::make_shared<CoulombFriction>(0.));
         contact->refresh(x.data(), v.data(), 1.);
       }
     const NodalField       at_rest(x.size(), Row{});
@@ -244,7 +245,10 @@ namespace tread
     if (hub)
       hub->balance_suspension();
     if (contact)
-      contact->set_n_unconverged_steps(unconverged_steps);
+      {
+        contact->set_friction(law);
+        contact->set_n_unconverged_steps(unconverged_steps);
+      }
     return iteration;
   }
 } // namespace tread

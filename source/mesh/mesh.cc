@@ -114,11 +114,7 @@ namespace tread
       template <typename Cell>
       unsigned int operator()(const Cell &cell) const
       {
-        const double edge  = max_level > 0 ? cell->minimum_vertex_distance() : 0.;
-        unsigned int level = 0;
-        while (level < max_level && edge > 0.9 * std::ldexp(smallest, level + 1))
-          ++level;
-        return level;
+        return max_level > 0 ? level_of_steps(cell->minimum_vertex_distance() / smallest, max_level) : 0;
       }
 
     private:
@@ -139,8 +135,10 @@ namespace tread
                  const LikelyLevels      &likely_level,
                  const Mesh::CellCost    &cost)
     {
-      // Seconds that deal.II takes to cut the mesh anew, for each cell of a rank.
-      constexpr double to_cut  = 20e-6;
+      // What deal.II takes to cut the mesh anew, for each cell of a rank, in the unit of the costs: 20 us on
+      // the machine on which a parallelepiped takes 30 ns. With half or double of it, scenes whose ranks wait
+      // 10 to 40 us for each cell in all their steps are cut or not, and lose no more than that either way.
+      constexpr double to_cut  = 20e-6 / 30e-9;
       const auto       cost_of = [&](const auto &cell) {
         std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
         for (unsigned int v = 0; v < corners.size(); ++v)
@@ -167,6 +165,102 @@ namespace tread
         });
       triangulation.repartition();
       connection.disconnect();
+    }
+
+    /// Reference positions of all nodes visible to this rank, m, including those of ghost cells, to which
+    /// parents of hanging nodes may belong. They are stored by index in the set of relevant nodes.
+    std::vector<dealii::Point<3>> positions_of(const dealii::DoFHandler<3> &dof_handler,
+                                               const dealii::IndexSet      &relevant,
+                                               const std::vector<Body>     &bodies)
+    {
+      std::vector<dealii::Point<3>>                position(relevant.n_elements());
+      std::vector<char>                            has_position(position.size(), false);
+      std::vector<dealii::types::global_dof_index> dofs(Mesh::nodes_per_cell);
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            cell->get_dof_indices(dofs);
+            for (const unsigned int v : cell->vertex_indices())
+              if (const auto place = relevant.index_within_set(dofs[v]); !has_position[place])
+                {
+                  position[place]     = vertex_in_space(cell, v, bodies);
+                  has_position[place] = true;
+                }
+          }
+      return position;
+    }
+
+    /// Add this rank's cells and their faces on the boundary.
+    /// @param local_number number of a node by its global one; a new node if it is met for the first time
+    /// @param level_of_node the least of the likely levels of the cells around each node
+    template <typename LocalNumber>
+    void add_cells(Mesh                        &mesh,
+                   const dealii::DoFHandler<3> &dof_handler,
+                   const LocalNumber           &local_number,
+                   const LikelyLevels          &likely_level,
+                   std::vector<unsigned int>   &level_of_node)
+    {
+      // Counter-clockwise from outside, for deal.II's faces 0 to 5.
+      static constexpr unsigned int face_nodes[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+      std::vector<dealii::types::global_dof_index> dofs(Mesh::nodes_per_cell);
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            cell->get_dof_indices(dofs);
+            Mesh::Cell c;
+            c.body                   = cell->material_id();
+            const unsigned int level = likely_level(cell);
+            for (unsigned int v = 0; v < Mesh::nodes_per_cell; ++v)
+              {
+                c.nodes[v]                = local_number(dofs[v]);
+                level_of_node[c.nodes[v]] = std::min(level_of_node[c.nodes[v]], level);
+              }
+            for (const unsigned int f : cell->face_indices())
+              if (cell->at_boundary(f))
+                {
+                  Mesh::Face face;
+                  for (unsigned int v = 0; v < 4; ++v)
+                    face.nodes[v] = c.nodes[face_nodes[f][v]];
+                  face.cell     = mesh.cells.size();
+                  face.body     = c.body;
+                  face.boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
+                  mesh.faces.push_back(face);
+                }
+            mesh.cells.push_back(c);
+          }
+    }
+
+    /// Add the nodes that hang, with their parents.
+    /// @throws std::runtime_error where the octree is not 2:1
+    template <typename LocalNumber>
+    void add_hanging_nodes(Mesh                                    &mesh,
+                           const dealii::AffineConstraints<double> &constraints,
+                           const LocalNumber                       &local_number,
+                           const std::vector<std::uint64_t>        &global_ids,
+                           std::vector<unsigned int>               &level_of_node,
+                           const unsigned int                       last_level)
+    {
+      const std::size_t n_cell_nodes = mesh.nodes.size();
+      for (unsigned int i = 0; i < n_cell_nodes; ++i)
+        if (constraints.is_constrained(global_ids[i]))
+          {
+            Mesh::HangingNode h{i, {}};
+            unsigned int      n_parents = 0;
+            for (const auto &[parent, weight] : *constraints.get_constraint_entries(global_ids[i]))
+              {
+                if (constraints.is_constrained(parent))
+                  throw std::runtime_error("mesh: a hanging node hangs on another hanging node");
+                const unsigned int times = std::lround(weight / Mesh::HangingNode::weight);
+                for (unsigned int k = 0; k < times && n_parents < h.parents.size(); ++k)
+                  h.parents[n_parents++] = local_number(parent);
+              }
+            if (n_parents != h.parents.size())
+              throw std::runtime_error("mesh: a hanging node is not in the middle of an edge or a face");
+            mesh.hanging_nodes.push_back(h);
+            level_of_node[i] = last_level;
+          }
     }
   } // namespace
 
@@ -196,26 +290,12 @@ namespace tread
     for (const Body &body : bodies)
       body_names.push_back(body.name);
 
-    // Positions of all nodes visible to this rank, including those of ghost cells, to which parents of
-    // hanging nodes may belong. They are stored by index in the set of relevant nodes.
-    constexpr unsigned int                       unknown = std::numeric_limits<unsigned int>::max();
-    std::vector<dealii::Point<3>>                position(relevant.n_elements());
-    std::vector<char>                            has_position(position.size(), false);
-    std::vector<unsigned int>                    number_of(position.size(), unknown);
-    std::vector<unsigned int>                    level_of_node; // the last of all for hanging nodes
-    std::vector<std::uint64_t>                   global_ids;
-    std::vector<dealii::types::global_dof_index> dofs(nodes_per_cell);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          cell->get_dof_indices(dofs);
-          for (const unsigned int v : cell->vertex_indices())
-            if (const auto place = relevant.index_within_set(dofs[v]); !has_position[place])
-              {
-                position[place]     = vertex_in_space(cell, v, bodies);
-                has_position[place] = true;
-              }
-        }
+    // By index in the set of relevant nodes.
+    constexpr unsigned int              unknown  = std::numeric_limits<unsigned int>::max();
+    const std::vector<dealii::Point<3>> position = positions_of(dof_handler, relevant, bodies);
+    std::vector<unsigned int>           number_of(position.size(), unknown);
+    std::vector<unsigned int>           level_of_node; // the last of all for hanging nodes
+    std::vector<std::uint64_t>          global_ids;
 
     const auto local_number = [&](const std::uint64_t id) {
       const auto    place  = relevant.index_within_set(id);
@@ -230,55 +310,8 @@ namespace tread
       return number;
     };
 
-    // Counter-clockwise from outside, for deal.II's faces 0 to 5.
-    static constexpr unsigned int face_nodes[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          Cell c;
-          c.body                   = cell->material_id();
-          const unsigned int level = likely_level(cell);
-          for (unsigned int v = 0; v < nodes_per_cell; ++v)
-            {
-              c.nodes[v]                = local_number(dofs[v]);
-              level_of_node[c.nodes[v]] = std::min(level_of_node[c.nodes[v]], level);
-            }
-          for (const unsigned int f : cell->face_indices())
-            if (cell->at_boundary(f))
-              {
-                Face face;
-                for (unsigned int v = 0; v < 4; ++v)
-                  face.nodes[v] = c.nodes[face_nodes[f][v]];
-                face.cell     = cells.size();
-                face.body     = c.body;
-                face.boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
-                faces.push_back(face);
-              }
-          cells.push_back(c);
-        }
-
-    const std::size_t n_cell_nodes = nodes.size();
-    for (unsigned int i = 0; i < n_cell_nodes; ++i)
-      if (constraints.is_constrained(global_ids[i]))
-        {
-          HangingNode  h{i, {}};
-          unsigned int n_parents = 0;
-          for (const auto &[parent, weight] : *constraints.get_constraint_entries(global_ids[i]))
-            {
-              if (constraints.is_constrained(parent))
-                throw std::runtime_error("mesh: a hanging node hangs on another hanging node");
-              const unsigned int times = std::lround(weight / HangingNode::weight);
-              for (unsigned int k = 0; k < times && n_parents < h.parents.size(); ++k)
-                h.parents[n_parents++] = local_number(parent);
-            }
-          if (n_parents != h.parents.size())
-            throw std::runtime_error("mesh: a hanging node is not in the middle of an edge or a face");
-          hanging_nodes.push_back(h);
-          level_of_node[i] = max_level + 1;
-        }
+    add_cells(*this, dof_handler, local_number, likely_level, level_of_node);
+    add_hanging_nodes(*this, constraints, local_number, global_ids, level_of_node, max_level + 1);
     renumber(level_of_node, global_ids);
     // Parents follow from the constraint itself, so every rank places a hanging node alike:
     // on the chord, where every linear displacement field leaves it.

@@ -257,6 +257,84 @@ namespace tread
     };
     return body;
   }
+  namespace
+  {
+    /// The section of a full wheel, and what follows from its lines, m.
+    struct FullSection
+    {
+      Section section;
+      double  size;                ///< of its coarse cells
+      double  tread_row, bore_row; ///< heights of the rows along the tread and the bore
+    };
+
+    FullSection full_section(const FullWheel &wheel, const FineZone &zone)
+    {
+      const double half_rim = 0.5 * wheel.rim_width, half_web = 0.5 * wheel.web_thickness,
+                   half_hub = 0.5 * wheel.hub_length;
+      // At least 50 cells around keep the rounding to a whole number below 1 %. The innermost row of the rim
+      // leads over from the regular lines to those of the web, so it must lie below the fine zone.
+      FullSection made;
+      double     &size = made.size;
+      size             = std::min(wheel.coarsest_cell_size, 2. * pi * wheel.radius / 50.);
+      std::vector<double> rim_y, depth;
+      while (true)
+        {
+          size =
+            coarse_cell_size(zone.finest_cell_size, size,
+                             {{half_rim, zone.reach()}, {wheel.radius - wheel.rim_inner_radius, zone.depth}});
+          rim_y = coarse_lines(-half_rim, half_rim, 0., size);
+          depth = coarse_lines(0., wheel.radius - wheel.rim_inner_radius, 0., size);
+          if (rim_y.size() >= 5 && depth.size() >= 3 && zone.depth <= depth[depth.size() - 2])
+            break;
+          size *= 0.5;
+        }
+
+      Section           &section = made.section;
+      const unsigned int n_half  = (rim_y.size() - 1) / 2; // rows of the rim on one side of y = 0
+      const unsigned int n_web   = std::min(n_half - 1, rows_of(half_web, size));
+
+      // Where the lines of the rim arrive at its inner radius: the n_web lines next to y = 0 on each side
+      // enter the web.
+      std::vector<double> inner_y(rim_y.size(), 0.);
+      for (unsigned int j = 1; j <= n_half; ++j)
+        {
+          const double web_line = rim_y[n_half + n_web];
+          const double y        = j <= n_web ? half_web * j / n_web
+                                             : half_web + (rim_y[n_half + j] - web_line) / (half_rim - web_line) *
+                                                     (half_rim - half_web);
+          inner_y[n_half + j]   = y;
+          inner_y[n_half - j]   = -y;
+        }
+      for (unsigned int k = 0; k + 1 < depth.size(); ++k)
+        {
+          const bool to_web = k + 2 == depth.size();
+          section.add_row(rim_y, wheel.radius - depth[k], to_web ? inner_y : rim_y,
+                          wheel.radius - depth[k + 1]);
+        }
+
+      const std::vector<double> web_y = even_lines(-half_web, half_web, 2 * n_web);
+      const std::vector<double> web_r =
+        even_lines(wheel.rim_inner_radius, wheel.hub_outer_radius,
+                   rows_of(wheel.rim_inner_radius - wheel.hub_outer_radius, size));
+      for (unsigned int k = 0; k + 1 < web_r.size(); ++k)
+        section.add_row(web_y, web_r[k], web_y, web_r[k + 1]);
+
+      const unsigned int  n_side = rows_of(half_hub - half_web, size);
+      std::vector<double> hub_y  = even_lines(-half_hub, -half_web, n_side);
+      hub_y.insert(hub_y.end(), web_y.begin() + 1, web_y.end());
+      const std::vector<double> other_side = even_lines(half_web, half_hub, n_side);
+      hub_y.insert(hub_y.end(), other_side.begin() + 1, other_side.end());
+      const std::vector<double> hub_r = even_lines(wheel.hub_outer_radius, wheel.bore_radius,
+                                                   rows_of(wheel.hub_outer_radius - wheel.bore_radius, size));
+      for (unsigned int k = 0; k + 1 < hub_r.size(); ++k)
+        section.add_row(hub_y, hub_r[k], hub_y, hub_r[k + 1]);
+      made.tread_row = depth[1];
+      made.bore_row  = hub_r[hub_r.size() - 2] - wheel.bore_radius;
+      return made;
+    }
+  } // namespace
+
+
   Body make_full_wheel(const FullWheel &wheel, const FineZone &zone)
   {
     const double half_rim = 0.5 * wheel.rim_width, half_web = 0.5 * wheel.web_thickness,
@@ -268,61 +346,7 @@ namespace tread
     if (!(0. < half_web && half_web < half_rim && half_web < half_hub))
       throw std::invalid_argument("the wheel's web must be thinner than its rim and its hub");
 
-    // At least 50 cells around keep the rounding to a whole number below 1 %. The innermost row of the rim
-    // leads over from the regular lines to those of the web, so it must lie below the fine zone.
-    double              size = std::min(wheel.coarsest_cell_size, 2. * pi * wheel.radius / 50.);
-    std::vector<double> rim_y, depth;
-    while (true)
-      {
-        size =
-          coarse_cell_size(zone.finest_cell_size, size,
-                           {{half_rim, zone.reach()}, {wheel.radius - wheel.rim_inner_radius, zone.depth}});
-        rim_y = coarse_lines(-half_rim, half_rim, 0., size);
-        depth = coarse_lines(0., wheel.radius - wheel.rim_inner_radius, 0., size);
-        if (rim_y.size() >= 5 && depth.size() >= 3 && zone.depth <= depth[depth.size() - 2])
-          break;
-        size *= 0.5;
-      }
-
-    Section            section;
-    const unsigned int n_half = (rim_y.size() - 1) / 2; // rows of the rim on one side of y = 0
-    const unsigned int n_web  = std::min(n_half - 1, rows_of(half_web, size));
-
-    // Where the lines of the rim arrive at its inner radius: the n_web lines next to y = 0 on each side enter
-    // the web.
-    std::vector<double> inner_y(rim_y.size(), 0.);
-    for (unsigned int j = 1; j <= n_half; ++j)
-      {
-        const double web_line = rim_y[n_half + n_web];
-        const double y        = j <= n_web ? half_web * j / n_web
-                                           : half_web + (rim_y[n_half + j] - web_line) / (half_rim - web_line) *
-                                                   (half_rim - half_web);
-        inner_y[n_half + j]   = y;
-        inner_y[n_half - j]   = -y;
-      }
-    for (unsigned int k = 0; k + 1 < depth.size(); ++k)
-      {
-        const bool to_web = k + 2 == depth.size();
-        section.add_row(rim_y, wheel.radius - depth[k], to_web ? inner_y : rim_y,
-                        wheel.radius - depth[k + 1]);
-      }
-
-    const std::vector<double> web_y = even_lines(-half_web, half_web, 2 * n_web);
-    const std::vector<double> web_r =
-      even_lines(wheel.rim_inner_radius, wheel.hub_outer_radius,
-                 rows_of(wheel.rim_inner_radius - wheel.hub_outer_radius, size));
-    for (unsigned int k = 0; k + 1 < web_r.size(); ++k)
-      section.add_row(web_y, web_r[k], web_y, web_r[k + 1]);
-
-    const unsigned int  n_side = rows_of(half_hub - half_web, size);
-    std::vector<double> hub_y  = even_lines(-half_hub, -half_web, n_side);
-    hub_y.insert(hub_y.end(), web_y.begin() + 1, web_y.end());
-    const std::vector<double> other_side = even_lines(half_web, half_hub, n_side);
-    hub_y.insert(hub_y.end(), other_side.begin() + 1, other_side.end());
-    const std::vector<double> hub_r = even_lines(wheel.hub_outer_radius, wheel.bore_radius,
-                                                 rows_of(wheel.hub_outer_radius - wheel.bore_radius, size));
-    for (unsigned int k = 0; k + 1 < hub_r.size(); ++k)
-      section.add_row(hub_y, hub_r[k], hub_y, hub_r[k + 1]);
+    const auto [section, size, tread_row, bore_row] = full_section(wheel, zone);
 
     const WheelAxis    axis{wheel.center_x, wheel.radius + wheel.lift};
     const unsigned int n_around = std::lround(2. * pi * wheel.radius / size);
@@ -350,8 +374,8 @@ namespace tread
       body.path_stretch = stretch_around(axis, wheel.radius, path);
 
     // Centres of faces with straight edges lie a little inside the cylinder that the face is on.
-    const double tread  = wheel.radius - 0.25 * depth[1];
-    const double bore   = wheel.bore_radius + 0.25 * (hub_r[hub_r.size() - 2] - wheel.bore_radius);
+    const double tread  = wheel.radius - 0.25 * tread_row;
+    const double bore   = wheel.bore_radius + 0.25 * bore_row;
     const double center = 0.5 * (zone.x_begin + zone.x_end) / wheel.radius;
     const double half_path =
       (0.5 * (zone.x_end - zone.x_begin) + wheel.contact_margin + 0.5 * longest) / wheel.radius;

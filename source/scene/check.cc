@@ -55,6 +55,7 @@ namespace tread
             "'Motion/Traction coefficient' " + text_of(motion.traction_coefficient) +
               " must be below 'Contact/Friction coefficient' " + text_of(contact.friction_coefficient) +
               " in size");
+    friction_law();
   }
 
 
@@ -263,6 +264,22 @@ namespace tread
   }
 
 
+  std::shared_ptr<const FrictionLaw> Scene::friction_law() const
+  {
+    handler.enter_subsection("Contact");
+    const std::unique_ptr<dealii::ParameterHandler, void (*)(dealii::ParameterHandler *)> leave_at_end(
+      &handler, [](dealii::ParameterHandler *entered) { entered->leave_subsection(); });
+    try
+      {
+        return make_friction_law(contact.friction_law, contact.friction_coefficient, handler);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw SceneError(error.what());
+      }
+  }
+
+
   std::vector<std::string> Scene::assumptions() const
   {
     std::vector<std::string> list;
@@ -282,6 +299,10 @@ namespace tread
     list.push_back(start.tractions == StartTractions::predicted
                      ? "the start has the tractions that half-space theory predicts for steady rolling"
                      : "the start has no tractions; they build up while rolling");
+    if (const auto law = friction_law(); !law->is_constant())
+      list.push_back("half-space theory, of the references and of what is predicted, has the friction "
+                     "coefficient without slip, " +
+                     text_of(law->coefficient(0.)) + ", everywhere");
     if (solid.stiffness_damping == 0.)
       list.push_back("no stiffness damping: micro-slip may chatter at the frequency of the cells");
     return list;

@@ -15,7 +15,7 @@ namespace tread
     c.curvature_x  = 0.5 / scene.rolling_radius();
     c.curvature_y  = 0.5 / scene.lateral_radius();
     c.normal_force = normal_force;
-    c.friction     = scene.contact.friction_coefficient;
+    c.friction     = scene.friction_law()->coefficient(0.);
     c.speed        = scene.motion.speed;
     c.wheel = {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio};
     c.rail  = {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio};

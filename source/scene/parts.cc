@@ -93,7 +93,7 @@ namespace tread
       for (const dealii::Point<3> &corner : corners)
         centre += corner / 8.;
       const bool   is_plastic = zone_at(zones, body, centre) >= 0;
-      const double of_a_step  = Solid::step_seconds(corners, type, is_plastic);
+      const double of_a_step  = Solid::relative_cost(corners, type, is_plastic);
       return steps * std::ldexp(of_a_step, is_plastic ? 0 : -static_cast<int>(level));
     };
   }

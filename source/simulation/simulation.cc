@@ -53,9 +53,7 @@ namespace tread
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
-    , contact(mesh,
-              contact_parameters(scene),
-              std::make_shared<CoulombFriction>(scene.contact.friction_coefficient))
+    , contact(mesh, contact_parameters(scene), scene.friction_law())
     , end_position(scene.path_end() + 0.5 * scene.mesh.finest_cell)
   {
     const double omega = scene.motion.speed / scene.rolling_radius();

@@ -81,7 +81,6 @@ namespace tread
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
 
-    contact.set_friction(std::make_shared<CoulombFriction>(scene.contact.friction_coefficient));
     contact.give_tractions({});
     hub.drive             = Drive::creepage;
     hub.motion.velocity_x = scene.motion.speed;

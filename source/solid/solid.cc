@@ -164,23 +164,25 @@ namespace tread
 
   unsigned int Solid::level_up_to(const unsigned int max_level, const unsigned int cell) const
   {
-    unsigned int level = 0;
-    while (level < max_level && !plastic_cells.contains(cell) &&
-           std::ldexp(frequencies[cell], level + 1) <= 1.1 * highest_cell_frequency)
-      ++level;
-    return level;
+    return plastic_cells.contains(cell)
+             ? 0
+             : level_of_steps(highest_cell_frequency / frequencies[cell], max_level);
   }
 
 
-  double Solid::step_seconds(const std::array<dealii::Point<3>, 8> &corners,
-                             const ElementType                      type,
-                             const bool                             is_plastic)
+  double Solid::relative_cost(const std::array<dealii::Point<3>, 8> &corners,
+                              const ElementType                      type,
+                              const bool                             is_plastic)
   {
-    // As measured (benchmarks/kernel_benchmark, plastic_benchmark).
-    return type == ElementType::fully_integrated ? 250e-9
-           : is_plastic                          ? 60e-9
-           : is_parallelepiped(corners)          ? 30e-9
-                                                 : 40e-9;
+    // Rounded from internal forces of 22, 36 and 233 ns a cell (kernel_benchmark, 205 379 cells: the first
+    // table of doc/performance.md) and about 8 ns for its nodes; cells that yield take 1.5 to 2.1 times an
+    // elastic one (plastic_benchmark). Only the ratios count: a factor that is wrong by half lets ranks that
+    // have such cells wait, or be waited for, by up to half of what these take.
+    constexpr double parallelepiped = 1., general = 4. / 3., plastic = 2., fully_integrated = 25. / 3.;
+    return type == ElementType::fully_integrated ? fully_integrated
+           : is_plastic                          ? plastic
+           : is_parallelepiped(corners)          ? parallelepiped
+                                                 : general;
   }
 
 

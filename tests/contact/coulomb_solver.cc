@@ -125,6 +125,7 @@ void run_test(Check &check, const tests::Arguments &)
   CoulombSolverParameters parameters;
   parameters.tolerance  = 1e-10;
   parameters.max_sweeps = 2000;
+  std::vector<char> slips;
   // The sweeps stop at changes of 1e-10; what is left is that over (1 - rate of convergence), at worst a
   // hundredfold. A change of an impulse by one share of the largest changes velocities by some m/s here.
   constexpr double allowed = 1e-7;
@@ -136,7 +137,8 @@ void run_test(Check &check, const tests::Arguments &)
     std::vector<Row>    velocity = r.velocity, impulse(200, Row{}), given;
     for (unsigned int j = 0; j < 200; ++j)
       given.push_back(Row{0.2 * std::cos(j), 0.2 * std::sin(j), 0., 0.});
-    solve_coulomb(r.problem, CoulombFriction(0.1), parameters, whole, r.gap_rate, velocity, impulse, given);
+    solve_coulomb(r.problem, CoulombFriction(0.1), parameters, whole, r.gap_rate, velocity, impulse, slips,
+                  given);
     double       apart = 0., gap = 0., largest = 0.;
     unsigned int n_closed = 0;
     for (unsigned int j = 0; j < 200; ++j)
@@ -167,7 +169,7 @@ void run_test(Check &check, const tests::Arguments &)
           Strips              whole(r.problem);
           std::vector<Row>    velocity = r.velocity, impulse(200, Row{});
           const auto          first =
-            solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse);
+            solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse, slips);
           const Violation now   = violation(r, impulse, friction);
           worst.penetration     = std::max(worst.penetration, now.penetration);
           worst.tension         = std::max(worst.tension, now.tension);
@@ -184,7 +186,8 @@ void run_test(Check &check, const tests::Arguments &)
           // Shared among the ranks.
           std::vector<Row> shared_velocity = r.velocity, shared_impulse(200, Row{});
           Strips           strips(r.problem, shared_impulse, shared_velocity.size(), MPI_COMM_WORLD);
-          solve_coulomb(r.problem, friction, parameters, strips, r.gap_rate, shared_velocity, shared_impulse);
+          solve_coulomb(r.problem, friction, parameters, strips, r.gap_rate, shared_velocity, shared_impulse,
+                        slips);
           strips.gather(shared_impulse);
           double largest = 0., apart = 0.;
           for (unsigned int j = 0; j < impulse.size(); ++j)
@@ -214,13 +217,14 @@ void run_test(Check &check, const tests::Arguments &)
             v *= 1.001;
           velocity = next.velocity;
           warm +=
-            solve_coulomb(next.problem, friction, parameters, whole, next.gap_rate, velocity, impulse).sweeps;
+            solve_coulomb(next.problem, friction, parameters, whole, next.gap_rate, velocity, impulse, slips)
+              .sweeps;
 
           if (k == 0)
             {
               velocity = r.velocity;
               impulse.assign(200, Row{});
-              solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse);
+              solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse, slips);
               const unsigned int active =
                 std::max_element(impulse.begin(), impulse.end(),
                                  [](const Row a, const Row b) { return size(a) < size(b); }) -

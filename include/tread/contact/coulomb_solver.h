@@ -24,7 +24,8 @@ namespace tread
 
   /// Block Gauss-Seidel on the impulses (Moreau 1988; Jean 1999): each block is solved exactly,
   /// as the compliance of one constraint is the same in all directions:
-  /// P_n >= 0, gap >= 0 at the step's end, P_n gap = 0; |P_t| <= f P_n, P_t = -f P_n u_t/|u_t| in slip.
+  /// P_n >= 0, gap >= 0 at the step's end, P_n gap = 0; u_t = 0 where |P_t| <= f(0) P_n allows it, else
+  /// P_t = -f(|u_t|) P_n u_t/|u_t| with the coefficient f at the slip speed that this block then has itself.
   ///
   /// Collective: each rank changes the impulses of its strip.
   /// @param gap_rate gap now over the time step, m/s, one a constraint.
@@ -32,7 +33,8 @@ namespace tread
   /// of the strip.
   /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity. What acts on
   /// the nodes of the strip has to be there.
-  /// @param given one a constraint: P_t over P_n where it is not for Coulomb's law to find; or empty.
+  /// @param slips one a constraint: whether those of the strip with an impulse slip now; others adhere.
+  /// @param given one a constraint: P_t over P_n where it is not for the friction law to find; or empty.
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
                                     const CoulombSolverParameters &parameters,
@@ -40,6 +42,7 @@ namespace tread
                                     const std::vector<double>     &gap_rate,
                                     std::vector<Row>              &velocity,
                                     std::vector<Row>              &impulse,
+                                    std::vector<char>             &slips,
                                     const std::vector<Row>        &given = {});
 } // namespace tread
 

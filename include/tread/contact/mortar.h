@@ -35,7 +35,10 @@ namespace tread
   {
     std::vector<MortarRow>   rows;
     std::vector<MortarEntry> entries;
-    double time_to_touch; ///< shortest gap over closing speed of faces beyond half the reach, s
+    /// Nodes with gaps below this share of the reach are candidates for contact at once: the rest of it is
+    /// what there is until others may touch.
+    static constexpr double candidates = 0.5;
+    double time_to_touch; ///< shortest gap over closing speed of faces beyond that share of the reach, s
   };
 
   /// Couple slave_body's surface to master_body's. Collective: each rank integrates a share of the faces and

@@ -72,6 +72,9 @@ namespace tread
     /// predicted start), one line each.
     std::vector<std::string> assumptions() const;
 
+    /// The law that the scene names, with its parameters. @throws SceneError
+    std::shared_ptr<const FrictionLaw> friction_law() const;
+
     TrackParameters track_parameters() const;
     /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
     AbsorbingEnds absorbing_ends() const;

@@ -128,9 +128,8 @@ namespace tread
       return frequencies;
     }
 
-    /// Level of each cell: the largest whole l, up to max_level, with 2^l times its frequency not above
-    /// that of the fastest cell of all ranks (a tenth more passes, as cells of an octree's levels differ a
-    /// little in shape). Cells of plastic zones are of level 0: they yield in the smallest steps.
+    /// Level of each cell, up to max_level, by its frequency and that of the fastest cell of all ranks (@see
+    /// level_of_steps). Cells of plastic zones are of level 0: they yield in the smallest steps.
     const std::vector<unsigned int> &cell_levels() const
     {
       return levels_of_cells;
@@ -139,10 +138,11 @@ namespace tread
     /// The value that cell_levels() would give for a cell with another largest level.
     unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
 
-    /// Approximate time that a cell and its nodes take in a step, s: for a fair division among the ranks.
-    static double step_seconds(const std::array<dealii::Point<3>, 8> &corners,
-                               const ElementType                      type,
-                               const bool                             is_plastic);
+    /// Approximate time that a cell and its nodes take in a step, over that of a one-point parallelepiped:
+    /// for a fair division among the ranks.
+    static double relative_cost(const std::array<dealii::Point<3>, 8> &corners,
+                                const ElementType                      type,
+                                const bool                             is_plastic);
 
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell. They
     /// are computed anew and not stored.

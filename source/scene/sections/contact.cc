@@ -10,7 +10,11 @@ namespace tread
     Section section(handler, "Contact");
 
     section.add("Friction coefficient", friction_coefficient,
-                "Coulomb's, for stick and slip. 0 is frictionless.", Double(0., 2.));
+                "Without slip; that of Coulomb's law is the same at any slip speed. 0 is frictionless. "
+                "Half-space references, the predicted start among them, know this number only.",
+                Double(0., 2.));
+    section.add("Friction law", friction_law, friction_law_help(), friction_law_pattern());
+    declare_friction_laws(handler);
     section.add(
       "Tolerance", tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",

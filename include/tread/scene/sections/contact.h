@@ -2,6 +2,7 @@
 #ifndef tread_scene_sections_contact_h
 #define tread_scene_sections_contact_h
 
+#include <tread/contact/friction_law.h>
 #include <tread/scene/section.h>
 
 namespace tread
@@ -9,8 +10,9 @@ namespace tread
   /// Section `Contact`.
   struct ContactSection
   {
-    double       friction_coefficient = 0.5;
-    double       tolerance            = 1e-7; ///< of the sweeps, share of the largest impulse
+    double       friction_coefficient = 0.5;       ///< without slip
+    std::string  friction_law         = "Coulomb"; ///< its name in the list of laws
+    double       tolerance            = 1e-7;      ///< of the sweeps, share of the largest impulse
     unsigned int max_sweeps           = 200;
 
     void declare(dealii::ParameterHandler &handler);

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a contact is asked for after a step, and what none of the steps needs.
+#include <tread/base/gathered.h>
+#include <tread/contact/contact.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    double norm(const Row a)
+    {
+      return std::sqrt(dot(a, a));
+    }
+  } // namespace
+
+
+  Row Contact::total_impulse() const
+  {
+    Row sum{};
+    for (const Row &p : impulse)
+      sum += p;
+    return sum;
+  }
+
+
+  double Contact::free_rolling_creepage(const Row *x) const
+  {
+    std::vector<Row> now;
+    surfaces.replicate(x, now);
+    std::vector<double> load(surfaces.nodes.size(), 0.);
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        load[involved[problem.entries[i].node]] +=
+          problem.entries[i].coefficient * dot(impulse[j], problem.constraints[j].normal);
+
+    double stretch[2] = {0., 0.}, weight[2] = {0., 0.};
+    for (const ContactSurfaces::Face &face : surfaces.faces)
+      {
+        double w = 0.;
+        for (const unsigned int i : face.nodes)
+          w += load[i];
+        if (w == 0.)
+          continue;
+        const auto edge = [&](const unsigned int a, const unsigned int b, const bool reference) {
+          const unsigned int i = face.nodes[a], j = face.nodes[b];
+          return reference ? surfaces.nodes[j].reference - surfaces.nodes[i].reference : now[j] - now[i];
+        };
+        const bool         along  = std::abs(edge(0, 1, true)[1]) < std::abs(edge(1, 2, true)[1]);
+        const unsigned int a      = along ? 0 : 1;
+        const double       before = norm(edge(a, a + 1, true)) + norm(edge((a + 3) % 4, a + 2, true));
+        const double       after  = norm(edge(a, a + 1, false)) + norm(edge((a + 3) % 4, a + 2, false));
+        const bool         master = face.body == parameters.master_body;
+        stretch[master] += w * (after / before - 1.);
+        weight[master] += w;
+      }
+    return weight[0] != 0. && weight[1] != 0. ? stretch[0] / weight[0] - stretch[1] / weight[1] : 0.;
+  }
+
+
+  std::vector<ContactNodeState> Contact::active_nodes() const
+  {
+    std::vector<int> number(surfaces.nodes.size(), -1);
+    for (unsigned int i = 0; i < involved.size(); ++i)
+      number[involved[i]] = i;
+    std::vector<ContactNodeState> states;
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        const double                      normal     = dot(impulse[j], constraint.normal);
+        if (normal <= 0.)
+          continue;
+        ContactNodeState state;
+        state.node     = constraint.slave;
+        state.position = position[number[constraint.slave]];
+        state.normal   = constraint.normal;
+        state.impulse  = impulse[j];
+        const Row u    = problem.combine(constraint, velocity);
+        state.slip     = u - dot(u, constraint.normal) * constraint.normal;
+        state.area     = constraint.area;
+        state.gap      = dot(problem.combine(constraint, position), constraint.normal);
+        state.adhesion = !slips[j];
+        states.push_back(state);
+      }
+    return gathered(states, comm);
+  }
+
+
+  std::optional<Row> Contact::contact_at_rim() const
+  {
+    if (rim_nodes.empty())
+      return {};
+    // Slave nodes beside the patch have no impulse. Master nodes there have some where faces overlap, but not
+    // as much as those under it.
+    constexpr double  beside_patch = 0.3;
+    std::vector<Row>  nodal_impulse(involved.size(), Row{});
+    std::vector<char> loaded(surfaces.nodes.size(), false);
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      if (const ContactProblem::Constraint &constraint = problem.constraints[j]; norm(impulse[j]) > 0.)
+        {
+          loaded[constraint.slave] = true;
+          for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+            nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * impulse[j];
+        }
+    double largest = 0.;
+    for (const Row &p : nodal_impulse)
+      largest = std::max(largest, norm(p));
+    for (const unsigned int i : rim_nodes)
+      if (surfaces.nodes[involved[i]].body == parameters.slave_body
+            ? loaded[involved[i]]
+            : norm(nodal_impulse[i]) > beside_patch * largest)
+        return position[i];
+    return {};
+  }
+} // namespace tread

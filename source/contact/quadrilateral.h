@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_contact_quadrilateral_h
+#define tread_contact_quadrilateral_h
+
+#include <boost/container/static_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+// Faces as mortar.cc sees them, projected into one plane: shape functions, dual functions, the part that two
+// of them share, and the points at which that is integrated.
+namespace tread
+{
+  struct Plane2
+  {
+    double s, t;
+  };
+
+  /// A value at each point of a triangle's quadrature rule; six of eight count,
+  /// the last two repeat the sixth with no weight.
+  typedef double AtPoints __attribute__((vector_size(64)));
+
+  inline double total(const AtPoints value)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < 8; ++i)
+      sum += value[i];
+    return sum;
+  }
+
+  inline double cross(const Plane2 a, const Plane2 b, const Plane2 c)
+  {
+    return (b.s - a.s) * (c.t - a.t) - (b.t - a.t) * (c.s - a.s);
+  }
+
+  /// A quadrilateral in the plane of integration, and its bilinear shape functions.
+  struct Quadrilateral
+  {
+    std::array<Plane2, 4> corners;
+    std::array<double, 4> inverse;
+
+    template <typename T>
+    static std::array<T, 4> shape(const T xi, const T eta)
+    {
+      return {0.25 * (1. - xi) * (1. - eta), 0.25 * (1. + xi) * (1. - eta), 0.25 * (1. + xi) * (1. + eta),
+              0.25 * (1. - xi) * (1. + eta)};
+    }
+
+    /// Inverse of the bilinear map's derivative at the centre; call after the corners are set.
+    void prepare()
+    {
+      const auto  &c   = corners;
+      const double a   = 0.25 * (-c[0].s + c[1].s + c[2].s - c[3].s),
+                   b   = 0.25 * (-c[0].s - c[1].s + c[2].s + c[3].s);
+      const double d   = 0.25 * (-c[0].t + c[1].t + c[2].t - c[3].t),
+                   e   = 0.25 * (-c[0].t - c[1].t + c[2].t + c[3].t);
+      const double det = a * e - b * d;
+      inverse          = {e / det, -b / det, -d / det, a / det};
+    }
+
+    /// Shape functions at points of the plane, by Newton's method with the derivative at the centre:
+    /// faces are nearly parallelograms, for which one step is exact.
+    std::array<AtPoints, 4> shape_at(const AtPoints s, const AtPoints t) const
+    {
+      AtPoints                xi{}, eta{};
+      std::array<AtPoints, 4> N = shape(xi, eta);
+      for (unsigned int iteration = 0; iteration < 60; ++iteration)
+        {
+          AtPoints rs = -s, rt = -t;
+          for (unsigned int i = 0; i < 4; ++i)
+            {
+              rs += N[i] * corners[i].s;
+              rt += N[i] * corners[i].t;
+            }
+          const AtPoints step_xi  = inverse[0] * rs + inverse[1] * rt,
+                         step_eta = inverse[2] * rs + inverse[3] * rt;
+          xi -= step_xi;
+          eta -= step_eta;
+          N                     = shape(xi, eta);
+          const AtPoints step2  = step_xi * step_xi + step_eta * step_eta;
+          double         moving = 0.;
+          for (unsigned int i = 0; i < 8; ++i)
+            moving = std::max(moving, step2[i]);
+          if (moving < 1e-18) // the next step would be smaller than 1e-10
+            break;
+        }
+      return N;
+    }
+
+    /// Coefficients A of the dual functions psi_j = sum_k A_jk N_k, and the integrals of N_j.
+    void dual_functions(std::array<std::array<double, 4>, 4> &A, std::array<double, 4> &integral) const
+    {
+      const double gauss = std::sqrt(0.6), weight[3] = {5. / 9., 8. / 9., 5. / 9.},
+                   at[3] = {-gauss, 0., gauss};
+      double m[4][8]     = {}; // mass matrix, and the identity to invert it
+      integral.fill(0.);
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          {
+            const auto   N       = shape(at[i], at[j]);
+            const double dxi[4]  = {-(1. - at[j]), 1. - at[j], 1. + at[j], -(1. + at[j])};
+            const double deta[4] = {-(1. - at[i]), -(1. + at[i]), 1. + at[i], 1. - at[i]};
+            double       a = 0., b = 0., c = 0., d = 0.;
+            for (unsigned int k = 0; k < 4; ++k)
+              {
+                a += dxi[k] * corners[k].s / 4.;
+                b += deta[k] * corners[k].s / 4.;
+                c += dxi[k] * corners[k].t / 4.;
+                d += deta[k] * corners[k].t / 4.;
+              }
+            const double w = weight[i] * weight[j] * (a * d - b * c);
+            for (unsigned int k = 0; k < 4; ++k)
+              {
+                integral[k] += w * N[k];
+                for (unsigned int l = 0; l < 4; ++l)
+                  m[k][l] += w * N[k] * N[l];
+              }
+          }
+      for (unsigned int k = 0; k < 4; ++k)
+        m[k][4 + k] = 1.;
+      for (unsigned int k = 0; k < 4; ++k) // symmetric positive definite: no pivoting needed
+        {
+          const double pivot = 1. / m[k][k];
+          for (double &entry : m[k])
+            entry *= pivot;
+          for (unsigned int i = 0; i < 4; ++i)
+            if (i != k)
+              for (unsigned int j = 8; j-- > k;)
+                m[i][j] -= m[i][k] * m[k][j];
+        }
+      for (unsigned int j = 0; j < 4; ++j)
+        for (unsigned int k = 0; k < 4; ++k)
+          A[j][k] = integral[j] * m[j][4 + k];
+    }
+  };
+
+  /// The intersection of two convex quadrilaterals: each edge of one adds at most one corner to the remainder
+  /// of the other.
+  using Polygon = boost::container::static_vector<Plane2, 8>;
+
+  /// The subject cut by the inner side of each edge of the other (Sutherland & Hodgman 1974).
+  inline Polygon intersection(const Quadrilateral &subject, const Quadrilateral &clip)
+  {
+    Polygon polygon(subject.corners.begin(), subject.corners.end()), input;
+    for (unsigned int e = 0; e < 4 && !polygon.empty(); ++e)
+      {
+        const Plane2 a = clip.corners[e], b = clip.corners[(e + 1) % 4];
+        input = polygon;
+        polygon.clear();
+        for (unsigned int i = 0; i < input.size(); ++i)
+          {
+            const Plane2 p = input[i], q = input[i + 1 < input.size() ? i + 1 : 0];
+            const double side_p = cross(a, b, p), side_q = cross(a, b, q);
+            if (side_p >= 0.)
+              polygon.push_back(p);
+            if ((side_p > 0. && side_q < 0.) || (side_p < 0. && side_q > 0.))
+              {
+                const double f = side_p / (side_p - side_q);
+                polygon.push_back({p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)});
+              }
+          }
+      }
+    return polygon;
+  }
+
+  // Symmetric rule of degree 4 with 6 points on a triangle (Dunavant 1985): barycentric coordinates,
+  // weights.
+  constexpr double near_1 = 0.108103018168070, far_1 = 0.445948490915965, near_2 = 0.816847572980459,
+                   far_2 = 0.091576213509771, weight_1 = 0.223381589678011, weight_2 = 0.109951743655322;
+  constexpr AtPoints triangle_points[3] = {{near_1, far_1, far_1, near_2, far_2, far_2, far_2, far_2},
+                                           {far_1, near_1, far_1, far_2, near_2, far_2, far_2, far_2},
+                                           {far_1, far_1, near_1, far_2, far_2, near_2, near_2, near_2}},
+                     triangle_weights   = {weight_1, weight_1, weight_1, weight_2, weight_2, weight_2};
+} // namespace tread
+
+#endif
