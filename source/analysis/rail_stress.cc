@@ -25,7 +25,7 @@ namespace tread
       return centre;
     }
 
-    std::array<long long, 4> key_of(const unsigned int body, const dealii::Point<3> &p)
+    Archive::Key key_of(const unsigned int body, const dealii::Point<3> &p)
     {
       return {{body, std::llround(1e9 * p[0]), std::llround(1e9 * p[1]), std::llround(1e9 * p[2])}};
     }
@@ -130,23 +130,27 @@ namespace tread
   }
 
 
-  std::vector<StoredPeak> StressStrip::stored() const
+  void StressStrip::serialize(Archive &archive)
   {
-    std::vector<StoredPeak> list;
+    struct KeptPeak
+    {
+      Archive::Key key;
+      StressPeak   peak;
+    };
+    std::vector<KeptPeak> own;
     for (const Member &member : members)
-      list.push_back({member.key, member.peak});
-    return list;
-  }
-
-
-  void StressStrip::restore(const std::vector<StoredPeak> &list)
-  {
-    std::map<std::array<long long, 4>, StressPeak> by_key;
-    for (const StoredPeak &entry : list)
-      by_key[entry.key] = entry.peak;
+      own.push_back({member.key, member.peak});
+    const std::vector<KeptPeak> all = archive.records(own);
+    if (!archive.restores())
+      return;
+    std::map<Archive::Key, StressPeak> by_key;
+    for (const KeptPeak &kept : all)
+      by_key[kept.key] = kept.peak;
     for (Member &member : members)
-      if (const auto entry = by_key.find(member.key); entry != by_key.end())
-        member.peak = entry->second;
+      if (const auto kept = by_key.find(member.key); kept != by_key.end())
+        member.peak = kept->second;
+      else
+        archive.miss();
   }
 
 

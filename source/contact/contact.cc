@@ -337,6 +337,21 @@ namespace tread
   }
 
 
+  void Contact::serialize(Archive &archive)
+  {
+    if (!archive.restores())
+      complete_state();
+    archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
+                 corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
+                 travelled, allowed_travel, unconverged_steps);
+    archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes);
+    std::vector<unsigned int> begin_of_strip = strips.begins();
+    archive.same(begin_of_strip);
+    if (archive.restores())
+      make_room(begin_of_strip);
+  }
+
+
   void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
   {
     const unsigned int n_ranks = involved_of_rank.size();

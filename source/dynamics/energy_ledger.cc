@@ -55,26 +55,27 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::begin_damping_sample()
+  ExplicitDynamics::DampingSample ExplicitDynamics::begin_damping_sample() const
   {
-    damping_power_before = damping_forces(cell_forces(), sampled_damping);
-    mesh.condense_hanging_nodes(sampled_damping.data()); // whose velocities may wait for other levels
+    DampingSample sample;
+    sample.power = damping_forces(cell_forces(), sample.force);
+    mesh.condense_hanging_nodes(sample.force.data()); // whose velocities may wait for other levels
+    return sample;
   }
 
 
-  void ExplicitDynamics::end_damping_sample()
+  void ExplicitDynamics::end_damping_sample(const DampingSample &sample)
   {
     // In central differences a force works in a step with the mean of the velocities before and after it. The
     // step has already been counted.
     double after = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
-      after -= dot(v[i], sampled_damping[i]);
-    const double power = 0.5 * (damping_power_before + after);
+      after -= dot(v[i], sample.force[i]);
+    const double power = 0.5 * (sample.power + after);
     --n_steps;
     totals.damping += damping_since_sample(power);
     last_damping_step  = n_steps++;
     last_damping_power = power;
-    sampled_damping.clear();
     damping_is_sampled = true;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace tread
@@ -390,8 +391,9 @@ namespace tread
     const bool samples_damping =
       synchronised() &&
       (!damping_is_sampled || n_steps >= last_damping_step + parameters.steps_between_damping_samples);
+    std::optional<DampingSample> sample;
     if (samples_damping)
-      begin_damping_sample();
+      sample = begin_damping_sample();
     const unsigned int due = level_due();
     add_forces_due(due);
     if (supports)
@@ -512,8 +514,8 @@ namespace tread
     time += time_step;
     ++n_steps;
     place_hanging_nodes();
-    if (samples_damping)
-      end_damping_sample();
+    if (sample)
+      end_damping_sample(*sample);
     times.nodes += watch.lap();
   }
 

@@ -2,6 +2,7 @@
 #ifndef tread_dynamics_explicit_dynamics_h
 #define tread_dynamics_explicit_dynamics_h
 
+#include <tread/base/archive.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/rail_beam.h>
 #include <tread/mesh/mesh.h>
@@ -196,6 +197,10 @@ namespace tread
     /// Present energies, when nodes must be synchronised. Collective; costs about two steps.
     EnergyLedger ledger() const;
 
+    /// Store the state, or restore it once all is attached and set: that of hub, supports and contact too.
+    /// External forces are not part of it. Collective.
+    void serialize(Archive &archive);
+
     /// @throws std::runtime_error with a clear line if nodes move faster than is possible in steel.
     /// Collective.
     void check_stability() const;
@@ -283,8 +288,14 @@ namespace tread
     /// Energy dissipated from the step of the last sample to the previous step, if the power is this much at
     /// present, J.
     double damping_since_sample(const double power) const;
-    void   begin_damping_sample(); ///< before a step
-    void   end_damping_sample();   ///< when the velocities of the step are known
+    /// What damping does in a step that samples it.
+    struct DampingSample
+    {
+      NodalField force; ///< N
+      double     power; ///< that it takes with the velocities before the step, W
+    };
+    DampingSample begin_damping_sample() const;                    ///< before a step
+    void          end_damping_sample(const DampingSample &sample); ///< when the velocities of the step are known
 
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
@@ -398,6 +409,9 @@ namespace tread
     /// Save, for shared nodes up to this level, the load with which their forces begin.
     void keep_loads_of_shared(const unsigned int due);
 
+    /// Store or restore positions and velocities of the nodes.
+    void serialize_nodes(Archive &archive);
+
     DynamicsParameters               parameters;
     std::vector<Runs>                nodes_of_level;
     std::vector<unsigned int>        level_of_node;
@@ -436,11 +450,6 @@ namespace tread
     double        last_damping_power = 0.;
     std::uint64_t last_damping_step  = 0;
     bool          damping_is_sampled = false; ///< since start()
-    // Within a step that samples damping.
-    NodalField sampled_damping;           ///< N
-    double     damping_power_before = 0.; ///< W
-
-    friend class Checkpoint;
   };
 } // namespace tread
 
