@@ -36,11 +36,6 @@ namespace tread
       return sum;
     }
 
-    Row cross(const Row a, const Row b)
-    {
-      return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-    }
-
     Row normalised(const Row a)
     {
       return a * (1. / std::sqrt(dot(a, a)));

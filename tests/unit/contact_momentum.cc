@@ -21,11 +21,6 @@ namespace
   constexpr unsigned int n_steps = 1600;
   constexpr double       edge = 0.02, face = 0.02 / 5.; // of the blocks, and of their smaller faces, m
 
-  Row cross(const Row a, const Row b)
-  {
-    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-  }
-
   double size(const Row a)
   {
     return std::sqrt(dot(a, a));

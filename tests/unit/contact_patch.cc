@@ -27,11 +27,6 @@ namespace
     int          refined = -1;     ///< this body has smaller cells in a half of the interface
   };
 
-  Row cross(const Row a, const Row b)
-  {
-    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-  }
-
   double size(const Row a)
   {
     return std::sqrt(dot(a, a));
