@@ -90,7 +90,7 @@ namespace tread
     double energy = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
       {
-        energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(forces[i], v[i]);
+        energy += 0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]);
         if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
           energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
       }
@@ -118,7 +118,7 @@ namespace tread
     for (unsigned int i = 0; i < v.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          const double back   = 0.5 * std::ldexp(time_step, level_of_node[i]);
+          const double back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
           const Row    before = position(i) - back * v[i];
           potential += true_mass[i] * parameters.gravity * before[2];
           if (on_wheel[i])

@@ -22,10 +22,7 @@ namespace tread
     archive.largest(times.internal_forces, times.contact, times.search, times.communication, times.nodes);
     serialize_nodes(archive);
     solid.plastic().serialize(archive, history);
-    // On other ranks the steady shares of slow cells' forces begin anew.
-    archive.same(slow_shares_known);
-    for (SlowShares &shares : slow_shares)
-      slow_shares_known = archive.own(shares.steady) && slow_shares_known;
+    levels.serialize(archive);
     if (supports)
       supports->serialize(archive);
     if (contact)
