@@ -65,10 +65,7 @@ namespace tread
     }
 
     /// Store or restore the sums.
-    void serialize(Archive &archive)
-    {
-      archive.same(sums, measure_sums, centre_sum, steps);
-    }
+    void serialize(Archive &archive);
 
   private:
     struct Sum

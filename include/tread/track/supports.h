@@ -134,10 +134,7 @@ namespace tread
     std::vector<unsigned int> guided_nodes(const unsigned int direction) const;
 
     /// Store or restore the state: all but the forces of dampers and on sleepers, with which a step begins.
-    void serialize(Archive &archive)
-    {
-      archive.same(displacement, velocity, spring_force, damper_work);
-    }
+    void serialize(Archive &archive);
 
     const unsigned int              rail_body;
     const std::vector<double>       positions; ///< x of the supports, m

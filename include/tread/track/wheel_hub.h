@@ -102,10 +102,7 @@ namespace tread
     }
 
     /// Store or restore the state: all but parameters and balance, which place() and take_out() set.
-    void serialize(Archive &archive)
-    {
-      archive.same(drive, drive_torque, motion, reference_x, reference_z, equilibrium_z, work, gross);
-    }
+    void serialize(Archive &archive);
 
     Drive              drive        = Drive::creepage;
     double             drive_torque = 0.; ///< N m, used when drive == torque
