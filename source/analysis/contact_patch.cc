@@ -3,9 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tread
 {
+  namespace
+  {
+    /// Of a Hertzian ellipse with the semi-axis a: a^2 over the second moment of pressure, int p x^2 / int p.
+    constexpr double hertzian_moment = 5.;
+
+    /// The measures of a patch, of which a mean can be taken.
+    constexpr double PatchMeasures::*all_measures[] = {&PatchMeasures::area,
+                                                       &PatchMeasures::max_pressure,
+                                                       &PatchMeasures::adhesion_share,
+                                                       &PatchMeasures::max_shear,
+                                                       &PatchMeasures::max_slip,
+                                                       &PatchMeasures::frictional_power,
+                                                       &PatchMeasures::semi_axis_x,
+                                                       &PatchMeasures::semi_axis_y,
+                                                       &PatchMeasures::pressure_semi_axis_x,
+                                                       &PatchMeasures::pressure_semi_axis_y};
+  } // namespace
+
+
   double PatchNode::shear_size() const
   {
     return std::hypot(shear[0], shear[1]);
@@ -49,8 +69,9 @@ namespace tread
     PatchMeasures m;
     if (patch.empty())
       return m;
-    double force = 0., first[2] = {0., 0.}, second[2] = {0., 0.}, low[2] = {1e300, 1e300},
-           high[2] = {-1e300, -1e300};
+    constexpr double largest = std::numeric_limits<double>::max();
+    double           force = 0., first[2] = {0., 0.}, second[2] = {0., 0.}, low[2] = {largest, largest},
+           high[2] = {-largest, -largest};
     for (const PatchNode &node : patch)
       {
         m.area += node.area;
@@ -75,7 +96,7 @@ namespace tread
     m.semi_axis_y           = 0.5 * (high[1] - low[1] + cell);
     const auto from_moments = [&](const unsigned int d) {
       const double mean = first[d] / force;
-      return std::sqrt(5. * std::max(0., second[d] / force - mean * mean));
+      return std::sqrt(hertzian_moment * std::max(0., second[d] / force - mean * mean));
     };
     m.pressure_semi_axis_x = from_moments(0);
     m.pressure_semi_axis_y = from_moments(1);
@@ -111,11 +132,7 @@ namespace tread
           }
       }
     const PatchMeasures m = measure(patch);
-    for (double PatchMeasures::*member :
-         {&PatchMeasures::area, &PatchMeasures::max_pressure, &PatchMeasures::adhesion_share,
-          &PatchMeasures::max_shear, &PatchMeasures::max_slip, &PatchMeasures::frictional_power,
-          &PatchMeasures::semi_axis_x, &PatchMeasures::semi_axis_y, &PatchMeasures::pressure_semi_axis_x,
-          &PatchMeasures::pressure_semi_axis_y})
+    for (double PatchMeasures::*member : all_measures)
       measure_sums.*member += m.*member;
     centre_sum += centre_x;
     ++steps;
@@ -172,12 +189,14 @@ namespace tread
   {
     PatchMeasures m = measure_sums;
     if (steps > 0)
-      for (double PatchMeasures::*member :
-           {&PatchMeasures::area, &PatchMeasures::max_pressure, &PatchMeasures::adhesion_share,
-            &PatchMeasures::max_shear, &PatchMeasures::max_slip, &PatchMeasures::frictional_power,
-            &PatchMeasures::semi_axis_x, &PatchMeasures::semi_axis_y, &PatchMeasures::pressure_semi_axis_x,
-            &PatchMeasures::pressure_semi_axis_y})
+      for (double PatchMeasures::*member : all_measures)
         m.*member /= steps;
     return m;
+  }
+
+
+  void PatchAverage::serialize(Archive &archive)
+  {
+    archive.same(sums, measure_sums, centre_sum, steps);
   }
 } // namespace tread

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/dynamic_force.h>
+#include <tread/base/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 
@@ -11,13 +11,14 @@ namespace tread
 {
   namespace
   {
-    template <typename... T>
-    std::string format(const char *pattern, const T... values)
-    {
-      char text[1024]; // with two paths
-      std::snprintf(text, sizeof text, pattern, values...);
-      return text;
-    }
+    /// Rows or intervals without which there is no spectrum worth the name: twice what it needs at least.
+    constexpr int least_rows = 16;
+    /// Largest relative difference of the speeds of a run and its smooth twin: over a section of 1 m they are
+    /// then apart by 1 mm, much less than a patch.
+    constexpr double same_speed = 1e-3;
+    /// Of an interval: a section that is shorter by rounding alone still has its last interval.
+    constexpr double       round_off      = 1e-6;
+    constexpr unsigned int n_oscillations = 5; ///< kept of a spectrum
 
     /// When the rows of a history belong: the middle of their intervals.
     struct Intervals
@@ -28,9 +29,9 @@ namespace tread
       Intervals(const ForceHistory &history)
       {
         const std::vector<double> &x = history.position, &t = history.time;
-        if (t.size() < 16)
-          throw std::invalid_argument(
-            format("%s has %zu rows; a dynamic force needs at least 16", history.name.c_str(), t.size()));
+        if (t.size() < least_rows)
+          throw std::invalid_argument(format("%s has %zu rows; a dynamic force needs at least %d",
+                                             history.name.c_str(), t.size(), least_rows));
         for (std::size_t i = 1; i < t.size(); ++i)
           if (!(x[i] > x[i - 1]) || !(t[i] > t[i - 1]))
             throw std::invalid_argument(
@@ -68,7 +69,7 @@ namespace tread
                                const double        to)
   {
     const Intervals of_run(run), of_twin(smooth_twin);
-    if (std::abs(of_run.speed / of_twin.speed - 1.) > 1e-3)
+    if (std::abs(of_run.speed / of_twin.speed - 1.) > same_speed)
       throw std::invalid_argument(format("%s rolls at %.4g km/h, its smooth twin %s at %.4g km/h",
                                          run.name.c_str(), 3.6 * of_run.speed, smooth_twin.name.c_str(),
                                          3.6 * of_twin.speed));
@@ -81,10 +82,11 @@ namespace tread
                before    = std::partition_point(after, of_run.middle.end(),
                                                 [&](const double time) { return at(time) <= to; });
     const auto too_short = [&](const std::size_t n) {
-      return std::invalid_argument(format(
-        "%s has %zu intervals in the section; a dynamic force needs at least 16", run.name.c_str(), n));
+      return std::invalid_argument(
+        format("%s has %zu intervals in the section; a dynamic force needs at least %d", run.name.c_str(), n,
+               least_rows));
     };
-    if (before - after < 16)
+    if (before - after < least_rows)
       throw too_short(before - after);
     double begin = *after, end = *(before - 1);
     // One interval may be missing at either end.
@@ -99,8 +101,8 @@ namespace tread
     begin               = *std::partition_point(after, before - 1,
                                                 [&](const double time) { return time < of_twin.middle.front(); });
     end                 = std::min(end, of_twin.middle.back());
-    const std::size_t n = static_cast<std::size_t>(std::max(0., end - begin) / of_run.length + 1e-6) + 1;
-    if (n < 16)
+    const std::size_t n = static_cast<std::size_t>(std::max(0., end - begin) / of_run.length + round_off) + 1;
+    if (n < least_rows)
       throw too_short(n);
 
     DynamicForces result;
@@ -141,7 +143,8 @@ namespace tread
         force.peak_position = result.position[largest];
         force.force_at_peak = with_defect(force.peak_time);
         force.spectrum      = amplitude_spectrum(force.values, result.interval, window);
-        force.oscillations  = dominant_oscillations(force.values, result.interval, force.spectrum, 5);
+        force.oscillations =
+          dominant_oscillations(force.values, result.interval, force.spectrum, n_oscillations);
         result.forces.push_back(force);
       }
     return result;

@@ -17,6 +17,9 @@ namespace tread
 {
   namespace
   {
+    /// Reference positions are compared in whole nm, far below any cell and far above rounding.
+    constexpr double per_nm = 1e9, nm = 1e-9;
+
     dealii::Point<3> centre_of(const std::array<dealii::Point<3>, 8> &corners)
     {
       dealii::Point<3> centre;
@@ -25,10 +28,20 @@ namespace tread
       return centre;
     }
 
-    std::array<long long, 4> key_of(const unsigned int body, const dealii::Point<3> &p)
+    Archive::Key key_of(const unsigned int body, const dealii::Point<3> &p)
     {
-      return {{body, std::llround(1e9 * p[0]), std::llround(1e9 * p[1]), std::llround(1e9 * p[2])}};
+      return {{body, std::llround(per_nm * p[0]), std::llround(per_nm * p[1]), std::llround(per_nm * p[2])}};
     }
+
+    /// Distances of points from cells are compared in whole units, so many of half a cell.
+    constexpr double distance_units = 1e6;
+
+    /// A point this far from the middle of a cell, in local coordinates, still belongs to it: one on the
+    /// surface of a body lies on a face, 1, and the map of a distorted cell is not quite linear.
+    constexpr double outside = 1.01;
+
+    /// Points farther from the middle of a cell than its corners, by this factor, are not looked at.
+    constexpr double reach_of_cell = 1.1;
 
     /// Largest local coordinate of a point in a cell, by the linear part of its map: 1 on its faces.
     double local_distance(const std::array<dealii::Point<3>, 8> &corners, const dealii::Point<3> &p)
@@ -99,8 +112,8 @@ namespace tread
     for (const auto &cell : all)
       if (cell[4] > 0.)
         {
-          const double x                    = 0.5 * (cell[0] + cell[1]);
-          by_place[std::llround(1e9 * x)].x = x;
+          const double x                       = 0.5 * (cell[0] + cell[1]);
+          by_place[std::llround(per_nm * x)].x = x;
         }
     std::vector<StripColumn> columns;
     for (const auto &[place, column] : by_place)
@@ -130,23 +143,27 @@ namespace tread
   }
 
 
-  std::vector<StoredPeak> StressStrip::stored() const
+  void StressStrip::serialize(Archive &archive)
   {
-    std::vector<StoredPeak> list;
+    struct KeptPeak
+    {
+      Archive::Key key;
+      StressPeak   peak;
+    };
+    std::vector<KeptPeak> own;
     for (const Member &member : members)
-      list.push_back({member.key, member.peak});
-    return list;
-  }
-
-
-  void StressStrip::restore(const std::vector<StoredPeak> &list)
-  {
-    std::map<std::array<long long, 4>, StressPeak> by_key;
-    for (const StoredPeak &entry : list)
-      by_key[entry.key] = entry.peak;
+      own.push_back({member.key, member.peak});
+    const std::vector<KeptPeak> all = archive.records(own);
+    if (!archive.restores())
+      return;
+    std::map<Archive::Key, StressPeak> by_key;
+    for (const KeptPeak &kept : all)
+      by_key[kept.key] = kept.peak;
     for (Member &member : members)
-      if (const auto entry = by_key.find(member.key); entry != by_key.end())
-        member.peak = entry->second;
+      if (const auto kept = by_key.find(member.key); kept != by_key.end())
+        member.peak = kept->second;
+      else
+        archive.miss();
   }
 
 
@@ -158,8 +175,7 @@ namespace tread
   {
     // Distance in units of 1e-6, then the name of the cell: of two that share a face with a point on it all
     // ranks take the same.
-    using Candidate                   = std::array<long long, 5>;
-    constexpr double          outside = 1.01;
+    using Candidate = std::array<long long, 5>;
     std::vector<Candidate>    own(points.size());
     std::vector<unsigned int> own_cells(points.size(), elsewhere);
     for (Candidate &candidate : own)
@@ -173,11 +189,11 @@ namespace tread
           for (const dealii::Point<3> &p : corners)
             reach = std::max(reach, p.distance(centre));
           for (unsigned int i = 0; i < points.size(); ++i)
-            if (points[i].distance(centre) < 1.1 * reach)
+            if (points[i].distance(centre) < reach_of_cell * reach)
               {
                 const auto      key = key_of(body, centre);
-                const Candidate candidate{std::llround(1e6 * local_distance(corners, points[i])), key[0],
-                                          key[1], key[2], key[3]};
+                const Candidate candidate{std::llround(distance_units * local_distance(corners, points[i])),
+                                          key[0], key[1], key[2], key[3]};
                 if (candidate < own[i])
                   {
                     own[i]       = candidate;
@@ -191,13 +207,13 @@ namespace tread
         Candidate best = all[0][i];
         for (const auto &list : all)
           best = std::min(best, list[i]);
-        if (best[0] > 1e6 * outside)
+        if (best[0] > distance_units * outside)
           throw std::out_of_range(std::to_string(i + 1));
         const bool here = best == own[i];
         cells.push_back(here ? own_cells[i] : elsewhere);
         if (here)
           wanted[own_cells[i]] = true;
-        centres_of_cells.emplace_back(1e-9 * best[2], 1e-9 * best[3], 1e-9 * best[4]);
+        centres_of_cells.emplace_back(nm * best[2], nm * best[3], nm * best[4]);
       }
   }
 

@@ -17,6 +17,26 @@ namespace tread
   {
     constexpr double pi = 3.14159265358979323846;
 
+    // What tells an oscillation from its surroundings; the same numbers stand in the header.
+
+    /// The least share of the largest amplitude that is still an oscillation.
+    constexpr double least_of_largest = 0.05;
+    /// By how much it must stand above the side lobes of larger ones.
+    constexpr double above_side_lobes = 1.5;
+    /// The share of it below which the spectrum must fall between it and any larger value.
+    constexpr double deepest_saddle = 0.7;
+
+    /// The share of the largest envelope below which noise begins, so that no decay is taken from it: of an
+    /// oscillation that is 5 % of the largest, side lobes of the others are not much less.
+    constexpr double noise = 0.02;
+    /// An envelope is averaged over at least so many samples, and a decay is taken from at least this share
+    /// of the average's length: shorter ones say nothing about a slope.
+    constexpr std::size_t least_span = 8, spans_in_fit = 4;
+    /// Samples without which a spectrum is not computed.
+    constexpr std::size_t least_samples = 8;
+    /// Width of a line at half its height over the inverse of the record (Harris 1978, table 1: 6 dB).
+    constexpr double width_of_hann = 2., width_of_rectangle = 1.21;
+
     /// The middle of sample i of n, so that no sample has the weight zero.
     double hann(const std::size_t i, const std::size_t n)
     {
@@ -35,7 +55,7 @@ namespace tread
       const double      nan  = std::numeric_limits<double>::quiet_NaN();
       const std::size_t n    = values.size(),
                         span = std::lround(2. / (std::min(frequency, distance) * interval));
-      if (span < 8 || 2 * span > n)
+      if (span < least_span || 2 * span > n)
         return nan;
       std::vector<std::complex<double>> shifted(n);
       for (std::size_t i = 0; i < n; ++i)
@@ -47,13 +67,13 @@ namespace tread
         envelope[i] = std::abs(
           std::inner_product(weight.begin(), weight.end(), shifted.begin() + i, std::complex<double>()));
 
-      // Half a window after the largest value the onset has left the average; noise begins below 2 %.
+      // Half a window after the largest value the onset has left the average.
       const std::size_t largest = std::max_element(envelope.begin(), envelope.end()) - envelope.begin(),
                         begin   = largest + span / 2;
       std::size_t end           = begin;
-      while (end < envelope.size() && envelope[end] > 0.02 * envelope[largest])
+      while (end < envelope.size() && envelope[end] > noise * envelope[largest])
         ++end;
-      if (end < begin + span / 4)
+      if (end < begin + span / spans_in_fit)
         return nan;
       double sum = 0., sum_t = 0., sum_y = 0., sum_tt = 0., sum_ty = 0.;
       for (std::size_t i = begin; i < end; ++i)
@@ -95,8 +115,8 @@ namespace tread
                                        const unsigned int         zero_padding)
   {
     const std::size_t n = values.size();
-    if (n < 8 || !(interval > 0.) || zero_padding < 1)
-      throw std::invalid_argument("a spectrum needs at least 8 samples");
+    if (n < least_samples || !(interval > 0.) || zero_padding < 1)
+      throw std::invalid_argument("a spectrum needs at least " + std::to_string(least_samples) + " samples");
     std::size_t length = 1; // a power of two is fastest
     while (length < n * zero_padding)
       length *= 2;
@@ -121,7 +141,7 @@ namespace tread
     AmplitudeSpectrum result;
     result.window     = window;
     result.record     = n * interval;
-    result.resolution = (window == Window::hann ? 2. : 1.21) / result.record; // Harris 1978, table 1: 6 dB
+    result.resolution = (window == Window::hann ? width_of_hann : width_of_rectangle) / result.record;
     result.interval   = 1. / (length * interval);
     result.amplitude.resize(length / 2 + 1);
     for (std::size_t i = 0; i < result.amplitude.size(); ++i)
@@ -146,7 +166,7 @@ namespace tread
           double lowest = a[i];
           for (std::size_t j = i; j > 0 && j + 1 < a.size() && a[j] <= a[i];)
             lowest = std::min(lowest, a[j += step]);
-          if (lowest > 0.7 * a[i])
+          if (lowest > deepest_saddle * a[i])
             return false;
         }
       return true;
@@ -166,11 +186,11 @@ namespace tread
     std::vector<Oscillation> kept;
     for (const Oscillation &line : found)
       {
-        double lobes = 0.05 * found.front().amplitude;
+        double lobes = least_of_largest * found.front().amplitude;
         for (const Oscillation &larger : kept)
           {
             const double distance = std::abs(line.frequency - larger.frequency);
-            lobes += 1.5 * larger.amplitude * spectrum.side_lobes(distance);
+            lobes += above_side_lobes * larger.amplitude * spectrum.side_lobes(distance);
             if (distance < spectrum.resolution)
               lobes = line.amplitude;
           }

@@ -41,11 +41,6 @@ namespace tread
     {
       return std::sqrt(dot(a, a));
     }
-
-    Row cross(const Row a, const Row b)
-    {
-      return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-    }
   } // namespace
 
 
@@ -355,6 +350,21 @@ namespace tread
     for (const std::vector<unsigned int> &nodes : involved_of_rank)
       for (const unsigned int i : nodes)
         position[i] = *row++;
+  }
+
+
+  void Contact::serialize(Archive &archive)
+  {
+    if (!archive.restores())
+      complete_state();
+    archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
+                 corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
+                 travelled, allowed_travel, unconverged_steps);
+    archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes);
+    std::vector<unsigned int> begin_of_strip = strips.begins();
+    archive.same(begin_of_strip);
+    if (archive.restores())
+      make_room(begin_of_strip);
   }
 
 

@@ -30,11 +30,6 @@ namespace tread
     /// Coefficients below this share are round-off: functions of faces that only touch.
     constexpr double least_coefficient = 1e-10;
 
-    Row cross(const Row a, const Row b)
-    {
-      return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-    }
-
     Row normalised(const Row a)
     {
       return a * (1. / std::sqrt(dot(a, a)));

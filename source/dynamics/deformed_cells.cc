@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What large deformation does to the cells: turned inside out, or too fast for the time step.
+#include <tread/base/format.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -16,6 +16,18 @@ namespace tread
   namespace
   {
     using dealii::Tensor;
+
+    /// Frobenius' norm of C - 1 up to which it stands for the largest eigenvalue, which it bounds, so that no
+    /// eigenvalues are computed. It makes the bound of the frequency larger by up to 1 % than it is.
+    constexpr double small_deviation = 0.02;
+
+    /// Factor by which the bound of the frequency must exceed the value last found stable for the frequency
+    /// to be computed again. A larger one computes it less often, but notices later that the step is too
+    /// long.
+    constexpr double worth_looking = 1.01;
+
+    /// Share of the largest stable Courant number that a user is advised to start anew with.
+    constexpr double advised_share = 0.98;
 
     /// dx/dxi at the centre of a cell with corners in lexicographic order, for xi from -1 to 1.
     template <typename Corner>
@@ -37,16 +49,36 @@ namespace tread
     /// Kirchhoff's law), and with the inverse square of the smallest one if it refers to deformed areas.
     double largest_change_of_stretch(const Tensor<2, 3> &F)
     {
-      const dealii::SymmetricTensor<2, 3> C = dealii::symmetrize(dealii::transpose(F) * F);
-      // Frobenius' norm bounds the eigenvalues of C - 1; where it is small it will do.
-      constexpr double small     = 0.02;
-      const double     deviation = (C - dealii::unit_symmetric_tensor<3>()).norm();
-      if (deviation < small)
+      const dealii::SymmetricTensor<2, 3> C         = dealii::symmetrize(dealii::transpose(F) * F);
+      const double                        deviation = (C - dealii::unit_symmetric_tensor<3>()).norm();
+      if (deviation < small_deviation)
         return 1. / std::sqrt(1. - deviation);
       const auto squares = dealii::eigenvalues(C); // the largest first
       return std::sqrt(std::max(squares[0], 1. / squares[2]));
     }
   } // namespace
+
+
+  void ExplicitDynamics::throw_inverted(const unsigned int cell, const bool is_worst) const
+  {
+    // The lowest rank that has such a cell says where.
+    using dealii::Utilities::MPI::min;
+    const int   this_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
+    const int   rank      = min(is_worst ? this_rank : std::numeric_limits<int>::max(), mesh.comm);
+    std::string where;
+    if (rank == this_rank)
+      {
+        dealii::Point<3> centre;
+        for (const unsigned int i : mesh.cells[cell].nodes)
+          centre += mesh.nodes[i] / 8.;
+        where = format("at x = %.2f, y = %.2f, z = %.2f mm of the %s", 1e3 * centre[0], 1e3 * centre[1],
+                       1e3 * centre[2], mesh.body_names[mesh.cells[cell].body].c_str());
+      }
+    throw std::runtime_error("the cell " + dealii::Utilities::MPI::broadcast(mesh.comm, where, rank) +
+                             " has been turned inside out after " + std::to_string(n_steps) +
+                             " steps: its strain is too large for this mesh; use larger cells there, or "
+                             "less load or hardening that carries it");
+  }
 
 
   void ExplicitDynamics::check_cells()
@@ -77,46 +109,21 @@ namespace tread
           }
       }
     if (const double least = min(least_volume, mesh.comm); least <= 0.)
-      {
-        // The lowest rank that has such a cell says where.
-        const int this_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
-        const int rank = min(least_volume == least ? this_rank : std::numeric_limits<int>::max(), mesh.comm);
-        std::string where;
-        if (rank == this_rank)
-          {
-            dealii::Point<3> centre;
-            for (const unsigned int i : mesh.cells[worst].nodes)
-              centre += mesh.nodes[i] / 8.;
-            char text[160];
-            std::snprintf(text, sizeof text, "at x = %.2f, y = %.2f, z = %.2f mm of the %s", 1e3 * centre[0],
-                          1e3 * centre[1], 1e3 * centre[2], mesh.body_names[mesh.cells[worst].body].c_str());
-            where = text;
-          }
-        throw std::runtime_error("the cell " + dealii::Utilities::MPI::broadcast(mesh.comm, where, rank) +
-                                 " has been turned inside out after " + std::to_string(n_steps) +
-                                 " steps: its strain is too large for this mesh; use larger cells there, or "
-                                 "less load or hardening that carries it");
-      }
+      throw_inverted(worst, least_volume == least);
 
     // No motion of the mesh can have become faster by more than its most changed cell, nor be faster than the
     // fastest cell alone: while that is slow enough nothing needs to be known exactly.
-    const double     bound = std::min(max(stretch, mesh.comm) * highest_of_step, max(fastest, mesh.comm));
-    constexpr double worth_looking = 1.01; // over what was found to be stable
+    const double bound = std::min(max(stretch, mesh.comm) * highest_of_step, max(fastest, mesh.comm));
     if (parameters.courant_number * bound <= std::max(highest_of_step, worth_looking * bound_found_stable))
       return;
     const double courant =
       parameters.courant_number * highest_of_levels(positions(), history) / highest_of_step;
     if (courant > 1.)
-      {
-        char text[256];
-        std::snprintf(text, sizeof text,
-                      "the cells have deformed so much after %llu steps that the time step is no longer "
-                      "stable: Courant number %.3f; start anew with 'Time stepping/Courant number' at most "
-                      "%.2f",
-                      (unsigned long long)n_steps, courant,
-                      std::floor(100. * 0.98 * parameters.courant_number / courant) / 100.);
-        throw std::runtime_error(text);
-      }
+      throw std::runtime_error(
+        format("the cells have deformed so much after %llu steps that the time step is no longer stable: "
+               "Courant number %.3f; start anew with 'Time stepping/Courant number' at most %.2f",
+               (unsigned long long)n_steps, courant,
+               std::floor(100. * advised_share * parameters.courant_number / courant) / 100.));
     bound_found_stable = parameters.courant_number * bound;
   }
 

@@ -55,26 +55,27 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::begin_damping_sample()
+  ExplicitDynamics::DampingSample ExplicitDynamics::begin_damping_sample() const
   {
-    damping_power_before = damping_forces(cell_forces(), sampled_damping);
-    mesh.condense_hanging_nodes(sampled_damping.data()); // whose velocities may wait for other levels
+    DampingSample sample;
+    sample.power = damping_forces(cell_forces(), sample.force);
+    mesh.condense_hanging_nodes(sample.force.data()); // whose velocities may wait for other levels
+    return sample;
   }
 
 
-  void ExplicitDynamics::end_damping_sample()
+  void ExplicitDynamics::end_damping_sample(const DampingSample &sample)
   {
     // In central differences a force works in a step with the mean of the velocities before and after it. The
     // step has already been counted.
     double after = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
-      after -= dot(v[i], sampled_damping[i]);
-    const double power = 0.5 * (damping_power_before + after);
+      after -= dot(v[i], sample.force[i]);
+    const double power = 0.5 * (sample.power + after);
     --n_steps;
     totals.damping += damping_since_sample(power);
     last_damping_step  = n_steps++;
     last_damping_power = power;
-    sampled_damping.clear();
     damping_is_sampled = true;
   }
 
@@ -89,7 +90,7 @@ namespace tread
     double energy = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
       {
-        energy += 0.5 * std::ldexp(time_step, level_of_node[i]) * dot(forces[i], v[i]);
+        energy += 0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]);
         if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
           energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
       }
@@ -117,7 +118,7 @@ namespace tread
     for (unsigned int i = 0; i < v.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          const double back   = 0.5 * std::ldexp(time_step, level_of_node[i]);
+          const double back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
           const Row    before = position(i) - back * v[i];
           potential += true_mass[i] * parameters.gravity * before[2];
           if (on_wheel[i])

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tread
 {
@@ -12,8 +13,8 @@ namespace tread
   {
     constexpr double element_length = 0.025; // m: short against any bending of a rail
 
-    /// Shear coefficient of rails (about 0.4 for the usual sections, 0.85 for a block); the beam only guides
-    /// an iteration.
+    /// Shear coefficient of rails (about 0.4 for the usual sections, 0.85 for a block; Cowper 1966); the beam
+    /// only guides an iteration and the velocities at the start.
     constexpr double shear_coefficient = 0.4;
   } // namespace
 
@@ -30,12 +31,14 @@ namespace tread
     for (unsigned int s = 0; s < supports.solid_sleepers.size(); ++s)
       support_of_body[supports.solid_sleepers[s].body] = s;
 
-    double     volume = 0., first = 0., second = 0., low = 1e300, high = -1e300;
+    double volume = 0., first = 0., second = 0., low = std::numeric_limits<double>::max(),
+           high            = std::numeric_limits<double>::lowest();
     const auto cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (mesh.cells[c].body == supports.rail_body)
         {
-          double mass = 0., z = 0., bottom = 1e300, top = -1e300;
+          double mass = 0., z = 0., bottom = std::numeric_limits<double>::max(),
+                 top = std::numeric_limits<double>::lowest();
           for (unsigned int a = 0; a < 8; ++a)
             {
               const dealii::Point<3> &p = mesh.nodes[mesh.cells[c].nodes[a]];

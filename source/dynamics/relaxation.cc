@@ -11,244 +11,373 @@
 
 namespace tread
 {
-  unsigned int ExplicitDynamics::relax(const double                                     tolerance,
-                                       const unsigned int                               max_iterations,
-                                       const std::function<void(unsigned int, double)> &after_measurement)
+  using dealii::Utilities::MPI::sum;
+
+  namespace
   {
-    using dealii::Utilities::MPI::sum;
+    /// Largest frequency times step that the masses of the iteration give any cell: below 2, where central
+    /// differences become unstable, with room for contact. Higher ones take fewer iterations.
+    constexpr double frequency_of_cells = 1.8;
 
-    set_damping_time(0.);
-    NodalField &x = x_damped; // which are the positions now
-    // Sweeps on the way to equilibrium are no steps in time.
-    const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
+    /// Share of its velocity that damping leaves a node in an iteration: at the beginning, and the bounds of
+    /// what is found from the frequency that still moves. The iteration is stable for
+    /// frequency_of_cells^2 < 2 (1 + share), so above 0.62; the upper bound damps by half in 3500 iterations,
+    /// slower than any scene needs (Underwood 1983).
+    constexpr double kept_at_first = 0.9, least_kept = 0.75, most_kept = 0.9998;
 
+    /// Iterations between two looks at the balance and the frequency. Twice as many find the best damping
+    /// later, half as many cost more sums over the ranks.
+    constexpr unsigned int iterations_between_looks = 20;
+
+    /// Iterations between two corrections by the rail as a beam: until then the cells have followed the last.
+    constexpr unsigned int iterations_between_beams = 200;
+
+    /// The slowest motion by far is that of the whole wheel sinking into the contact. Its rigid shift is
+    /// given this many times more acceleration by the total force.
+    constexpr double lightness_of_wheel = 16.;
+
+    /// Iterations are the steps.
+    constexpr double unit_step = 1.;
+
+    /// N: stands for the load where there is none and nothing is out of balance at the start.
+    constexpr double no_force = 1e-300;
+  } // namespace
+
+
+  /// The iteration of relax(): its masses, loads and what changes from one iteration to the next. Positions
+  /// and forces are those of the dynamics, velocities are displacements in an iteration.
+  class ExplicitDynamics::Relaxation
+  {
+  public:
+    explicit Relaxation(ExplicitDynamics &dynamics);
+    /// The contact has its friction law again.
+    ~Relaxation()
+    {
+      if (d.contact)
+        d.contact->set_friction(law);
+    }
+    Relaxation(const Relaxation &)            = delete;
+    Relaxation &operator=(const Relaxation &) = delete;
+
+    /// Forces of cells, supports and weight where nodes are now, without the contact's.
+    void find_forces();
+
+    /// Find the damping that is best for the frequency that still moves, from the forces now and those
+    /// remembered an iteration ago.
+    void adapt_damping();
+    void remember_forces()
+    {
+      previous = d.force;
+    }
+
+    /// Add the contact's forces, and sum what acts on the hub.
+    void add_contact();
+
+    /// Move the rail as a beam, and the wheel with it, by what is out of balance along it.
+    void follow_beam();
+
+    /// Displace all nodes and the hub. @param measure: find the balance.
+    void advance(const bool measure);
+
+    /// What is out of balance over the load as advance() has last measured it; without a load, over what was
+    /// out of balance the first time.
+    double share_out_of_balance() const
+    {
+      return residual / (load > 0. ? load : std::max(first_residual, no_force));
+    }
+
+    void refresh_contact()
+    {
+      d.contact->refresh(x.data(), d.v.data(), unit_step);
+    }
+
+  private:
+    void set_masses();
+    void set_loads();
+    /// Whether a node of this rank's own is free to move.
+    bool is_free_and_owned(const unsigned int i) const
+    {
+      return inverse[i] > 0. && d.mesh.shared_nodes.is_owned(i);
+    }
+
+    ExplicitDynamics   &d;
+    NodalField         &x;               ///< positions, as there is no damping time
+    const NodalField    at_rest;         ///< no velocities
+    NodalField          mass;            ///< in [0], N/m, as the step has no unit
+    std::vector<double> inverse;         ///< of these, 0 where nodes are held or carried
+    NodalField          body_force;      ///< weight, true centrifugal force and external forces, N
+    NodalField          previous;        ///< forces remembered, N
+    double              hub_mass   = 0.; ///< of the nodes that the hub carries
+    double              hub_load   = 0.; ///< static force of all but the cells, N
+    double              wheel_mass = 0., wheel_load = 0.; ///< of all nodes of the wheel; with the hub's load
+    double              lightness    = 0.;
+    double              keep         = kept_at_first;
+    double              hub_velocity = 0.;
+    double              residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
+    std::shared_ptr<const FrictionLaw> law;                             ///< of the motion to come
+  };
+
+
+  ExplicitDynamics::Relaxation::Relaxation(ExplicitDynamics &dynamics)
+    : d(dynamics)
+    , x(d.x_damped)
+    , at_rest(x.size(), Row{})
+    , mass(x.size(), Row{})
+    , inverse(x.size(), 0.)
+    , body_force(x.size(), Row{})
+    , previous(x.size(), Row{})
+    , lightness(d.hub && d.contact ? lightness_of_wheel : 0.)
+  {
+    set_masses();
+    set_loads();
+    std::fill(d.v.begin(), d.v.end(), Row{});
+    if (d.contact)
+      {
+        d.contact->set_inverse_masses(inverse);
+        law = d.contact->set_friction(std::make_shared<CoulombFriction>(0.));
+        refresh_contact();
+      }
+  }
+
+
+  void ExplicitDynamics::Relaxation::set_masses()
+  {
     // Masses with which a unit "time" step is stable, and equally so, for every cell.
-    constexpr double highest_frequency = 1.8;
-    NodalField       mass(x.size(), Row{});
-    const auto       cell_masses = solid.cell_masses(mesh);
+    const Mesh &mesh        = d.mesh;
+    const auto  cell_masses = d.solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
-        const double ratio = solid.cell_frequencies()[c] / highest_frequency;
+        const double ratio = d.solid.cell_frequencies()[c] / frequency_of_cells;
         for (unsigned int a = 0; a < 8; ++a)
-          mass[mesh.cells[c].nodes[a]][0] += ratio * ratio * parameters.density_scale * cell_masses[c][a];
+          mass[mesh.cells[c].nodes[a]][0] += ratio * ratio * d.parameters.density_scale * cell_masses[c][a];
       }
     mesh.condense_hanging_nodes(mass.data());
-    if (supports)
+    if (d.supports)
       {
         NodalField rows(x.size(), Row{});
-        supports->add_row_sums(rows.data());
+        d.supports->add_row_sums(rows.data());
         for (unsigned int i = 0; i < x.size(); ++i)
-          mass[i][0] += rows[i][0] / (highest_frequency * highest_frequency);
+          mass[i][0] += rows[i][0] / (frequency_of_cells * frequency_of_cells);
       }
     mesh.shared_nodes.sum(mass.data());
-    std::vector<double> inverse(x.size(), 0.);
-    double              hub_mass = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (carried[i])
+      if (d.carried[i])
         hub_mass += mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
-      else if (!fixed[i] && mass[i][0] > 0.)
+      else if (!d.fixed[i] && mass[i][0] > 0.)
         inverse[i] = 1. / mass[i][0];
     hub_mass = sum(hub_mass, mesh.comm);
+  }
 
+
+  void ExplicitDynamics::Relaxation::set_loads()
+  {
     // Weight and true centrifugal force act on the true masses; once on nodes that ranks share.
-    const double omega2 = nominal_angular_velocity * nominal_angular_velocity;
-    const Row    axle   = hub ? Row{hub->motion.x, 0., hub->motion.z, 0.} : Row{};
-    NodalField   body_force(x.size(), Row{});
+    const Mesh  &mesh   = d.mesh;
+    const double omega2 = d.nominal_angular_velocity * d.nominal_angular_velocity;
+    const Row    axle   = d.hub ? Row{d.hub->motion.x, 0., d.hub->motion.z, 0.} : Row{};
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
+      if (is_free_and_owned(i))
         {
-          body_force[i] = Row{0., 0., -parameters.gravity * true_mass[i], 0.};
-          if (on_wheel[i])
-            body_force[i] += omega2 * true_mass[i] * Row{1., 0., 1., 0.} * (x[i] - axle);
-          if (!external_force.empty())
-            body_force[i] += external_force[i];
+          body_force[i] = Row{0., 0., -d.parameters.gravity * d.true_mass[i], 0.};
+          if (d.on_wheel[i])
+            body_force[i] += omega2 * d.true_mass[i] * Row{1., 0., 1., 0.} * (x[i] - axle);
+          if (!d.external_force.empty())
+            body_force[i] += d.external_force[i];
         }
-    const double hub_load = hub ? hub->static_force() : 0.;
-
-    // The slowest motion by far is that of the whole wheel sinking into the contact. Its rigid shift is given
-    // this much more acceleration by the total force: inverse masses M^-1 + lightness r r^T / (r^T M r). The
-    // shift strains no cell, as K r = 0.
-    const double lightness  = hub && contact ? 16. : 0.;
-    double       wheel_mass = 0., wheel_load = 0.;
+    hub_load = d.hub ? d.hub->static_force() : 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (on_wheel[i] && mesh.shared_nodes.is_owned(i))
+      if (d.on_wheel[i] && mesh.shared_nodes.is_owned(i))
         {
           wheel_mass += mass[i][0];
           wheel_load += body_force[i][2];
         }
     wheel_mass = sum(wheel_mass, mesh.comm);
     wheel_load = sum(wheel_load, mesh.comm) + hub_load;
+  }
 
-    std::fill(v.begin(), v.end(), Row{});
-    std::shared_ptr<const FrictionLaw> law; // of the motion to come
-    if (contact)
+
+  void ExplicitDynamics::Relaxation::find_forces()
+  {
+    std::copy(body_force.begin(), body_force.end(), d.force.begin());
+    d.solid.add_internal_forces(x.data(), at_rest.data(), d.force.data(), d.history);
+    d.mesh.condense_hanging_nodes(d.force.data());
+    if (d.supports)
       {
-        contact->set_inverse_masses(inverse);
-        law = contact->set_friction(std::make_shared<CoulombFriction>(0.));
-        contact->refresh(x.data(), v.data(), 1.);
+        d.supports->set_at_rest(x.data());
+        d.supports->add_forces(d.force.data());
       }
-    const NodalField       at_rest(x.size(), Row{});
-    NodalField             previous(x.size(), Row{});
-    double                 keep = 0.9, hub_velocity = 0.; // share of the velocity that damping leaves
-    constexpr unsigned int interval = 20, steps_between_beams = 200;
-    unsigned int           iteration = 1, last_refresh = 0;
-    double                 first_residual = 0.; // N
+    d.mesh.shared_nodes.sum(d.force.data());
+  }
+
+
+  void ExplicitDynamics::Relaxation::adapt_damping()
+  {
+    // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves: the
+    // frequency that still moves (Underwood 1983).
+    double change = 0., inertia = 0., momentum = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (is_free_and_owned(i))
+        {
+          change -= dot(d.v[i], d.force[i] - previous[i]);
+          inertia += dot(d.v[i], d.v[i]) / inverse[i];
+          if (d.on_wheel[i])
+            momentum += d.v[i][2] / inverse[i];
+        }
+    change   = sum(change, d.mesh.comm) / keep;
+    momentum = sum(momentum, d.mesh.comm) + hub_mass * hub_velocity;
+    inertia  = sum(inertia, d.mesh.comm) + hub_mass * hub_velocity * hub_velocity;
+    if (lightness > 0.)
+      inertia -= lightness / (1. + lightness) * momentum * momentum / wheel_mass;
+    inertia /= keep * keep;
+    const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
+    const double kept  = std::exchange(keep, std::clamp(1. - 2. * omega, least_kept, most_kept));
+    for (Row &velocity : d.v)
+      velocity *= keep / kept;
+    hub_velocity *= keep / kept;
+  }
+
+
+  void ExplicitDynamics::Relaxation::add_contact()
+  {
+    d.hold_guided_nodes(d.force);
+    if (d.hub)
+      d.add_hub_sums(d.rank_sums);
+    if (d.contact)
+      {
+        if (d.contact->refresh_due())
+          refresh_contact();
+        d.contact->predict(d.v.data(), d.force.data(), unit_step, d.rank_sums);
+        d.contact->solve(unit_step, d.force.data());
+      }
+    else if (d.hub)
+      sum(d.rank_sums, d.mesh.comm, d.rank_sums);
+  }
+
+
+  void ExplicitDynamics::Relaxation::follow_beam()
+  {
+    // The wheel with all of its load included.
+    double on_wheel_nodes = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (d.on_wheel[i] && !d.carried[i] && d.mesh.shared_nodes.is_owned(i))
+        on_wheel_nodes += d.force[i][2];
+    on_wheel_nodes              = sum(on_wheel_nodes, d.mesh.comm);
+    const double          place = d.hub ? d.hub->motion.x : d.supports->positions[0];
+    const RailBeam::Field field =
+      d.rail_beam->balance(d.force.data(), place, d.hub ? on_wheel_nodes + d.rank_sums[2] + hub_load : 0.);
+    d.rail_beam->add(field, 1., x.data());
+    const double down = field.rail.deflection(place).real();
+    if (d.hub)
+      {
+        d.hub->motion.z += down;
+        for (unsigned int i = 0; i < x.size(); ++i)
+          if (d.on_wheel[i])
+            x[i][2] += down;
+      }
+    d.mesh.distribute_hanging_nodes(x.data());
+    if (d.contact)
+      refresh_contact();
+  }
+
+
+  void ExplicitDynamics::Relaxation::advance(const bool measure)
+  {
+    // The rigid shift r of the wheel: inverse masses M^-1 + lightness r r^T / (r^T M r). It strains no cell,
+    // as K r = 0.
+    const double shift =
+      lightness > 0. ? lightness / wheel_mass * (wheel_load + d.contact->total_impulse_on(d.hub_body)[2])
+                     : 0.;
+    double of_hub = 0.;
+    if (d.hub)
+      {
+        const double imbalance    = d.rank_sums[2] + hub_load;
+        const double displacement = hub_velocity + imbalance / hub_mass + shift;
+        d.hub->motion.z += displacement;
+        hub_velocity = keep * displacement;
+        of_hub       = std::abs(imbalance);
+      }
+    double squares = 0., load_squares = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      {
+        if (measure && is_free_and_owned(i))
+          {
+            squares += dot(d.force[i], d.force[i]);
+            load_squares += dot(body_force[i], body_force[i]);
+          }
+        const Row displacement =
+          d.v[i] + inverse[i] * d.force[i] + Row{0., 0., d.on_wheel[i] ? shift : 0., 0.};
+        x[i] += displacement;
+        d.v[i] = keep * displacement;
+      }
+    for (unsigned int k = 0; k < d.hub_nodes.size(); ++k)
+      {
+        x[d.hub_nodes[k]]   = d.hub->position_of(d.hub_reference[k]);
+        d.v[d.hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
+      }
+    d.mesh.distribute_hanging_nodes(x.data());
+    Mesh::distribute(d.levels.hanging_at_contact, d.v.data()); // all that is asked for
+    if (!measure)
+      return;
+    residual = std::max(of_hub, std::sqrt(sum(squares, d.mesh.comm)));
+    load     = std::max(std::abs(hub_load), std::sqrt(sum(load_squares, d.mesh.comm)));
+    if (first_residual < 0.)
+      first_residual = residual;
+  }
+
+
+  unsigned int ExplicitDynamics::relax(const double                                     tolerance,
+                                       const unsigned int                               max_iterations,
+                                       const std::function<void(unsigned int, double)> &after_measurement)
+  {
+    set_damping_time(0.);
+    // Sweeps on the way to equilibrium are no steps in time.
+    const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
+    Relaxation          relaxation(*this);
+    unsigned int        iteration = 1, last_refresh = 0;
     for (; iteration <= max_iterations; ++iteration)
       {
-        std::copy(body_force.begin(), body_force.end(), force.begin());
-        solid.add_internal_forces(x.data(), at_rest.data(), force.data(), history);
-        mesh.condense_hanging_nodes(force.data());
-        if (supports)
-          {
-            supports->set_at_rest(x.data());
-            supports->add_forces(force.data());
-          }
-        mesh.shared_nodes.sum(force.data());
-
-        const bool measure  = iteration == 1 || iteration % interval == 0,
-                   remember = iteration % interval == interval - 1;
+        const unsigned int place   = iteration % iterations_between_looks;
+        const bool         measure = iteration == 1 || place == 0;
+        relaxation.find_forces();
         if (measure && iteration > 1)
+          relaxation.adapt_damping();
+        if (place == iterations_between_looks - 1)
+          relaxation.remember_forces();
+        relaxation.add_contact();
+        if (supports && iteration % iterations_between_beams == 1)
+          relaxation.follow_beam();
+        relaxation.advance(measure);
+        if (!measure)
+          continue;
+        const double share = relaxation.share_out_of_balance();
+        if (!std::isfinite(share))
+          throw std::runtime_error("no equilibrium at the start: forces grow without bound after " +
+                                   std::to_string(iteration) + " iterations");
+        if (after_measurement)
+          after_measurement(iteration, share);
+        // The iteration continues if the callback has changed the contact.
+        if (share <= tolerance && !(contact && contact->refresh_due()))
           {
-            // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves:
-            // the frequency that still moves.
-            double change = 0., inertia = 0., momentum = 0.;
-            for (unsigned int i = 0; i < x.size(); ++i)
-              if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
-                {
-                  change -= dot(v[i], force[i] - previous[i]);
-                  inertia += dot(v[i], v[i]) / inverse[i];
-                  if (on_wheel[i])
-                    momentum += v[i][2] / inverse[i];
-                }
-            change   = sum(change, mesh.comm) / keep;
-            momentum = sum(momentum, mesh.comm) + hub_mass * hub_velocity;
-            inertia  = sum(inertia, mesh.comm) + hub_mass * hub_velocity * hub_velocity;
-            if (lightness > 0.)
-              inertia -= lightness / (1. + lightness) * momentum * momentum / wheel_mass;
-            inertia /= keep * keep;
-            const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
-            // Stable for omega^2 < 2 (1 + keep): with highest_frequency 1.8 keep must exceed 0.62.
-            const double kept = std::exchange(keep, std::clamp(1. - 2. * omega, 0.75, 0.9998));
-            for (Row &velocity : v)
-              velocity *= keep / kept;
-            hub_velocity *= keep / kept;
-          }
-        if (remember)
-          previous = force;
-
-        hold_guided_nodes(force);
-        if (hub)
-          add_hub_sums(rank_sums);
-        if (contact)
-          {
-            if (contact->refresh_due())
-              contact->refresh(x.data(), v.data(), 1.);
-            contact->predict(v.data(), force.data(), 1., rank_sums);
-            contact->solve(1., force.data());
-          }
-        else if (hub)
-          sum(rank_sums, mesh.comm, rank_sums);
-
-        // The rail as a beam follows what is out of balance along it, the wheel with all of its load
-        // included.
-        if (supports && iteration % steps_between_beams == 1)
-          {
-            double on_wheel_nodes = 0.;
-            for (unsigned int i = 0; i < x.size(); ++i)
-              if (on_wheel[i] && !carried[i] && mesh.shared_nodes.is_owned(i))
-                on_wheel_nodes += force[i][2];
-            on_wheel_nodes              = sum(on_wheel_nodes, mesh.comm);
-            const double          place = hub ? hub->motion.x : supports->positions[0];
-            const RailBeam::Field field =
-              rail_beam->balance(force.data(), place, hub ? on_wheel_nodes + rank_sums[2] + hub_load : 0.);
-            rail_beam->add(field, 1., x.data());
-            const double down = field.rail.deflection(place).real();
-            if (hub)
-              {
-                hub->motion.z += down;
-                for (unsigned int i = 0; i < x.size(); ++i)
-                  if (on_wheel[i])
-                    x[i][2] += down;
-              }
-            mesh.distribute_hanging_nodes(x.data());
-            if (contact)
-              contact->refresh(x.data(), v.data(), 1.);
-          }
-
-        const double shift =
-          lightness > 0. ? lightness / wheel_mass * (wheel_load + contact->total_impulse_on(hub_body)[2])
-                         : 0.;
-        double residual = 0., scale = 0.;
-        if (hub)
-          {
-            const double imbalance    = rank_sums[2] + hub_load;
-            const double displacement = hub_velocity + imbalance / hub_mass + shift;
-            hub->motion.z += displacement;
-            hub_velocity = keep * displacement;
-            residual     = std::abs(imbalance);
-            scale        = std::abs(hub_load);
-          }
-        double squares = 0., load_squares = 0.;
-        for (unsigned int i = 0; i < x.size(); ++i)
-          {
-            if (measure && inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
-              {
-                squares += dot(force[i], force[i]);
-                load_squares += dot(body_force[i], body_force[i]);
-              }
-            const Row displacement = v[i] + inverse[i] * force[i] + Row{0., 0., on_wheel[i] ? shift : 0., 0.};
-            x[i] += displacement;
-            v[i] = keep * displacement;
-          }
-        if (hub)
-          for (unsigned int k = 0; k < hub_nodes.size(); ++k)
-            {
-              x[hub_nodes[k]] = hub->position_of(hub_reference[k]);
-              v[hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
-            }
-        mesh.distribute_hanging_nodes(x.data());
-        Mesh::distribute(hanging_at_contact, v.data()); // all that is asked for
-
-        if (measure)
-          {
-            residual = std::max(residual, std::sqrt(sum(squares, mesh.comm)));
-            scale    = std::max(scale, std::sqrt(sum(load_squares, mesh.comm)));
-            if (iteration == 1)
-              first_residual = residual;
-            // Without a load: of what is out of balance at the start.
-            const double share = residual / (scale > 0. ? scale : std::max(first_residual, 1e-300));
-            if (!std::isfinite(share))
-              throw std::runtime_error("no equilibrium at the start: forces grow without bound after " +
-                                       std::to_string(iteration) + " iterations");
-            if (after_measurement)
-              after_measurement(iteration, share);
-            // The iteration continues if the callback has changed the contact.
-            if (share <= tolerance && !(contact && contact->refresh_due()))
-              {
-                // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
-                if (!contact || iteration <= last_refresh + interval)
-                  break;
-                contact->refresh(x.data(), v.data(), 1.);
-                last_refresh = iteration;
-              }
+            // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
+            if (!contact || iteration <= last_refresh + iterations_between_looks)
+              break;
+            relaxation.refresh_contact();
+            last_refresh = iteration;
           }
       }
     if (iteration > max_iterations)
       throw std::runtime_error(
         "no equilibrium at the start within " + std::to_string(max_iterations) +
         " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
-    solid.update_internal_forces(x.data(), at_rest.data(), force.data(), history);
-    if (supports)
-      supports->set_at_rest(x.data());
-    std::fill(force.begin(), force.end(), Row{});
     std::fill(v.begin(), v.end(), Row{});
+    solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history);
+    if (supports)
+      supports->set_at_rest(x_damped.data());
+    std::fill(force.begin(), force.end(), Row{});
     if (hub)
       hub->balance_suspension();
     if (contact)
-      {
-        contact->set_friction(law);
-        contact->set_n_unconverged_steps(unconverged_steps);
-      }
+      contact->set_n_unconverged_steps(unconverged_steps);
     return iteration;
   }
 } // namespace tread

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace tread
 {
@@ -15,107 +14,46 @@ namespace tread
     /// Part of the way that the steady share of slow cells' forces goes to their present value when these are
     /// evaluated.
     constexpr double follow = 0.5;
+
+    /// Digits to which frequencies are rounded up, so that the time step is the same on any number of ranks:
+    /// sums over the ranks differ from the 15th digit on, and Lanczos' method amplifies that. It costs at
+    /// most 1 % of the step.
+    constexpr int kept_digits = 3;
+
+    /// Steps of Lanczos' method, and the factor by which its largest Ritz value, which approaches the highest
+    /// frequency from below, is raised. The bound of the fastest cell limits the result in any case.
+    constexpr unsigned int lanczos_steps  = 30;
+    constexpr double       lanczos_margin = 1.005;
+
+    /// Largest displacement with which stiffness is applied to a mode, m: small against any cell (strains of
+    /// 1e-6 in cells of 1 mm), and large against the rounding of positions (1e-16 m for 1 m).
+    constexpr double probing_displacement = 1e-9;
+
+    /// A number in [-0.5, 0.5) that looks random and depends on the place alone, not on the rank: the start
+    /// of Lanczos' method, which must contain all modes. The factors only have to be large against the
+    /// inverse of a cell's size and without a common divisor.
+    double random_at(const dealii::Point<3> &place, const unsigned int direction)
+    {
+      constexpr double scale = 1e4, per_metre = 1e5, weight_of_y = 1.7, weight_of_z = 2.3;
+      const double     wave =
+        scale *
+        std::sin(per_metre * (place[0] + weight_of_y * place[1] + weight_of_z * place[2]) + 2. * direction);
+      return wave - std::floor(wave) - 0.5;
+    }
   } // namespace
 
 
   void ExplicitDynamics::set_node_levels()
   {
-    unsigned int max_level = 0;
-    for (const unsigned int level : solid.cell_levels())
-      max_level = std::max(max_level, level);
-    max_level = dealii::Utilities::MPI::max(max_level, mesh.comm);
-    level_of_node.assign(v.size(), max_level);
-    for (unsigned int level = max_level; level-- > 0;)
-      {
-        // A node moves with its fastest cell on any rank, a parent with those of its hanging nodes, too.
-        NodalField marks(v.size(), Row{});
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          if (solid.cell_levels()[c] == level)
-            for (const unsigned int i : mesh.cells[c].nodes)
-              marks[i][0] = 1.;
-        if (level == 0)
-          {
-            for (const Mesh::Face &face : mesh.faces)
-              if (face.boundary == Boundary::contact)
-                for (const unsigned int i : face.nodes)
-                  marks[i][0] = 1.;
-            for (const unsigned int i : hub_nodes)
-              marks[i][0] = 1.;
-            if (supports)
-              for (const unsigned int i : supports->nodes())
-                marks[i][0] = 1.;
-          }
-        mesh.condense_hanging_nodes(marks.data());
-        mesh.shared_nodes.sum(marks.data());
-        for (unsigned int i = 0; i < marks.size(); ++i)
-          if (marks[i][0] > 0.)
-            level_of_node[i] = level;
-      }
-    // Forces on hanging nodes are their parents'.
-    std::vector<const Mesh::HangingNode *> hangs(v.size(), nullptr);
-    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
-      hangs[h.node] = &h;
-    hanging.assign(max_level + 1, {});
-    hanging_at_contact.clear();
-    for (unsigned int body = 0; body < mesh.body_names.size(); ++body)
-      for (const unsigned int i : boundary_nodes(body, Boundary::contact))
-        if (hangs[i])
-          hanging_at_contact.push_back(*hangs[i]);
-    std::vector<char> is_placed(v.size(), false);
-    for (unsigned int level = 0; level <= max_level; ++level)
-      {
-        std::vector<char> is_loaded(v.size(), false);
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          if (solid.cell_levels()[c] == level)
-            for (const unsigned int i : mesh.cells[c].nodes)
-              if (hangs[i] && !is_loaded[i])
-                {
-                  hanging[level].loaded.push_back(*hangs[i]);
-                  is_loaded[i] = true;
-                  if (!is_placed[i])
-                    hanging[level].placed.push_back(*hangs[i]);
-                  is_placed[i] = true;
-                }
-      }
-    slow_shares.assign(max_level + 1, {});
-    for (unsigned int level = 1; level <= max_level; ++level)
-      {
-        std::vector<char> is_shared(v.size(), false);
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          if (solid.cell_levels()[c] == level)
-            for (const unsigned int i : mesh.cells[c].nodes)
-              {
-                if (!hangs[i])
-                  is_shared[i] = true;
-                else
-                  for (const unsigned int parent : hangs[i]->parents)
-                    is_shared[parent] = true;
-              }
-        SlowShares &shares = slow_shares[level];
-        for (unsigned int own = 0; own < level; ++own)
-          {
-            for (unsigned int i = 0; i < v.size(); ++i)
-              if (is_shared[i] && level_of_node[i] == own)
-                shares.nodes.push_back(i);
-            shares.end_of_level.push_back(shares.nodes.size());
-          }
-        shares.steady.assign(shares.nodes.size(), Row{});
-        force_before.resize(std::max(force_before.size(), shares.nodes.size()));
-      }
-    // Hanging nodes are placed, not moved.
-    const auto kind = [&](const unsigned int i) {
-      return std::make_tuple(level_of_node[i], on_wheel[i], mesh.shared_nodes.is_owned(i),
-                             hangs[i] != nullptr);
-    };
-    nodes_of_level.assign(max_level + 1, Runs());
-    for (unsigned int begin = 0, end = 0; begin < v.size(); begin = end)
-      {
-        while (end < v.size() && kind(end) == kind(begin))
-          ++end;
-        if (!hangs[begin])
-          nodes_of_level[level_of_node[begin]].push_back(
-            {begin, end, bool(on_wheel[begin]), mesh.shared_nodes.is_owned(begin)});
-      }
+    std::vector<unsigned int> smallest_steps = hub_nodes;
+    if (supports)
+      for (const unsigned int i : supports->nodes())
+        smallest_steps.push_back(i);
+    levels           = NodeLevels(mesh, solid, smallest_steps, on_wheel);
+    std::size_t most = force_before.size();
+    for (const SlowShares &shares : levels.slow_shares)
+      most = std::max(most, shares.nodes.size());
+    force_before.resize(most);
   }
 
 
@@ -153,9 +91,8 @@ namespace tread
 
   double ExplicitDynamics::critical_time_step_of(double highest) const
   {
-    // Three digits, rounded up: the same step on any number of ranks.
     const auto rounded = [](const double value) {
-      const double digit = std::pow(10., std::floor(std::log10(value)) - 2.);
+      const double digit = std::pow(10., std::floor(std::log10(value)) + 1. - kept_digits);
       return value > 0. ? digit * std::ceil(value / digit) : 0.;
     };
     // Forces at x + beta v of half a step back, dampers with v of half a step back: dt^2 K + 2 dt C <= 4 for
@@ -183,7 +120,7 @@ namespace tread
     // A node of level l moves with a step 2^l times as long.
     double of_nodes = 0.;
     for (const DampedNode &damped : damped_nodes)
-      of_nodes = std::max(of_nodes, std::ldexp(damped.rate, level_of_node[damped.node]));
+      of_nodes = std::max(of_nodes, std::ldexp(damped.rate, levels.of_node[damped.node]));
     C += rounded(dealii::Utilities::MPI::max(of_nodes, mesh.comm));
     return 4. / (C + std::sqrt(C * C + 4. * K));
   }
@@ -203,10 +140,8 @@ namespace tread
 
     // No cell can vibrate as fast in the mesh as it would alone: Lanczos' method on M^-1 K finds how fast the
     // mesh does. Its largest Ritz value comes from below, hence the margin; the cells' bound stays the limit.
-    constexpr unsigned int    iterations = 30;
-    constexpr double          margin     = 1.005;
-    const std::vector<double> inverse    = free_inverse_masses();
-    const auto                product    = [&](const NodalField &a, const NodalField &b) {
+    const std::vector<double> inverse = free_inverse_masses();
+    const auto                product = [&](const NodalField &a, const NodalField &b) {
       double of_rank = 0.;
       for (unsigned int i = 0; i < v.size(); ++i)
         if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
@@ -223,17 +158,11 @@ namespace tread
     add_forces(x, forces_at_x);
     for (unsigned int i = 0; i < mode.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
-        {
-          // Any numbers will do that depend on the place alone, not on the rank.
-          const double wave =
-            1e4 *
-            std::sin(1e5 * (mesh.nodes[i][0] + 1.7 * mesh.nodes[i][1] + 2.3 * mesh.nodes[i][2]) + 2. * d);
-          mode[i][d] = inverse[i] > 0. ? wave - std::floor(wave) - 0.5 : 0.;
-        }
+        mode[i][d] = inverse[i] > 0. ? random_at(mesh.nodes[i], d) : 0.;
     double                           size = std::sqrt(product(mode, mode));
-    dealii::LAPACKFullMatrix<double> tridiagonal(iterations, iterations);
+    dealii::LAPACKFullMatrix<double> tridiagonal(lanczos_steps, lanczos_steps);
     tridiagonal = 0.;
-    for (unsigned int k = 0; k < iterations && size > 0.; ++k)
+    for (unsigned int k = 0; k < lanczos_steps && size > 0.; ++k)
       {
         for (Row &row : mode)
           row *= 1. / size;
@@ -241,7 +170,7 @@ namespace tread
         double largest = 0.;
         for (const Row &row : mode)
           largest = std::max(largest, dot(row, row));
-        const double scale = 1e-9 / std::sqrt(max(largest, mesh.comm)); // m: small against any cell
+        const double scale = probing_displacement / std::sqrt(max(largest, mesh.comm));
         for (unsigned int i = 0; i < v.size(); ++i)
           {
             moved[i] = x[i] + scale * mode[i];
@@ -255,15 +184,15 @@ namespace tread
           mode_before[i] = f[i] - tridiagonal(k, k) * mode[i] - size * mode_before[i];
         mode.swap(mode_before);
         size = std::sqrt(product(mode, mode));
-        if (k + 1 < iterations)
+        if (k + 1 < lanczos_steps)
           tridiagonal(k, k + 1) = tridiagonal(k + 1, k) = size;
       }
     tridiagonal.compute_eigenvalues();
     double highest = 0.;
-    for (unsigned int k = 0; k < iterations; ++k)
+    for (unsigned int k = 0; k < lanczos_steps; ++k)
       highest = std::max(highest, std::sqrt(std::max(0., tridiagonal.eigenvalue(k).real())));
     // Bulk viscosity damps high modes, which shortens the stable step: the cells' bound leaves room for it.
-    return solid.needs_velocity() ? bound : std::min(bound, margin * highest);
+    return solid.needs_velocity() ? bound : std::min(bound, lanczos_margin * highest);
   }
 
 
@@ -271,10 +200,10 @@ namespace tread
   {
     totals.plastic +=
       solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true});
-    Mesh::condense(hanging[0].loaded, force.data());
+    Mesh::condense(levels.hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
-        SlowShares &shares = slow_shares[level];
+        SlowShares &shares = levels.slow_shares[level];
         if (level > due)
           {
             shares.for_nodes_up_to(due, [&](const std::size_t k, const double own) {
@@ -285,19 +214,20 @@ namespace tread
         for (std::size_t k = 0; k < shares.nodes.size(); ++k)
           force_before[k] = force[shares.nodes[k]];
         solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
-        Mesh::condense(hanging[level].loaded, force.data());
+        Mesh::condense(levels.hanging[level].loaded, force.data());
         const double factor = std::ldexp(1., level);
         shares.for_nodes_up_to(level - 1, [&](const std::size_t k, const double own) {
           Row      &here   = force[shares.nodes[k]];
           const Row now    = (1. / factor) * (here - force_before[k]);
-          const Row change = slow_shares_known ? follow * (now - shares.steady[k]) : now;
+          const Row change = levels.slow_shares_known ? follow * (now - shares.steady[k]) : now;
           shares.steady[k] += change;
           // The steady part acts on average half of (factor - own) steps late: what that takes from a
           // force that changes is given at once, or motion would be fed with energy.
-          here -= (factor - own) * (slow_shares_known ? shares.steady[k] - 0.5 * change : shares.steady[k]);
+          here -=
+            (factor - own) * (levels.slow_shares_known ? shares.steady[k] - 0.5 * change : shares.steady[k]);
         });
       }
-    slow_shares_known = true;
+    levels.slow_shares_known = true;
   }
 
 
@@ -320,11 +250,11 @@ namespace tread
       }
     for (unsigned int level = 0; level <= level_due(); ++level)
       {
-        Mesh::distribute(hanging[level].placed, x_damped.data());
+        Mesh::distribute(levels.hanging[level].placed, x_damped.data());
         if (solid.needs_velocity())
-          Mesh::distribute(hanging[level].placed, v.data());
+          Mesh::distribute(levels.hanging[level].placed, v.data());
       }
-    Mesh::distribute(hanging_at_contact, x_damped.data());
-    Mesh::distribute(hanging_at_contact, v.data());
+    Mesh::distribute(levels.hanging_at_contact, x_damped.data());
+    Mesh::distribute(levels.hanging_at_contact, v.data());
   }
 } // namespace tread

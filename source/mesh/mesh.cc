@@ -371,6 +371,23 @@ namespace tread
   }
 
 
+  std::vector<unsigned int> Mesh::boundary_nodes(const unsigned int body, const Boundary boundary) const
+  {
+    // A rank may hold a node of the boundary without holding a face of it: ask all through the sum.
+    NodalField marks(nodes.size(), Row{});
+    for (const Mesh::Face &face : faces)
+      if (face.body == body && face.boundary == boundary)
+        for (const unsigned int i : face.nodes)
+          marks[i][0] = 1.;
+    shared_nodes.sum(marks.data());
+    std::vector<unsigned int> found;
+    for (unsigned int i = 0; i < marks.size(); ++i)
+      if (marks[i][0] > 0.)
+        found.push_back(i);
+    return found;
+  }
+
+
   std::array<long long, 4> Mesh::node_key(const unsigned int node) const
   {
     return {{node_bodies[node], std::llround(1e9 * nodes[node][0]), std::llround(1e9 * nodes[node][1]),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
 #include <tread/output/quality.h>
 
 #include <cmath>
@@ -6,18 +7,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    template <typename... T>
-    std::string format(const char *pattern, const T... values)
-    {
-      char text[512];
-      std::snprintf(text, sizeof text, pattern, values...);
-      return text;
-    }
-  } // namespace
-
-
   void Quality::add_to(Summary &summary) const
   {
     const EnergyLedger &e = energy;

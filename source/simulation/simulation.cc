@@ -94,6 +94,19 @@ namespace tread
   }
 
 
+  void Simulation::serialize(Archive &archive)
+  {
+    dynamics.serialize(archive); // and hub, supports and contact, which are attached to it
+    if (strip)
+      strip->serialize(archive);
+    average.serialize(archive);
+    archive.same(target_creepage, free_creepage, torque_released, solution_taken, solution_patch, passages);
+    archive.same(interval_force, interval_steps, interval_start_time, interval_start_speed);
+    archive.same(last_force_sum, last_force_low, last_force_high, last_steps);
+    archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
+  }
+
+
   std::uint64_t Simulation::remaining_steps() const
   {
     const double        step     = dynamics.time_step > 0.
@@ -221,7 +234,7 @@ namespace tread
   {
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     RunFolder  folder(path, comm);
-    Checkpoint checkpoint(folder, comm);
+    Checkpoint checkpoint(folder, scene, comm);
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 

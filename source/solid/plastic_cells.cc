@@ -400,6 +400,15 @@ namespace tread
   }
 
 
+  void PlasticCells::serialize(Archive &archive, PlasticHistory &history) const
+  {
+    const std::vector<CellHistory> all =
+      archive.records(archive.restores() ? std::vector<CellHistory>() : stored(history));
+    if (archive.restores() && restore(all, history) != n_cells())
+      archive.miss();
+  }
+
+
   std::size_t PlasticCells::memory_consumption() const
   {
     std::size_t bytes = batches.size() * sizeof(Batch);

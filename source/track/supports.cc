@@ -14,6 +14,24 @@ namespace tread
 {
   namespace
   {
+    /// Newton's method on a face's map: it ends when a point is found to this share of the face's size, for
+    /// which a flat quadrilateral takes 2 to 4 of the iterations allowed, or when the local coordinates run
+    /// away to this distance, 1 being the edge.
+    constexpr double       newton_tolerance  = 1e-12;
+    constexpr unsigned int newton_iterations = 20;
+    constexpr double       far_outside       = 10.;
+
+    /// A point on the edge of two faces may lie outside each of them by rounding: this much, in local
+    /// coordinates, is still inside.
+    constexpr double edge_tolerance = 1e-6;
+
+    /// A corner of a face is nearer to any of its points than this many of its largest sides.
+    constexpr double reach_of_face = 3.;
+
+    /// Heights (m), distances (m) and shares that differ by less are the same: far above rounding, far below
+    /// anything of a mesh.
+    constexpr double round_off = 1e-9;
+
     /// Shape functions of a face at (x, y), seen along z; false if it lies outside.
     bool shares_of_corners(const std::array<dealii::Point<3>, 4> &corner,
                            const double                           x,
@@ -24,9 +42,9 @@ namespace tread
       const double sign_xi[4] = {-1., 1., 1., -1.}, sign_eta[4] = {-1., -1., 1., 1.};
       for (const dealii::Point<3> &p : corner)
         size = std::max({size, std::abs(p[0] - corner[0][0]), std::abs(p[1] - corner[0][1])});
-      if (std::hypot(x - corner[0][0], y - corner[0][1]) > 3. * size)
+      if (std::hypot(x - corner[0][0], y - corner[0][1]) > reach_of_face * size)
         return false;
-      for (unsigned int iteration = 0; iteration < 20; ++iteration)
+      for (unsigned int iteration = 0; iteration < newton_iterations; ++iteration)
         {
           double dx = x, dy = y, J[2][2] = {};
           for (unsigned int k = 0; k < 4; ++k)
@@ -41,16 +59,15 @@ namespace tread
                   J[d][1] += 0.25 * sign_eta[k] * a * corner[k][d];
                 }
             }
-          if (std::hypot(dx, dy) < 1e-12 * size)
+          if (std::hypot(dx, dy) < newton_tolerance * size)
             break;
           const double determinant = J[0][0] * J[1][1] - J[0][1] * J[1][0];
           xi += (J[1][1] * dx - J[0][1] * dy) / determinant;
           eta += (J[0][0] * dy - J[1][0] * dx) / determinant;
-          if (!(std::abs(xi) < 10. && std::abs(eta) < 10.))
+          if (!(std::abs(xi) < far_outside && std::abs(eta) < far_outside))
             return false;
         }
-      constexpr double tolerance = 1e-6;
-      return std::max(std::abs(xi), std::abs(eta)) < 1. + tolerance;
+      return std::max(std::abs(xi), std::abs(eta)) < 1. + edge_tolerance;
     }
 
     /// The middles of n equal parts of [begin, end].
@@ -173,7 +190,7 @@ namespace tread
         double height = 0.;
         for (unsigned int k = 0; k < 4; ++k)
           height += side * share[k] * corner[k][2];
-        if (height > highest + 1e-9)
+        if (height > highest + round_off)
           {
             highest = height;
             found   = face;
@@ -187,7 +204,7 @@ namespace tread
                                   " mm, y = " + std::to_string(1e3 * y) + " mm");
     const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
     const unsigned int owner = dealii::Utilities::MPI::min(
-      found && highest > best - 1e-9 ? rank : std::numeric_limits<unsigned int>::max(), mesh.comm);
+      found && highest > best - round_off ? rank : std::numeric_limits<unsigned int>::max(), mesh.comm);
     End end;
     if (owner == rank)
       {
@@ -206,7 +223,7 @@ namespace tread
           }
         // On an edge two faces hold a point, by the nodes of the edge alone.
         for (const auto &[node, part] : of_node)
-          if (part > 1e-9)
+          if (part > round_off)
             end.nodes.emplace_back(node, part);
       }
     ends.push_back(end);
@@ -466,7 +483,7 @@ namespace tread
           nearest = std::min(nearest, distance(node));
         nearest = dealii::Utilities::MPI::min(nearest, mesh.comm);
         for (const unsigned int node : candidates)
-          if (distance(node) <= nearest + 1e-9)
+          if (distance(node) <= nearest + round_off)
             chosen.push_back(node);
       }
     // A node is held on all ranks or on none.
@@ -479,5 +496,11 @@ namespace tread
       if (marks[i][0] > 0.)
         chosen.push_back(i);
     return chosen;
+  }
+
+
+  void Supports::serialize(Archive &archive)
+  {
+    archive.same(displacement, velocity, spring_force, damper_work);
   }
 } // namespace tread

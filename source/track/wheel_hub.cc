@@ -118,4 +118,10 @@ namespace tread
            motion.angular_velocity * (motion.velocity_x * moment_z - motion.velocity_z * moment_x) +
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity;
   }
+
+
+  void WheelHub::serialize(Archive &archive)
+  {
+    archive.same(drive, drive_torque, motion, reference_x, reference_z, equilibrium_z, work, gross);
+  }
 } // namespace tread

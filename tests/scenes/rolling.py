@@ -56,6 +56,10 @@ with tempfile.TemporaryDirectory() as folder:
         for file in ("history.csv", "patch.csv", "patch_averaged.csv"):
             a, b = (open(os.path.join(path(run), file), encoding="utf-8").read() for run in (parts, whole))
             check.that(f"{name}: {file} is the same to the last digit", a == b and a.count("\n") > 10)
+        a, b = (read_summary(path(run)) for run in (parts, whole))
+        differ = [key for key in sorted(set(a) | set(b)) if a.get(key) != b.get(key)
+                  and not key.startswith("wall_s") and key != "element_updates_per_s"]
+        check.that(f"{name}: the summary is the same but for times {differ or ''}", not differ)
 
     if what == "ranks":
         # Ranks add forces in another order: differences start at 1e-16 and are damped, not amplified,

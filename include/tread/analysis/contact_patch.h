@@ -2,6 +2,7 @@
 #ifndef tread_analysis_contact_patch_h
 #define tread_analysis_contact_patch_h
 
+#include <tread/base/archive.h>
 #include <tread/contact/contact.h>
 
 #include <map>
@@ -63,6 +64,9 @@ namespace tread
       return steps;
     }
 
+    /// Store or restore the sums.
+    void serialize(Archive &archive);
+
   private:
     struct Sum
     {
@@ -75,8 +79,6 @@ namespace tread
     PatchMeasures               measure_sums;
     double                      centre_sum = 0.;
     unsigned int                steps      = 0;
-
-    friend class Checkpoint;
   };
 } // namespace tread
 

@@ -2,6 +2,7 @@
 #ifndef tread_analysis_rail_stress_h
 #define tread_analysis_rail_stress_h
 
+#include <tread/base/archive.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <functional>
@@ -22,13 +23,6 @@ namespace tread
   struct StressPeak
   {
     double stress = 0., time = 0., wheel_x = 0.; // Pa, s, m
-  };
-
-  /// The same with a key of the cell that does not depend on the ranks: for checkpoints.
-  struct StoredPeak
-  {
-    std::array<long long, 4> key; ///< body and centre in the reference position, nm
-    StressPeak               peak;
   };
 
   /// Maxima over the cells between two cross-sections of the strip, SI units.
@@ -53,18 +47,17 @@ namespace tread
     /// One column for each surface cell along the path, beginning at the rear; on rank 0. Collective.
     std::vector<StripColumn> columns(const ExplicitDynamics &dynamics) const;
 
-    /// Save and restore the maxima of this rank's cells. Cells that are not in the list keep theirs.
-    std::vector<StoredPeak> stored() const;
-    void                    restore(const std::vector<StoredPeak> &list);
+    /// Store or restore the maxima. Collective.
+    void serialize(Archive &archive);
 
   private:
     struct Member
     {
-      unsigned int             cell;
-      std::array<long long, 4> key;
-      double                   x_begin, x_end, y, depth;
-      bool                     at_surface;
-      StressPeak               peak;
+      unsigned int cell;
+      Archive::Key key; ///< body and centre in the reference position, nm
+      double       x_begin, x_end, y, depth;
+      bool         at_surface;
+      StressPeak   peak;
     };
 
     MPI_Comm            comm;

@@ -7,12 +7,13 @@
 
 namespace tread
 {
-  /// Text after printf's pattern, of at most 511 characters.
+  /// Text after printf's pattern.
   template <typename... T>
   std::string format(const char *pattern, const T... values)
   {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, values...);
+    const int   length = std::snprintf(nullptr, 0, pattern, values...);
+    std::string text(length > 0 ? length : 0, ' ');
+    std::snprintf(text.data(), text.size() + 1, pattern, values...);
     return text;
   }
 } // namespace tread

@@ -61,6 +61,11 @@ namespace tread
     return c[0] + c[1] + c[2];
   }
 
+  inline Row cross(const Row a, const Row b)
+  {
+    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
+  }
+
   inline Lanes broadcast(const double value)
   {
     return Lanes{} + value;

@@ -2,6 +2,7 @@
 #ifndef tread_contact_contact_h
 #define tread_contact_contact_h
 
+#include <tread/base/archive.h>
 #include <tread/contact/contact_surfaces.h>
 #include <tread/contact/coulomb_solver.h>
 #include <tread/contact/mortar.h>
@@ -144,6 +145,10 @@ namespace tread
     /// (m): beyond the rim contact would be missed.
     std::optional<Row> contact_at_rim() const;
 
+    /// Store or restore the state, after set_inverse_masses(): all but friction law and given tractions, and
+    /// what a step finds of velocities. Collective.
+    void serialize(Archive &archive);
+
     const ContactSurfaces surfaces;
 
   private:
@@ -223,8 +228,6 @@ namespace tread
     std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork               work;
     std::uint64_t             unconverged_steps = 0;
-
-    friend class Checkpoint;
   };
 } // namespace tread
 

@@ -2,14 +2,16 @@
 #ifndef tread_dynamics_explicit_dynamics_h
 #define tread_dynamics_explicit_dynamics_h
 
+#include <tread/base/archive.h>
 #include <tread/contact/contact.h>
+#include <tread/dynamics/energy_ledger.h>
+#include <tread/dynamics/node_levels.h>
 #include <tread/dynamics/rail_beam.h>
 #include <tread/mesh/mesh.h>
 #include <tread/solid/solid.h>
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -32,54 +34,6 @@ namespace tread
     /// exactly. The number is a prime, because a vibration whose period divides it would always be sampled in
     /// the same phase.
     unsigned int steps_between_damping_samples = 47;
-  };
-
-  /// Stored and dissipated energies since the start, J; sums over all ranks.
-  struct EnergyLedger
-  {
-    double external_work = 0.; ///< drive, guidance, suspension, weight, prescribed forces
-    double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
-    double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
-    double friction = 0., contact = 0., damping = 0.; ///< lost so far
-    double plastic          = 0.;                     ///< work on plastic strain so far
-    double springs          = 0.;                     ///< of the supports, change since the start
-    double dampers          = 0.;                     ///< the supports' part of damping
-    double contact_on_nodes = 0.; ///< lost so far by the contact forces on the nodes: friction + contact
-    double stored_strain = 0., stored_hourglass = 0.; ///< in the cells now
-
-    double residual() const
-    {
-      return external_work -
-             (kinetic + strain + hourglass + springs + friction + contact + damping + plastic);
-    }
-    double residual_share() const;
-
-    /// Energy dissipated by friction, plastic strain, damping and contact. Drive and guidance pass much more
-    /// energy through the contact, which is no measure for errors.
-    double dissipated() const
-    {
-      return friction + plastic + damping + std::abs(contact);
-    }
-
-    /// A work over the dissipated energy; 0 if nothing was dissipated.
-    double of_dissipated(const double work) const
-    {
-      return dissipated() > 0. ? work / dissipated() : 0.;
-    }
-
-    /// A work over the energy dissipated by friction and plastic strain, the purpose of a run; 0 if there was
-    /// none.
-    double of_friction_and_plasticity(const double work) const
-    {
-      return friction + plastic > 0. ? work / (friction + plastic) : 0.;
-    }
-
-    /// Energy in the hourglass modes over all that the cells hold now.
-    double hourglass_of_internal() const
-    {
-      const double internal = stored_strain + stored_hourglass;
-      return internal > 0. ? stored_hourglass / internal : 0.;
-    }
   };
 
   /// Seconds that this rank spent since the start.
@@ -112,7 +66,10 @@ namespace tread
     void guide_nodes(const std::vector<unsigned int> &nodes, const unsigned int direction);
 
     /// The nodes of a part of a body's boundary on this rank.
-    std::vector<unsigned int> boundary_nodes(const unsigned int body, const Boundary boundary) const;
+    std::vector<unsigned int> boundary_nodes(const unsigned int body, const Boundary boundary) const
+    {
+      return mesh.boundary_nodes(body, boundary);
+    }
     std::vector<unsigned int> support_nodes(const unsigned int body) const
     {
       return boundary_nodes(body, Boundary::support);
@@ -169,7 +126,7 @@ namespace tread
 
     unsigned int max_level() const
     {
-      return nodes_of_level.size() - 1;
+      return levels.max_level();
     }
 
     /// Number of cell updates in 2^max_level steps without levels over that with levels, of all ranks.
@@ -195,6 +152,10 @@ namespace tread
 
     /// Present energies, when nodes must be synchronised. Collective; costs about two steps.
     EnergyLedger ledger() const;
+
+    /// Store the state, or restore it once all is attached and set: that of hub, supports and contact too.
+    /// External forces are not part of it. Collective.
+    void serialize(Archive &archive);
 
     /// @throws std::runtime_error with a clear line if nodes move faster than is possible in steel.
     /// Collective.
@@ -224,14 +185,8 @@ namespace tread
     /// Memory of this rank's nodes in this object, bytes.
     std::size_t memory_consumption() const
     {
-      std::size_t bytes = v.size() * (3 * sizeof(Row) + 2 * sizeof(double) + 3 + sizeof(level_of_node[0]));
-      for (const SlowShares &shares : slow_shares)
-        bytes += shares.nodes.size() * (sizeof(unsigned int) + sizeof(Row));
-      for (const HangingNodesOfLevel &of_level : hanging)
-        bytes += (of_level.loaded.size() + of_level.placed.size()) * sizeof(Mesh::HangingNode);
-      return bytes + force_before.size() * sizeof(Row) +
-             hanging_at_contact.size() * sizeof(Mesh::HangingNode) +
-             loads_of_shared.size() * sizeof(LoadOfShared);
+      return v.size() * (3 * sizeof(Row) + 2 * sizeof(double) + 3) + levels.memory_consumption() +
+             force_before.size() * sizeof(Row) + loads_of_shared.size() * sizeof(LoadOfShared);
     }
 
     const std::vector<double> &inverse_masses() const
@@ -248,6 +203,11 @@ namespace tread
     const Solid &solid;
 
   private:
+    class Relaxation; ///< of relax()
+
+    /// @param cell of this rank with the least volume; @param is_worst: of all ranks. Collective.
+    [[noreturn]] void throw_inverted(const unsigned int cell, const bool is_worst) const;
+
     /// Set the time step, the inverse masses and the pairs in contact.
     void                set_inertia();
     void                prepare_step(); ///< the state that step() leaves for the next one
@@ -283,47 +243,19 @@ namespace tread
     /// Energy dissipated from the step of the last sample to the previous step, if the power is this much at
     /// present, J.
     double damping_since_sample(const double power) const;
-    void   begin_damping_sample(); ///< before a step
-    void   end_damping_sample();   ///< when the velocities of the step are known
+    /// What damping does in a step that samples it.
+    struct DampingSample
+    {
+      NodalField force; ///< N
+      double     power; ///< that it takes with the velocities before the step, W
+    };
+    DampingSample begin_damping_sample() const;           ///< before a step
+    void end_damping_sample(const DampingSample &sample); ///< when the velocities of the step are known
 
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
 
-    /// Forces of the cells of a level on nodes that move in smaller steps. If these forces acted only as
-    /// occasional impulses, they would excite the nodes of a prestressed body. The steady part of the force
-    /// therefore acts in each step of a node, and only the difference from the present force acts as an
-    /// impulse.
-    struct SlowShares
-    {
-      std::vector<unsigned int> nodes;        ///< by their own levels
-      std::vector<std::size_t>  end_of_level; ///< in nodes
-      NodalField                steady;       ///< N
-
-      /// Call work(k, 2^own level) for nodes[k] up to an own level.
-      template <typename Work>
-      void for_nodes_up_to(const unsigned int level, const Work &work) const
-      {
-        std::size_t k = 0;
-        for (unsigned int own = 0; own < end_of_level.size() && own <= level; ++own)
-          for (const double factor = std::ldexp(1., own); k < end_of_level[own]; ++k)
-            work(k, factor);
-      }
-    };
-
-    /// Hanging nodes by the levels of cells around them on this rank.
-    struct HangingNodesOfLevel
-    {
-      std::vector<Mesh::HangingNode> loaded; ///< by cells of this level
-      std::vector<Mesh::HangingNode> placed; ///< needed at this level, and at no lower one
-    };
-
-    /// Nodes [begin, end) of one level, all or none of them on the wheel, and this rank's own.
-    struct Run
-    {
-      unsigned int begin, end;
-      bool         on_wheel, is_owned;
-    };
-    using Runs = std::vector<Run>;
+    using Run = NodeLevels::Run;
 
     /// Load that is left out of the initial force on a node with copies on other ranks, and added after their
     /// sum.
@@ -395,20 +327,26 @@ namespace tread
       return (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
     }
 
+    // What step() does, in this order, to nodes up to the level that is due.
+    void      sum_forces(const unsigned int due); ///< over the ranks
+    BodyLoads add_loads(const unsigned int due);  ///< forces from outside. @returns sums for the hub
+    void      set_rank_sums(const BodyLoads &loads);
+    void      add_contact_forces();
+    void      advance_hub();
+    void      advance_nodes(const unsigned int due);
+
     /// Save, for shared nodes up to this level, the load with which their forces begin.
     void keep_loads_of_shared(const unsigned int due);
 
-    DynamicsParameters               parameters;
-    std::vector<Runs>                nodes_of_level;
-    std::vector<unsigned int>        level_of_node;
-    std::vector<HangingNodesOfLevel> hanging; ///< by level
-    std::vector<Mesh::HangingNode>   hanging_at_contact;
-    std::vector<SlowShares>          slow_shares; ///< by level
-    bool                             slow_shares_known = false;
-    NodalField                       force_before; ///< of the cells of a level, on nodes that share them
-    NodalField                       force;
-    NodalField                       x_damped;          ///< x + beta v: all that a step needs of positions
-    double                           damping_time = 0.; ///< beta, s: set by start(), 0 at rest
+    /// Store or restore positions and velocities of the nodes.
+    void serialize_nodes(Archive &archive);
+
+    DynamicsParameters  parameters;
+    NodeLevels          levels;
+    NodalField          force_before; ///< of the cells of a level, on nodes that share them
+    NodalField          force;
+    NodalField          x_damped;                ///< x + beta v: all that a step needs of positions
+    double              damping_time = 0.;       ///< beta, s: set by start(), 0 at rest
     std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
     std::vector<LoadOfShared>                          loads_of_shared;
     BodyLoads                                          next_loads; ///< of level 0 in its next step
@@ -436,11 +374,6 @@ namespace tread
     double        last_damping_power = 0.;
     std::uint64_t last_damping_step  = 0;
     bool          damping_is_sampled = false; ///< since start()
-    // Within a step that samples damping.
-    NodalField sampled_damping;           ///< N
-    double     damping_power_before = 0.; ///< W
-
-    friend class Checkpoint;
   };
 } // namespace tread
 

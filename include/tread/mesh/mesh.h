@@ -86,6 +86,9 @@ namespace tread
       return points;
     }
 
+    /// The nodes of a part of a body's boundary on this rank. Collective among neighbours.
+    std::vector<unsigned int> boundary_nodes(const unsigned int body, const Boundary boundary) const;
+
     /// Memory of this rank's cells and nodes, bytes.
     std::size_t memory_consumption() const
     {

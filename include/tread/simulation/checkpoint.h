@@ -6,34 +6,42 @@
 
 #include <mpi.h>
 
+#include <string>
+
 namespace tread
 {
-  class ExplicitDynamics;
+  class Scene;
   class Simulation;
 
-  /// The whole state of a run in one of two files, written in turn; checkpoint.last names the one that is
-  /// complete. Nodes are stored by position, so a run may resume on any number of ranks. On the same number
-  /// of ranks it continues to the last bit as if it had not been interrupted.
+  /// The files from which a run is resumed: the whole state in one of two, written in turn; checkpoint.last
+  /// names the one that is complete. Each class stores its own state by serialize(). Nodes and cells are
+  /// stored by position, so a run may resume on any number of ranks. On the same number of ranks it continues
+  /// to the last bit as if it had not been interrupted.
+  ///
+  /// A file is one line (layout, number of bytes that follow, their CRC-32), the parameters of the run, and
+  /// what each rank stored.
   class Checkpoint
   {
   public:
-    Checkpoint(const RunFolder &folder, const MPI_Comm comm);
+    Checkpoint(const RunFolder &folder, const Scene &scene, const MPI_Comm comm);
 
-    /// Collective.
+    /// Collective. @throws std::runtime_error with one line, on all ranks, if it cannot be written.
     void write(Simulation &simulation);
 
-    /// Collective. @throws SceneError if there is none, or if it belongs to other parameters.
+    /// Collective. @throws SceneError with one line, on all ranks, if there is no checkpoint, if it is
+    /// damaged or was written by another version, or if it belongs to other parameters.
     void read(Simulation &simulation);
 
   private:
-    template <typename Archive>
-    static void        state(Archive &archive, Simulation &simulation);
-    static std::string fingerprint(const Simulation &simulation);
-    /// Data that this rank sums or keeps for its own cells alone: a part of the whole, in bytes.
-    static std::string own_part(const ExplicitDynamics &dynamics);
-    void               restore_parts(ExplicitDynamics &dynamics, const std::string &parts) const;
+    /// Of the slot that checkpoint.last names: what follows the first line, on all ranks.
+    std::string content_of(const std::string &name) const;
+    /// All parameters but those of the output, of which only the columns of tables that grow must stay.
+    std::string parameters() const;
+    /// @throws SceneError with the first line that differs.
+    void require_same_parameters(const std::string &of_checkpoint) const;
 
     const RunFolder &folder;
+    const Scene     &scene;
     MPI_Comm         comm;
     unsigned int     next_slot = 0;
   };

@@ -4,6 +4,7 @@
 
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
+#include <tread/base/archive.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/mesh.h>
@@ -37,6 +38,9 @@ namespace tread
     /// @param folder of the results; @param resume from its last checkpoint.
     /// @returns false when interrupted by a signal.
     bool run(const std::string &folder, const bool resume);
+
+    /// Store the state between two steps, or restore it in a simulation that was just made. Collective.
+    void serialize(Archive &archive);
 
   private:
     void                       prepare_start(Progress &progress);
@@ -133,8 +137,6 @@ namespace tread
     double                 relaxation_seconds = 0., relaxation_iterations = 0.;
     double                 wall_seconds   = 0.; ///< including the parts before resuming
     double                 seconds_before = 0.; ///< those parts
-
-    friend class Checkpoint;
   };
 } // namespace tread
 

@@ -2,6 +2,7 @@
 #ifndef tread_solid_plastic_cells_h
 #define tread_solid_plastic_cells_h
 
+#include <tread/base/archive.h>
 #include <tread/base/simd.h>
 #include <tread/material/plastic.h>
 #include <tread/mesh/mesh.h>
@@ -95,6 +96,9 @@ namespace tread
     /// @returns how many were found.
     std::vector<CellHistory> stored(const PlasticHistory &history) const;
     std::size_t              restore(const std::vector<CellHistory> &list, PlasticHistory &history) const;
+
+    /// Store or restore the history of the cells of all ranks.
+    void serialize(Archive &archive, PlasticHistory &history) const;
 
     /// Memory of this rank's cells including their history, bytes.
     std::size_t memory_consumption() const;

@@ -2,6 +2,7 @@
 #ifndef tread_track_supports_h
 #define tread_track_supports_h
 
+#include <tread/base/archive.h>
 #include <tread/mesh/mesh.h>
 #include <tread/reference/supported_beam.h>
 
@@ -132,6 +133,9 @@ namespace tread
     /// freely. Collective.
     std::vector<unsigned int> guided_nodes(const unsigned int direction) const;
 
+    /// Store or restore the state: all but the forces of dampers and on sleepers, with which a step begins.
+    void serialize(Archive &archive);
+
     const unsigned int              rail_body;
     const std::vector<double>       positions; ///< x of the supports, m
     const TrackParameters           parameters;
@@ -179,8 +183,6 @@ namespace tread
     std::vector<double> spring_force; ///< by spring, of the last step: tension, N
     std::vector<double> damper_force; ///< the dampers' part of it
     double              damper_work = 0., gravity = 0.;
-
-    friend class Checkpoint;
   };
 } // namespace tread
 

@@ -2,6 +2,7 @@
 #ifndef tread_track_wheel_hub_h
 #define tread_track_wheel_hub_h
 
+#include <tread/base/archive.h>
 #include <tread/base/simd.h>
 
 #include <vector>
@@ -100,6 +101,9 @@ namespace tread
       return gross;
     }
 
+    /// Store or restore the state: all but parameters and balance, which place() and take_out() set.
+    void serialize(Archive &archive);
+
     Drive              drive        = Drive::creepage;
     double             drive_torque = 0.; ///< N m, used when drive == torque
     Motion             motion;
@@ -111,8 +115,6 @@ namespace tread
 
     double reference_x = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
     double reference_first_moment[2] = {0., 0.};
-
-    friend class Checkpoint;
   };
 } // namespace tread
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_base_archive_h
+#define tread_base_archive_h
+
+#include <mpi.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace tread
+{
+  /// The state of a run on its way to a file or back. A class that has state names it once, in a member
+  /// function serialize(Archive &), which serves for both ways and which all ranks call together:
+  ///
+  ///     void WheelHub::serialize(Archive &archive)
+  ///     {
+  ///       archive.same(motion, drive);
+  ///     }
+  ///
+  /// How a value is named says what becomes of it on another number of ranks. Each rank stores a part, and
+  /// each rank reads all parts.
+  class Archive
+  {
+  public:
+    /// What was stored has other values than those that are asked for.
+    class OtherLayout : public std::runtime_error
+    {
+    public:
+      OtherLayout()
+        : std::runtime_error("the stored state has another layout")
+      {
+      }
+    };
+
+    /// A name of a node or cell that does not depend on ranks: body and reference position in nm.
+    using Key = std::array<long long, 4>;
+
+    /// To store.
+    explicit Archive(const MPI_Comm comm);
+
+    /// To restore. @param parts what stored() gave on each rank, in the order of the ranks.
+    /// @throws OtherLayout if these are no such parts.
+    Archive(const MPI_Comm comm, const std::string &parts);
+
+    bool restores() const
+    {
+      return is_restoring;
+    }
+
+    /// What all ranks know alike: numbers, enumerations, structures of these, and vectors and maps of such.
+    /// The first rank's are stored. @throws OtherLayout if what was stored is of another size.
+    template <typename... T>
+    void same(T &...values)
+    {
+      if (is_restoring)
+        (read(values, 0), ...);
+      else if (this_rank == 0)
+        (write(values), ...);
+    }
+
+    /// Shares of sums over the ranks. On as many ranks as before each gets its own back; on others the first
+    /// has the whole sum.
+    template <typename... T>
+    void shares(T &...values)
+    {
+      (share(values), ...);
+    }
+
+    /// Numbers of which the largest rank's counts, such as seconds. On as many ranks as before each gets its
+    /// own back; on others all have the largest.
+    template <typename... T>
+    void largest(T &...values)
+    {
+      (maximum(values), ...);
+    }
+
+    /// What is of use to this rank alone and can be found anew. @returns whether values are what was stored:
+    /// they stay as they are on another number of ranks, or if their number has changed on any. Collective.
+    template <typename T, typename A>
+    bool own(std::vector<T, A> &values)
+    {
+      if (!is_restoring)
+        {
+          write(values);
+          return true;
+        }
+      std::vector<T, A> of_rank;
+      for (unsigned int rank = 0; rank < parts.size(); ++rank)
+        {
+          std::vector<T, A> stored;
+          read(stored, rank);
+          if (rank == this_rank)
+            of_rank.swap(stored);
+        }
+      const bool found = on_all_ranks(same_ranks && of_rank.size() == values.size());
+      if (found)
+        values.swap(of_rank);
+      return found;
+    }
+
+    /// Things that are spread over the ranks, each with its key. @returns those of all ranks when restoring:
+    /// the class finds again what this rank has now, and tells of those that it does not find by miss().
+    template <typename Record>
+    std::vector<Record> records(const std::vector<Record> &of_this_rank)
+    {
+      if (!is_restoring)
+        {
+          write(of_this_rank);
+          return {};
+        }
+      std::vector<Record> all;
+      for (unsigned int rank = 0; rank < parts.size(); ++rank)
+        {
+          std::vector<Record> stored;
+          read(stored, rank);
+          all.insert(all.end(), stored.begin(), stored.end());
+        }
+      return all;
+    }
+
+    /// Something of this rank is not in the archive: it belongs to another mesh.
+    void miss()
+    {
+      has_missed = true;
+    }
+
+    /// Whether everything was found on all ranks, and nothing is left over. Collective.
+    bool found_all() const;
+
+    /// The part of this rank, in bytes.
+    std::string stored() const;
+
+  private:
+    /// What one rank has stored, and how far it is read.
+    struct Part
+    {
+      std::string bytes;
+      std::size_t next = 0;
+    };
+
+    bool on_all_ranks(const bool holds) const;
+    void put(const void *values, const std::size_t n, const std::size_t size);
+    /// @returns the number n of values, which must be of this size; get_values() copies them.
+    std::size_t get_number(const unsigned int rank, const std::size_t size);
+    void        get_values(const unsigned int rank, void *values, const std::size_t bytes);
+    void        share(double &value);
+    void        maximum(double &value);
+
+    template <typename T>
+    void write(const T &value)
+    {
+      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+      put(&value, 1, sizeof value);
+    }
+
+    template <typename T>
+    void read(T &value, const unsigned int rank)
+    {
+      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+      require_number(1, get_number(rank, sizeof value));
+      get_values(rank, &value, sizeof value);
+    }
+
+    template <typename T, typename A>
+    void write(const std::vector<T, A> &values)
+    {
+      if constexpr (std::is_trivially_copyable_v<T>)
+        put(values.data(), values.size(), sizeof(T));
+      else
+        {
+          put(nullptr, values.size(), 0);
+          for (const T &value : values)
+            write(value);
+        }
+    }
+
+    template <typename T, typename A>
+    void read(std::vector<T, A> &values, const unsigned int rank)
+    {
+      constexpr bool plain = std::is_trivially_copyable_v<T>;
+      values.resize(get_number(rank, plain ? sizeof(T) : 0));
+      if constexpr (plain)
+        get_values(rank, values.data(), values.size() * sizeof(T));
+      else
+        for (T &value : values)
+          read(value, rank);
+    }
+
+    template <typename K, typename T>
+    void write(const std::map<K, T> &values)
+    {
+      put(nullptr, values.size(), 0);
+      for (const auto &[key, value] : values)
+        {
+          write(key);
+          write(value);
+        }
+    }
+
+    template <typename K, typename T>
+    void read(std::map<K, T> &values, const unsigned int rank)
+    {
+      values.clear();
+      for (std::size_t n = get_number(rank, 0); n > 0; --n)
+        {
+          K key;
+          read(key, rank);
+          read(values[key], rank);
+        }
+    }
+
+    static void require_number(const std::size_t wanted, const std::size_t stored);
+
+    MPI_Comm          comm;
+    unsigned int      this_rank;
+    bool              is_restoring, same_ranks = true, has_missed = false;
+    std::vector<Part> parts; ///< when storing: this rank's alone
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/dynamics/node_levels.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace tread
+{
+  NodeLevels::NodeLevels(const Mesh                      &mesh,
+                         const Solid                     &solid,
+                         const std::vector<unsigned int> &smallest_steps,
+                         const std::vector<char>         &on_wheel)
+  {
+    set_levels(mesh, solid, smallest_steps);
+    Hangs hangs(mesh.nodes.size(), nullptr);
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      hangs[h.node] = &h;
+    set_hanging_nodes(mesh, solid, hangs);
+    set_slow_shares(mesh, solid, hangs);
+    set_runs(mesh, on_wheel, hangs);
+  }
+
+
+  void NodeLevels::set_levels(const Mesh                      &mesh,
+                              const Solid                     &solid,
+                              const std::vector<unsigned int> &smallest_steps)
+  {
+    unsigned int max_level = 0;
+    for (const unsigned int level : solid.cell_levels())
+      max_level = std::max(max_level, level);
+    max_level = dealii::Utilities::MPI::max(max_level, mesh.comm);
+    runs.resize(max_level + 1);
+    of_node.assign(mesh.nodes.size(), max_level);
+    for (unsigned int level = max_level; level-- > 0;)
+      {
+        // A node moves with its fastest cell on any rank, a parent with those of its hanging nodes, too.
+        NodalField marks(of_node.size(), Row{});
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              marks[i][0] = 1.;
+        if (level == 0)
+          {
+            for (const Mesh::Face &face : mesh.faces)
+              if (face.boundary == Boundary::contact)
+                for (const unsigned int i : face.nodes)
+                  marks[i][0] = 1.;
+            for (const unsigned int i : smallest_steps)
+              marks[i][0] = 1.;
+          }
+        mesh.condense_hanging_nodes(marks.data());
+        mesh.shared_nodes.sum(marks.data());
+        for (unsigned int i = 0; i < marks.size(); ++i)
+          if (marks[i][0] > 0.)
+            of_node[i] = level;
+      }
+  }
+
+
+  void NodeLevels::set_hanging_nodes(const Mesh &mesh, const Solid &solid, const Hangs &hangs)
+  {
+    for (unsigned int body = 0; body < mesh.body_names.size(); ++body)
+      for (const unsigned int i : mesh.boundary_nodes(body, Boundary::contact))
+        if (hangs[i])
+          hanging_at_contact.push_back(*hangs[i]);
+    hanging.resize(runs.size());
+    std::vector<char> is_placed(of_node.size(), false);
+    for (unsigned int level = 0; level <= max_level(); ++level)
+      {
+        std::vector<char> is_loaded(of_node.size(), false);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              if (hangs[i] && !is_loaded[i])
+                {
+                  hanging[level].loaded.push_back(*hangs[i]);
+                  is_loaded[i] = true;
+                  if (!is_placed[i])
+                    hanging[level].placed.push_back(*hangs[i]);
+                  is_placed[i] = true;
+                }
+      }
+  }
+
+
+  void NodeLevels::set_slow_shares(const Mesh &mesh, const Solid &solid, const Hangs &hangs)
+  {
+    slow_shares.resize(runs.size());
+    for (unsigned int level = 1; level <= max_level(); ++level)
+      {
+        // Forces on hanging nodes are their parents'.
+        std::vector<char> is_shared(of_node.size(), false);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (solid.cell_levels()[c] == level)
+            for (const unsigned int i : mesh.cells[c].nodes)
+              {
+                if (!hangs[i])
+                  is_shared[i] = true;
+                else
+                  for (const unsigned int parent : hangs[i]->parents)
+                    is_shared[parent] = true;
+              }
+        SlowShares &shares = slow_shares[level];
+        for (unsigned int own = 0; own < level; ++own)
+          {
+            for (unsigned int i = 0; i < of_node.size(); ++i)
+              if (is_shared[i] && of_node[i] == own)
+                shares.nodes.push_back(i);
+            shares.end_of_level.push_back(shares.nodes.size());
+          }
+        shares.steady.assign(shares.nodes.size(), Row{});
+      }
+  }
+
+
+  void NodeLevels::set_runs(const Mesh &mesh, const std::vector<char> &on_wheel, const Hangs &hangs)
+  {
+    const auto kind = [&](const unsigned int i) {
+      return std::make_tuple(of_node[i], on_wheel[i], mesh.shared_nodes.is_owned(i), hangs[i] != nullptr);
+    };
+    for (unsigned int begin = 0, end = 0; begin < of_node.size(); begin = end)
+      {
+        while (end < of_node.size() && kind(end) == kind(begin))
+          ++end;
+        if (!hangs[begin])
+          runs[of_node[begin]].push_back(
+            {begin, end, bool(on_wheel[begin]), mesh.shared_nodes.is_owned(begin)});
+      }
+  }
+
+
+  void NodeLevels::serialize(Archive &archive)
+  {
+    archive.same(slow_shares_known);
+    for (SlowShares &shares : slow_shares)
+      slow_shares_known = archive.own(shares.steady) && slow_shares_known;
+  }
+
+
+  std::size_t NodeLevels::memory_consumption() const
+  {
+    std::size_t bytes =
+      of_node.size() * sizeof(of_node[0]) + hanging_at_contact.size() * sizeof(Mesh::HangingNode);
+    for (const SlowShares &shares : slow_shares)
+      bytes += shares.nodes.size() * (sizeof(unsigned int) + sizeof(Row));
+    for (const HangingNodes &of_level : hanging)
+      bytes += (of_level.loaded.size() + of_level.placed.size()) * sizeof(Mesh::HangingNode);
+    return bytes;
+  }
+} // namespace tread

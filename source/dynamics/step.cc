@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// One step of the explicit time integration, and what acts on the nodes from outside in it.
+#include <tread/dynamics/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+namespace tread
+{
+  namespace
+  {
+    class Stopwatch
+    {
+    public:
+      double lap()
+      {
+        const auto   now     = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last).count();
+        last                 = now;
+        return seconds;
+      }
+
+    private:
+      std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
+    };
+  } // namespace
+
+
+  void ExplicitDynamics::add_local_damping(const unsigned int due)
+  {
+    for (DampedNode &damped : damped_nodes)
+      if (const unsigned int i = damped.node; levels.of_node[i] <= due)
+        {
+          damped.load =
+            -damped.rate * free_mass(i, std::ldexp(parameters.density_scale, levels.of_node[i])) * v[i];
+          force[i] += damped.load;
+        }
+  }
+
+
+  void ExplicitDynamics::count_local_damping(const unsigned int due)
+  {
+    // The work uses the mean of the velocities before and after the step, as for all prescribed forces.
+    for (const DampedNode &damped : damped_nodes)
+      if (const unsigned int i = damped.node; levels.of_node[i] <= due && mesh.shared_nodes.is_owned(i))
+        totals.damping -= time_step * dot(damped.load, v[i] + (0.5 * time_step * inverse_mass[i]) * force[i]);
+  }
+
+
+  template <typename Loop>
+  inline void ExplicitDynamics::with_body_loads(const bool   has_loads,
+                                                const Run   &run,
+                                                const double factor,
+                                                BodyLoads   &sums,
+                                                const Loop  &loop) const
+  {
+    if (!has_loads)
+      {
+        loop([](const unsigned int) { return Row{}; });
+        return;
+      }
+    BodyLoads    of_run;
+    const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
+    if (run.on_wheel)
+      {
+        const auto  &hub_motion = hub->motion;
+        const double omega      = hub_motion.angular_velocity;
+        const Row    axle{hub_motion.x, 0., hub_motion.z, 0.},
+          velocity{hub_motion.velocity_x, 0., hub_motion.velocity_z, 0.}, spin{omega, 0., -omega, 0.},
+          inward = -compensation() * Row{1., 0., 1., 0.};
+        loop([&](const unsigned int i) {
+          const double mass     = free_mass(i, scaled);
+          const Row    arm      = position(i) - axle;
+          const Row    swapped  = __builtin_shufflevector(arm, arm, 2, 1, 0, 3);
+          const Row    relative = v[i] - velocity - spin * swapped;
+          const Row    momentum = mass * relative;
+          of_run.arms += mass * arm;
+          of_run.momentum += momentum;
+          of_run.moments += swapped * momentum;
+          of_run.squares += relative * momentum;
+          return mass * inward * arm - damping * momentum;
+        });
+      }
+    else
+      loop([&](const unsigned int i) {
+        const Row momentum = free_mass(i, scaled) * v[i];
+        of_run.squares += v[i] * momentum;
+        return -damping * momentum;
+      });
+    if (run.is_owned)
+      sums += of_run;
+  }
+
+
+  void ExplicitDynamics::keep_loads_of_shared(const unsigned int due)
+  {
+    for (LoadOfShared &shared : loads_of_shared)
+      if (shared.level <= due)
+        {
+          shared.load        = force[shared.node];
+          force[shared.node] = Row{};
+        }
+  }
+
+
+  void ExplicitDynamics::prepare_step()
+  {
+    set_damping_time(parameters.damping_steps * time_step);
+    mesh.distribute_hanging_nodes(x_damped.data());
+    next_loads = BodyLoads();
+    std::fill(force.begin(), force.end(), Row{});
+    for (unsigned int level = 0; level <= max_level(); ++level)
+      for (const Run &run : levels.runs[level])
+        {
+          const double factor = std::ldexp(1., level);
+          with_body_loads(level == 0 && has_body_loads(run), run, factor, next_loads, [&](const auto &load) {
+            for (unsigned int i = run.begin; i < run.end; ++i)
+              force[i] = weight(i, factor) + load(i);
+          });
+        }
+    keep_loads_of_shared(max_level());
+  }
+
+
+  void ExplicitDynamics::add_hub_sums(std::vector<double> &sums) const
+  {
+    std::fill(sums.begin(), sums.end(), 0.);
+    for (const unsigned int i : hub_nodes)
+      if (mesh.shared_nodes.is_owned(i))
+        {
+          const Row    x  = position(i);
+          const double rx = x[0] - hub->motion.x, rz = x[2] - hub->motion.z;
+          for (unsigned int d = 0; d < 3; ++d)
+            sums[d] += force[i][d];
+          sums[3] += rz * force[i][0] - rx * force[i][2];
+        }
+  }
+
+
+  void ExplicitDynamics::move_hub_nodes()
+  {
+    for (unsigned int k = 0; k < hub_nodes.size(); ++k)
+      {
+        const unsigned int i = hub_nodes[k];
+        const Row          x = hub->position_of(hub_reference[k]);
+        v[i]                 = hub->velocity_at(x);
+        set_position(i, x);
+      }
+  }
+
+
+  void ExplicitDynamics::sum_forces(const unsigned int due)
+  {
+    mesh.shared_nodes.sum(force.data());
+    // These loads are added after the sum, because the sums of nodes that are not due must remain zero.
+    for (const LoadOfShared &shared : loads_of_shared)
+      if (shared.level <= due)
+        force[shared.node] += shared.load;
+  }
+
+
+  ExplicitDynamics::BodyLoads ExplicitDynamics::add_loads(const unsigned int due)
+  {
+    BodyLoads loads = next_loads;
+    if (!external_force.empty())
+      for (unsigned int level = 0; level <= due; ++level)
+        for (const Run &run : levels.runs[level])
+          for (unsigned int i = run.begin; i < run.end; ++i)
+            force[i] += std::ldexp(1., level) * external_force[i];
+    for (unsigned int level = 1; level <= due; ++level)
+      for (const Run &run : levels.runs[level])
+        if (has_body_loads(run))
+          with_body_loads(true, run, std::ldexp(1., level), loads, [&](const auto &load) {
+            for (unsigned int i = run.begin; i < run.end; ++i)
+              force[i] += load(i);
+          });
+    totals.damping += time_step * parameters.mass_damping * dot(loads.squares, Row{1., 1., 1., 0.});
+    add_local_damping(due);
+    hold_guided_nodes(force);
+    return loads;
+  }
+
+
+  void ExplicitDynamics::set_rank_sums(const BodyLoads &loads)
+  {
+    if (hub)
+      {
+        add_hub_sums(rank_sums);
+        for (unsigned int d = 0; d < 3; ++d)
+          rank_sums[d] += parameters.mass_damping * loads.momentum[d];
+        rank_sums[3] += parameters.mass_damping * (loads.moments[0] - loads.moments[2]);
+        rank_sums[4] = loads.arms[0];
+        rank_sums[5] = loads.arms[2];
+      }
+    else
+      std::fill(rank_sums.begin(), rank_sums.end(), 0.);
+    if (supports)
+      supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + n_hub_sums);
+  }
+
+
+  void ExplicitDynamics::add_contact_forces()
+  {
+    Stopwatch watch;
+    if (contact->refresh_due())
+      {
+        check_stability(); // a search among nodes that fly apart fills the memory
+        contact->refresh(positions().data(), v.data(), time_step);
+        times.search += watch.lap();
+      }
+    contact->predict(v.data(), force.data(), time_step, rank_sums);
+    times.communication += watch.lap();
+    contact->solve(time_step, force.data());
+    const ContactWork work = contact->last_work();
+    totals.friction += work.friction;
+    totals.contact += work.normal + work.adhesion;
+    totals.contact_on_nodes += work.on_nodes;
+    times.contact += watch.lap();
+  }
+
+
+  void ExplicitDynamics::advance_hub()
+  {
+    const WheelHub::Motion before = hub->motion;
+    hub->advance(Row{rank_sums[0], rank_sums[1], rank_sums[2], 0.}, rank_sums[3], time_step);
+    // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
+    // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
+    const double work = -0.5 * time_step * compensation() *
+                        (rank_sums[4] * (before.velocity_x + hub->motion.velocity_x) +
+                         rank_sums[5] * (before.velocity_z + hub->motion.velocity_z));
+    if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+      {
+        totals.external_work += work;
+        totals.gross_work += std::abs(work);
+      }
+  }
+
+
+  void ExplicitDynamics::advance_nodes(const unsigned int due)
+  {
+    const bool loaded = !external_force.empty();
+    double     work = 0., gross = 0.;
+    next_loads = BodyLoads();
+    for (unsigned int level = 0; level <= due; ++level)
+      {
+        const double factor = std::ldexp(1., level), way = factor * time_step + damping_time;
+        for (const Run &run : levels.runs[level])
+          {
+            const auto advance = [&](const unsigned int i) {
+              const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
+              if (loaded && run.is_owned)
+                {
+                  const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
+                  work += w;
+                  gross += std::abs(w);
+                }
+              x_damped[i] += way * velocity - damping_time * v[i];
+              v[i] = velocity;
+            };
+            with_body_loads(level == 0 && has_body_loads(run), run, factor, next_loads,
+                            [&](const auto &load) {
+                              for (unsigned int i = run.begin; i < run.end; ++i)
+                                {
+                                  advance(i);
+                                  force[i] = weight(i, factor) + load(i);
+                                }
+                            });
+          }
+      }
+    keep_loads_of_shared(due);
+    totals.external_work += work;
+    totals.gross_work += gross;
+  }
+
+
+  void ExplicitDynamics::step()
+  {
+    Stopwatch                    watch;
+    std::optional<DampingSample> sample;
+    if (synchronised() &&
+        (!damping_is_sampled || n_steps >= last_damping_step + parameters.steps_between_damping_samples))
+      sample = begin_damping_sample();
+    const unsigned int due = level_due();
+    add_forces_due(due);
+    if (supports)
+      supports->add_forces(force.data());
+    times.internal_forces += watch.lap();
+    sum_forces(due);
+    times.communication += watch.lap();
+    set_rank_sums(add_loads(due));
+    times.nodes += watch.lap();
+
+    if (contact)
+      {
+        add_contact_forces();
+        watch.lap(); // counted there
+      }
+    else if (!rank_sums.empty())
+      dealii::Utilities::MPI::sum(rank_sums, mesh.comm, rank_sums);
+    if (supports)
+      supports->advance(rank_sums.data() + n_hub_sums, time_step);
+    if (hub)
+      advance_hub();
+    count_local_damping(due);
+    advance_nodes(due);
+    if (hub)
+      move_hub_nodes();
+    time += time_step;
+    ++n_steps;
+    place_hanging_nodes();
+    if (sample)
+      end_damping_sample(*sample);
+    times.nodes += watch.lap();
+  }
+} // namespace tread
