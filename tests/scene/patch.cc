@@ -47,10 +47,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
              traction_over_pressure(answer, answer.x[e], answer.y[e])[0];
   check.relative("tractions of a start: their force, N", force, answer.longitudinal_force, 1e-9);
   check.relative("tractions of a start: over pressure behind the patch",
-                 traction_over_pressure(answer, -30e-3, 0.)[0], crown.friction, 1e-6);
+                 traction_over_pressure(answer, -30e-3, 0.)[0], crown.contact.friction_coefficient, 1e-6);
   const double ahead = traction_over_pressure(answer, 30e-3, 1e-3)[0];
   check.that("tractions of a start: below the bound ahead of the patch",
-             ahead > 0. && ahead < crown.friction);
+             ahead > 0. && ahead < crown.contact.friction_coefficient);
 
   for (const std::string profile : {"54E1", "60E1"})
     {
