@@ -82,10 +82,7 @@ int main(int argc, char **argv)
       {
         if (n > kind.most)
           continue;
-        std::array<Boundary, 6> free;
-        free.fill(Boundary::free);
-        Body body =
-          tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {{n, n, n}}, free);
+        Body body = tests::make_box("box", dealii::Point<3>(), dealii::Point<3>(0.1, 0.1, 0.1), {{n, n, n}});
         if (kind.shape == std::string("general")) // no two alike
           for (dealii::Point<3> &p : body.vertices)
             {

@@ -27,13 +27,11 @@ int main(int argc, char **argv)
   std::printf("%u lanes of double precision, one core, a quarter of the cells plastic\n\n", n_lanes);
   std::printf("| cells | hardening | state | elastic, ns a cell | with the zone | ratio "
               "|\n|---|---|---|---|---|---|\n");
-  constexpr unsigned int  n    = 32;
-  constexpr double        edge = 0.032; // m
-  std::array<Boundary, 6> free;
-  free.fill(Boundary::free);
-  const Mesh mesh(MPI_COMM_SELF, {tests::make_box("box", dealii::Point<3>(),
-                                                  dealii::Point<3>(edge, edge, edge), {{n, n, n}}, free)});
-  const auto upper = [](const dealii::Point<3> &p) {
+  constexpr unsigned int n    = 32;
+  constexpr double       edge = 0.032; // m
+  const Mesh             mesh(MPI_COMM_SELF, {tests::make_box("box", dealii::Point<3>(),
+                                                              dealii::Point<3>(edge, edge, edge), {{n, n, n}})});
+  const auto             upper = [](const dealii::Point<3> &p) {
     return p[2] > 0.75 * edge;
   };
   const Solid    elastic(mesh, {ElasticMaterial()}, SolidParameters());

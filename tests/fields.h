@@ -14,11 +14,6 @@
 
 namespace tread::tests
 {
-  inline Row cross(const Row a, const Row b)
-  {
-    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
-  }
-
   inline double size(const Row a)
   {
     return std::sqrt(dot(a, a));

@@ -126,14 +126,18 @@ namespace
     static constexpr double edge = 0.02, mass = 1., time_step = 1e-4; // m, kg, s
 
     explicit Block(const FrictionLaw &law)
-      : mesh(
-          MPI_COMM_WORLD,
-          {tests::make_box("block", Point<3>(0., 0., 0.), Point<3>(edge, edge, edge), {{1, 1, 1}}, lower()),
-           tests::make_box("plane",
-                           Point<3>(-0.05, -0.05, -0.05),
-                           Point<3>(0.95, 0.07, 0.),
-                           {{20, 2, 1}},
-                           upper())})
+      : mesh(MPI_COMM_WORLD,
+             {tests::make_box("block",
+                              Point<3>(0., 0., 0.),
+                              Point<3>(edge, edge, edge),
+                              {{1, 1, 1}},
+                              {{tests::Side::bottom, Boundary::contact}}),
+              tests::make_box(
+                "plane",
+                Point<3>(-0.05, -0.05, -0.05),
+                Point<3>(0.95, 0.07, 0.),
+                {{20, 2, 1}},
+                {{tests::Side::bottom, Boundary::support}, {tests::Side::top, Boundary::contact}})})
       , contact(mesh, ContactParameters(), std::shared_ptr<const FrictionLaw>(&law, [](auto *) {}))
       , x(mesh.nodes.size(), Row{})
       , v(mesh.nodes.size(), Row{})
@@ -193,17 +197,6 @@ namespace
     Contact contact;
 
   private:
-    static std::array<Boundary, 6> lower()
-    {
-      return {
-        {Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::contact, Boundary::free}};
-    }
-    static std::array<Boundary, 6> upper()
-    {
-      return {{Boundary::free, Boundary::free, Boundary::free, Boundary::free, Boundary::support,
-               Boundary::contact}};
-    }
-
     NodalField                x, v;
     std::vector<double>       inverse_mass;
     std::vector<unsigned int> nodes;

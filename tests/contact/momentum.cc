@@ -15,7 +15,6 @@
 using namespace tread;
 using tests::Check;
 using tests::size;
-using tests::cross;
 using dealii::Point;
 
 namespace

@@ -12,7 +12,6 @@
 
 using namespace tread;
 using tests::Check;
-using tests::cross;
 using tests::size;
 using dealii::Point;
 
