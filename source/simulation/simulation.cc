@@ -325,7 +325,8 @@ namespace tread
     // mpirun gives its ranks a second to end after Ctrl-C.
     EverySoManySteps look_at_signals{10, dynamics.n_steps}, check{100, dynamics.n_steps + 100},
       look_at_cells{200, dynamics.n_steps + 200};
-    Pace pace{progress.seconds(), dynamics.n_steps, progress.seconds()};
+    Pace pace{progress.seconds(), dynamics.n_steps, progress.seconds(),
+              mesh.n_global_cells / dynamics.ideal_gain_of_levels()};
     while (dynamics.n_steps < n_steps)
       {
         set_drive();
@@ -415,12 +416,12 @@ namespace tread
   void Simulation::show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const
   {
     const Row    force = (1. / dynamics.time_step) * contact.total_impulse();
-    const double spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step,
-                 updates_of_step = mesh.n_global_cells / dynamics.ideal_gain_of_levels();
-    progress.show(format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left",
-                         1e3 * position(), 1e-3 * force[2], force[0] / force[2],
-                         1e9 * spent / done / updates_of_step * dealii::Utilities::MPI::n_mpi_processes(comm),
-                         spent / done * steps_left));
+    const double spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step;
+    progress.show(
+      format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),
+             1e-3 * force[2], force[0] / force[2],
+             1e9 * spent / done / pace.updates_of_step * dealii::Utilities::MPI::n_mpi_processes(comm),
+             spent / done * steps_left));
   }
 
 

@@ -68,6 +68,7 @@ namespace tread
       double        began; ///< wall time, s
       std::uint64_t first_step;
       double        last_checkpoint; ///< wall time, s
+      double        updates_of_step; ///< of cells of all ranks
     };
     void announce(Progress &progress) const;
     End  roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);
@@ -75,6 +76,7 @@ namespace tread
     /// @returns false when interrupted by a signal.
     bool change_wheels(RunFolder &folder, Progress &progress);
     void keep_checkpoint(Checkpoint &checkpoint, const Progress &progress, Pace &pace);
+    /// Not collective: only rank 0 has something to show.
     void show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const;
     void finish(RunFolder &folder, const End end);
     /// Compare the answer with Kalker's solution for the forces that act. If (nearly) the whole patch slips,
