@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
 #include <tread/geometry/measured_line.h>
 
 // clang-format off
@@ -32,13 +33,6 @@ namespace tread
     [[noreturn]] void fail(const std::string &file, const unsigned int line, const std::string &what)
     {
       fail(file, "line " + std::to_string(line) + ": " + what);
-    }
-
-    std::string in_mm(const double length)
-    {
-      std::ostringstream text;
-      text << 1e3 * length << " mm";
-      return text.str();
     }
 
     /// What stands before # or !.
@@ -215,8 +209,8 @@ namespace tread
       for (std::size_t i = 0; i < spacing.size(); ++i)
         if (spacing[i] > 5. * sorted[sorted.size() / 2])
           fail(file, samples[i + 1].line,
-               "gap of " + in_mm(spacing[i]) + " where points are usually " +
-                 in_mm(sorted[sorted.size() / 2]) + " apart");
+               "gap of " + text_in_mm(spacing[i]) + " mm where points are usually " +
+                 text_in_mm(sorted[sorted.size() / 2]) + " mm apart");
     }
 
     /// The samples around x = 0 in which x runs on, in increasing order.
@@ -244,18 +238,18 @@ namespace tread
                  folds_after  = samples[end].x < half_width && end + 1 < samples.size();
       if (folds_before || folds_after)
         fail(file, samples[folds_before ? begin - 1 : end + 1].line,
-             "the lateral coordinate turns back at " + in_mm(samples[folds_before ? begin : end].x) +
-               "; it must run on to " + in_mm(half_width) + " at both sides");
+             "the lateral coordinate turns back at " + text_in_mm(samples[folds_before ? begin : end].x) +
+               " mm; it must run on to " + text_in_mm(half_width) + " mm at both sides");
       if (samples[begin].x > -half_width || samples[end].x < half_width)
-        fail(file, "reaches from " + in_mm(samples[begin].x) + " to " + in_mm(samples[end].x) +
-                     "; at least " + in_mm(half_width) + " at both sides are needed");
+        fail(file, "reaches from " + text_in_mm(samples[begin].x) + " mm to " + text_in_mm(samples[end].x) +
+                     " mm; at least " + text_in_mm(half_width) + " mm at both sides are needed");
       samples = std::vector<Sample>(samples.begin() + begin, samples.begin() + end + 1);
       std::vector<Sample> needed;
       for (const Sample &s : samples)
         if (std::abs(s.x) <= half_width)
           needed.push_back(s);
       if (needed.size() < 4)
-        fail(file, "has less than four points within " + in_mm(half_width) + " of the middle");
+        fail(file, "has less than four points within " + text_in_mm(half_width) + " mm of the middle");
       refuse_gaps(file, needed);
       return samples;
     }

@@ -6,12 +6,28 @@
 #include <boost/serialization/array.hpp>
 
 #include <algorithm>
-#include <iomanip>
 #include <map>
-#include <sstream>
+#include <utility>
 
 namespace tread
 {
+  namespace
+  {
+    /// Columns of arrays of values in SI units, in their order.
+    template <std::size_t n>
+    Columns<std::array<double, n>> columns_of(
+      const std::array<std::pair<const char *, const char *>, n> &names)
+    {
+      Columns<std::array<double, n>> columns;
+      for (std::size_t k = 0; k < n; ++k)
+        columns.push_back({names[k].first, names[k].second, [k](const std::array<double, n> &row) {
+                             return row[k];
+                           }});
+      return columns;
+    }
+  } // namespace
+
+
   void RunFolder::write_rail_tables(const ExplicitDynamics &dynamics,
                                     const unsigned int      body,
                                     const double            depth) const
@@ -30,9 +46,8 @@ namespace tread
           if (-center[2] > depth || std::abs(center[1]) > depth)
             continue;
           const std::array<double, 6> &s = stress[c];
-          cells.push_back({{1e3 * center[0], 1e3 * center[1], 1e3 * center[2], 1e-6 * von_mises(s),
-                            1e-6 * s[0], 1e-6 * s[1], 1e-6 * s[2], 1e-6 * s[3], 1e-6 * s[4], 1e-6 * s[5],
-                            strain.empty() ? 0. : 100. * strain[c]}});
+          cells.push_back({{center[0], center[1], center[2], von_mises(s), s[0], s[1], s[2], s[3], s[4], s[5],
+                            strain.empty() ? 0. : strain[c]}});
         }
     std::map<std::array<long long, 4>, std::array<double, 6>> own;
     for (const Mesh::Face &face : mesh.faces)
@@ -42,8 +57,7 @@ namespace tread
             {
               const dealii::Point<3> &p = mesh.nodes[i];
               const Row               u = dynamics.position(i) - Row{p[0], p[1], p[2], 0.};
-              own[mesh.node_key(i)]     = {
-                    {1e3 * p[0], 1e3 * p[1], 1e3 * p[2], 1e6 * u[0], 1e6 * u[1], 1e6 * u[2]}};
+              own[mesh.node_key(i)]     = {{p[0], p[1], p[2], u[0], u[1], u[2]}};
             }
     std::vector<std::array<double, 6>> nodes;
     for (const auto &[key, values] : own)
@@ -51,25 +65,31 @@ namespace tread
 
     const auto all_cells  = dealii::Utilities::MPI::gather(comm, cells, 0);
     const auto all_nodes  = dealii::Utilities::MPI::gather(comm, nodes, 0);
-    const auto write_rows = [&](const std::string &name, const std::string &header, const auto &lists) {
+    const auto write_rows = [&](const std::string &name, const auto &columns, const auto &lists) {
       auto rows = lists.front();
       for (std::size_t i = 1; i < lists.size(); ++i)
         rows.insert(rows.end(), lists[i].begin(), lists[i].end());
       std::sort(rows.begin(), rows.end());
-      std::ostringstream text;
-      text << header << '\n' << std::setprecision(9);
-      for (const auto &row : rows)
-        for (std::size_t k = 0; k < row.size(); ++k)
-          text << row[k] << (k + 1 < row.size() ? ',' : '\n');
-      write(name, text.str());
+      write_table(name, columns, rows);
     };
     if (!writes_tables)
       return;
+    write_rows("rail_cells.csv",
+               columns_of<11>({{{"x", "mm"},
+                                {"y", "mm"},
+                                {"z", "mm"},
+                                {"von_mises", "MPa"},
+                                {"stress_xx", "MPa"},
+                                {"stress_yy", "MPa"},
+                                {"stress_zz", "MPa"},
+                                {"stress_xy", "MPa"},
+                                {"stress_yz", "MPa"},
+                                {"stress_zx", "MPa"},
+                                {"equivalent_plastic_strain", "percent"}}}),
+               all_cells);
     write_rows(
-      "rail_cells.csv",
-      "x_mm,y_mm,z_mm,von_mises_MPa,stress_xx_MPa,stress_yy_MPa,stress_zz_MPa,stress_xy_MPa,stress_yz_MPa,"
-      "stress_zx_MPa,equivalent_plastic_strain_percent",
-      all_cells);
-    write_rows("rail_surface.csv", "x_mm,y_mm,z_mm,u_x_um,u_y_um,u_z_um", all_nodes);
+      "rail_surface.csv",
+      columns_of<6>({{{"x", "mm"}, {"y", "mm"}, {"z", "mm"}, {"u_x", "um"}, {"u_y", "um"}, {"u_z", "um"}}}),
+      all_nodes);
   }
 } // namespace tread

@@ -15,7 +15,6 @@
 #include <iomanip>
 #include <iterator>
 #include <regex>
-#include <sstream>
 #include <stdexcept>
 
 namespace tread

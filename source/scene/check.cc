@@ -266,9 +266,7 @@ namespace tread
 
   std::shared_ptr<const FrictionLaw> Scene::friction_law() const
   {
-    handler.enter_subsection("Contact");
-    const std::unique_ptr<dealii::ParameterHandler, void (*)(dealii::ParameterHandler *)> leave_at_end(
-      &handler, [](dealii::ParameterHandler *entered) { entered->leave_subsection(); });
+    const Section section(handler, "Contact");
     try
       {
         return make_friction_law(contact.friction_law, contact.friction_coefficient, handler);

@@ -36,9 +36,8 @@ namespace tread
       };
     // 50 elements along a patch, or as many elements in a wide one: creepages within 0.03 % of the limit for
     // Hertz's patch, a quarter of a per cent for others.
-    const reference::HertzEllipse ellipse = reference::hertz_ellipse(
-      c.curvature_x, c.curvature_y, reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
-    const double a = ellipse.semi_axis_x, b = ellipse.semi_axis_y;
+    const reference::HertzEllipse ellipse = hertz(c);
+    const double                  a = ellipse.semi_axis_x, b = ellipse.semi_axis_y;
     c.element_size = std::min(std::max(a, std::sqrt(a * b)) / 25., std::min(a, b) / 7.);
     return c;
   }
@@ -56,11 +55,16 @@ namespace tread
   }
 
 
+  reference::HertzEllipse hertz(const reference::RollingCase &c)
+  {
+    return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
+                                    reference::combine(c.wheel, c.rail).hertz_modulus(), c.normal_force);
+  }
+
+
   reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
   {
-    const reference::RollingCase c = half_space_case(scene, normal_force, 0.);
-    return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
-                                    reference::combine(c.wheel, c.rail).hertz_modulus(), normal_force);
+    return hertz(half_space_case(scene, normal_force, 0.));
   }
 
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <memory>
-#include <sstream>
 
 namespace tread
 {
@@ -54,10 +53,7 @@ namespace tread
     /// With as many digits as a user would give, and no round-off of the conversion.
     std::string in_file(const double value, const Unit &unit)
     {
-      std::ostringstream text;
-      text.precision(12);
-      text << value / unit.times * unit.over;
-      return text.str();
+      return format("%.12g", value / unit.times * unit.over);
     }
 
     double in_si(const std::string &text, const Unit &unit)
@@ -98,20 +94,6 @@ namespace tread
   {
     if (!holds)
       throw SceneError(line);
-  }
-
-
-  std::string text_of(const double value)
-  {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-  }
-
-
-  std::string text_in_mm(const double length)
-  {
-    return text_of(1e3 * length);
   }
 
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 namespace tread
 {
@@ -132,7 +131,7 @@ namespace tread
       return {y, y};
     const reference::RollingCase  touching = half_space_case(*this, load, 0.);
     const reference::ElasticPair  pair     = reference::combine(touching.wheel, touching.rail);
-    const reference::HertzEllipse hertz    = tread::hertz(*this, load);
+    const reference::HertzEllipse hertz    = tread::hertz(touching);
     const double                  radius   = rolling_radius();
 
     // The range extends to each side as far as the running surfaces are known, unless the ellipse is small.

@@ -10,11 +10,8 @@
 #include "interruption.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <filesystem>
 #include <sstream>
 
 namespace tread

@@ -6,7 +6,6 @@
 #include "interruption.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace tread

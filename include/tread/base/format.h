@@ -16,6 +16,18 @@ namespace tread
     std::snprintf(text.data(), text.size() + 1, pattern, values...);
     return text;
   }
+
+  /// A number with six digits, as messages show it.
+  inline std::string text_of(const double value)
+  {
+    return format("%g", value);
+  }
+
+  /// The same of a length in m, shown in mm.
+  inline std::string text_in_mm(const double length)
+  {
+    return text_of(1e3 * length);
+  }
 } // namespace tread
 
 #endif

@@ -23,6 +23,9 @@ namespace tread
   /// coefficient if a torque drives or the creepage is to be predicted.
   reference::RollingCase half_space_case(const Scene &scene);
 
+  /// Hertz's patch of a case with like curvatures along each axis, its true gap aside.
+  reference::HertzEllipse hertz(const reference::RollingCase &c);
+
   /// Hertz's patch of the scene's wheel and rail. @param normal_force N, > 0
   reference::HertzEllipse hertz(const Scene &scene, double normal_force);
 

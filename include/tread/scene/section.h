@@ -2,6 +2,8 @@
 #ifndef tread_scene_section_h
 #define tread_scene_section_h
 
+#include <tread/base/format.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <functional>
@@ -21,11 +23,6 @@ namespace tread
 
   /// @throws SceneError with this line unless the condition holds.
   void require(bool holds, const std::string &line);
-
-  /// A number with six digits, as messages show it.
-  std::string text_of(double value);
-  /// The same of a length in m, shown in mm.
-  std::string text_in_mm(double length);
 
 
   /// A value of an enumeration, its name in a parameter file and what it means.
