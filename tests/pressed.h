@@ -106,7 +106,6 @@ namespace tread::tests
     {
       ContactParameters parameters;
       parameters.slave_body  = p.slave;
-      parameters.master_body = 1 - p.slave;
       return parameters;
     }
   };

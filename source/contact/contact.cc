@@ -62,7 +62,7 @@ namespace tread
         {
           if (node.body == parameters.slave_body)
             own_nodes[0].push_back(node.local);
-          else if (node.body == parameters.master_body)
+          else
             own_nodes[1].push_back(node.local);
         }
     face_size = std::numeric_limits<double>::max();
@@ -111,7 +111,7 @@ namespace tread
 
     const double         search_reach = searched * face_size, reach = coupled * face_size;
     const MortarCoupling coupling =
-      couple(surfaces, all_x, all_v, parameters.slave_body, parameters.master_body, search_reach, reach);
+      couple(surfaces, all_x, all_v, parameters.slave_body, search_reach, reach);
 
     // Until the next refresh no node may come to touch that is not a candidate now. The way that the surfaces
     // can have gone towards each other is bounded by the sum of their largest speeds since; where only part
@@ -259,6 +259,12 @@ namespace tread
         involved_hanging.push_back({static_cast<unsigned int>(number[h.node]),
                                     {{static_cast<unsigned int>(number[h.parents[0]]),
                                       static_cast<unsigned int>(number[h.parents[1]])}}});
+    master_of.assign(problem.constraints.size(), parameters.slave_body);
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        if (const unsigned int body = surfaces.nodes[involved[problem.entries[i].node]].body;
+            body != parameters.slave_body)
+          master_of[j] = body;
     velocity.assign(involved.size(), Row{});
     predicted.assign(involved.size(), Row{});
     velocity_before.assign(involved.size(), Row{});

@@ -26,13 +26,26 @@ namespace tread
   }
 
 
-  double Contact::free_rolling_creepage(const Row *x) const
+  Row Contact::total_impulse_on(const unsigned int body) const
+  {
+    if (body == parameters.slave_body)
+      return -1. * total_impulse();
+    Row sum{};
+    for (unsigned int j = 0; j < impulse.size(); ++j)
+      if (master_of[j] == body)
+        sum += impulse[j];
+    return sum;
+  }
+
+
+  double Contact::free_rolling_creepage(const Row *x, const unsigned int master_body) const
   {
     std::vector<Row> now;
     surfaces.replicate(x, now);
     std::vector<double> load(surfaces.nodes.size(), 0.);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
+        if (master_of[j] == master_body)
         load[involved[problem.entries[i].node]] +=
           problem.entries[i].coefficient * dot(impulse[j], problem.constraints[j].normal);
 
@@ -52,7 +65,7 @@ namespace tread
         const unsigned int a      = along ? 0 : 1;
         const double       before = norm(edge(a, a + 1, true)) + norm(edge((a + 3) % 4, a + 2, true));
         const double       after  = norm(edge(a, a + 1, false)) + norm(edge((a + 3) % 4, a + 2, false));
-        const bool         master = face.body == parameters.master_body;
+        const bool         master = face.body == master_body;
         stretch[master] += w * (after / before - 1.);
         weight[master] += w;
       }
@@ -73,15 +86,16 @@ namespace tread
         if (normal <= 0.)
           continue;
         ContactNodeState state;
-        state.node     = constraint.slave;
-        state.position = position[number[constraint.slave]];
-        state.normal   = constraint.normal;
-        state.impulse  = impulse[j];
-        const Row u    = problem.combine(constraint, velocity);
-        state.slip     = u - dot(u, constraint.normal) * constraint.normal;
-        state.area     = constraint.area;
-        state.gap      = dot(problem.combine(constraint, position), constraint.normal);
-        state.adhesion = !slips[j];
+        state.node        = constraint.slave;
+        state.master_body = master_of[j];
+        state.position    = position[number[constraint.slave]];
+        state.normal      = constraint.normal;
+        state.impulse     = impulse[j];
+        const Row u       = problem.combine(constraint, velocity);
+        state.slip        = u - dot(u, constraint.normal) * constraint.normal;
+        state.area        = constraint.area;
+        state.gap         = dot(problem.combine(constraint, position), constraint.normal);
+        state.adhesion    = !slips[j];
         states.push_back(state);
       }
     return gathered(states, comm);

@@ -62,14 +62,13 @@ namespace tread
     }
 
 
-    /// The faces of the master surface that lie where the slave surface may reach, to be searched.
+    /// The faces of the master surfaces that lie where the slave surface may reach, to be searched.
     class MasterFaces
     {
     public:
       MasterFaces(const ContactSurfaces  &surfaces,
                   const std::vector<Row> &x,
                   const unsigned int      slave_body,
-                  const unsigned int      master_body,
                   const double            search_reach)
       {
         Box slave_extent;
@@ -80,7 +79,7 @@ namespace tread
             bg::expand(slave_extent, box_of(face, x, everywhere(search_reach)));
         std::vector<Entry> boxes;
         for (unsigned int f = 0; f < surfaces.faces.size(); ++f)
-          if (surfaces.faces[f].body == master_body)
+          if (surfaces.faces[f].body != slave_body)
             if (const Box box = box_of(surfaces.faces[f], x, Row{}); bg::intersects(box, slave_extent))
               {
                 boxes.emplace_back(box, f);
@@ -549,12 +548,11 @@ namespace tread
                         const std::vector<Row> &x,
                         const std::vector<Row> &v,
                         const unsigned int      slave_body,
-                        const unsigned int      master_body,
                         const double            search_reach,
                         const double            reach)
   {
     MortarCoupling    coupling;
-    const MasterFaces master_faces(surfaces, x, slave_body, master_body, search_reach);
+    const MasterFaces master_faces(surfaces, x, slave_body, search_reach);
     if (master_faces.empty())
       {
         coupling.time_to_touch = Found().time_to_touch;

@@ -97,7 +97,9 @@ namespace tread
     energy = dealii::Utilities::MPI::sum(energy, mesh.comm);
     if (supports)
       energy += supports->sleeper_kinetic_energy(time_step);
-    return hub ? energy + hub->kinetic_energy(0.5 * time_step) : energy;
+    for (const Wheel &wheel : wheels)
+      energy += wheel.hub->kinetic_energy(0.5 * time_step);
+    return energy;
   }
 
 
@@ -113,23 +115,37 @@ namespace tread
   double ExplicitDynamics::body_potential() const
   {
     // Evaluated at the instant of the velocities, half a step back, up to which work is counted.
-    const double compensation = this->compensation();
-    double       potential    = 0.;
+    double potential = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
           const double back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
           const Row    before = position(i) - back * v[i];
           potential += true_mass[i] * parameters.gravity * before[2];
-          if (on_wheel[i])
+          if (const int number = wheel_of(i); number >= 0)
             {
-              const double rx = before[0] - hub->motion.x + back * hub->motion.velocity_x,
-                           rz = before[2] - hub->motion.z + back * hub->motion.velocity_z;
-              potential += 0.5 * compensation * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
+              const Wheel            &wheel  = wheels[number];
+              const WheelHub::Motion &motion = wheel.hub->motion;
+              const double            rx     = before[0] - motion.x + back * motion.velocity_x,
+                           rz                = before[2] - motion.z + back * motion.velocity_z;
+              potential +=
+                0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
             }
         }
     potential = dealii::Utilities::MPI::sum(potential, mesh.comm);
     return supports ? potential + supports->weight_potential(time_step) : potential;
+  }
+
+
+  std::array<double, 2> ExplicitDynamics::work_on_hubs() const
+  {
+    std::array<double, 2> work{};
+    for (const Wheel &wheel : wheels)
+      {
+        work[0] += wheel.hub->external_work();
+        work[1] += wheel.hub->gross_work();
+      }
+    return work;
   }
 
 
@@ -149,11 +165,9 @@ namespace tread
     const double fall    = start_potential - body_potential();
     now.external_work += fall;
     now.gross_work += std::abs(fall);
-    if (hub)
-      {
-        now.external_work += hub->external_work() - start_hub_work;
-        now.gross_work += hub->gross_work() - start_hub_gross;
-      }
+    const std::array<double, 2> hub_work = work_on_hubs();
+    now.external_work += hub_work[0] - start_hub_work[0];
+    now.gross_work += hub_work[1] - start_hub_work[1];
     if (supports)
       {
         now.springs = supports->spring_energy() - start_springs;

@@ -40,7 +40,7 @@ namespace tread
     , inverse_mass(mesh.nodes.size(), 0.)
     , fixed(mesh.nodes.size(), false)
     , carried(mesh.nodes.size(), false)
-    , on_wheel(mesh.nodes.size(), false)
+    , wheel_of_body(mesh.body_names.size(), -1)
   {
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       x_damped[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
@@ -83,34 +83,33 @@ namespace tread
                                     const unsigned int body,
                                     const double       angular_velocity)
   {
-    hub                      = &wheel_hub;
-    hub_body                 = body;
-    nominal_angular_velocity = angular_velocity;
-    for (unsigned int i = 0; i < on_wheel.size(); ++i)
-      on_wheel[i] = mesh.node_bodies[i] == body;
-    hub_nodes = support_nodes(body);
-    hub_reference.clear();
-    for (const unsigned int i : hub_nodes)
+    const int number    = wheels.size();
+    wheel_of_body[body] = number;
+    wheels.push_back({&wheel_hub, body, angular_velocity});
+    Wheel                  &wheel  = wheels.back();
+    const WheelHub::Motion &motion = wheel_hub.motion;
+    wheel.nodes                    = support_nodes(body);
+    for (const unsigned int i : wheel.nodes)
       {
         carried[i] = true;
-        hub_reference.push_back(position(i) - Row{hub->motion.x, 0., hub->motion.z, 0.});
+        wheel.reference.push_back(position(i) - Row{motion.x, 0., motion.z, 0.});
       }
-    rank_sums.resize(n_hub_sums + (supports ? supports->n_points() : 0));
+    rank_sums.resize(n_sums_of_hubs() + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
 
     std::vector<double> sums(4, 0.);
     for (unsigned int i = 0; i < v.size(); ++i)
-      if (on_wheel[i] && !carried[i] && mesh.shared_nodes.is_owned(i))
+      if (wheel_of(i) == number && !carried[i] && mesh.shared_nodes.is_owned(i))
         {
           const Row    x  = position(i);
-          const double rx = x[0] - hub->motion.x, rz = x[2] - hub->motion.z;
+          const double rx = x[0] - motion.x, rz = x[2] - motion.z;
           sums[0] += true_mass[i];
           sums[1] += true_mass[i] * (rx * rx + rz * rz);
           sums[2] += true_mass[i] * rx;
           sums[3] += true_mass[i] * rz;
         }
     dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    hub->take_out(sums[0], sums[1], sums[2], sums[3]);
+    wheel_hub.take_out(sums[0], sums[1], sums[2], sums[3]);
   }
 
 
@@ -125,7 +124,7 @@ namespace tread
     supports = &s;
     s.set_gravity(parameters.gravity);
     rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
-    rank_sums.resize(n_hub_sums + s.n_points());
+    rank_sums.resize(n_sums_of_hubs() + s.n_points());
     set_node_levels();
   }
 
@@ -153,29 +152,39 @@ namespace tread
   void ExplicitDynamics::set_wheel_velocities()
   {
     // Half a step back, as velocities are: the centripetal acceleration in that time is no small thing.
-    const Row    of_axle = hub->velocity_at(Row{hub->motion.x, 0., hub->motion.z, 0.});
-    const double step    = parameters.courant_number * critical_time_step();
+    const double step = parameters.courant_number * critical_time_step();
     for (unsigned int i = 0; i < v.size(); ++i)
-      if (on_wheel[i])
+      if (const int number = wheel_of(i); number >= 0)
         {
-          const double back = 0.5 * std::ldexp(step, levels.of_node[i]);
-          const Row    x    = position(i);
-          v[i]              = hub->velocity_at(x - back * (hub->velocity_at(x) - of_axle));
+          const WheelHub &hub     = *wheels[number].hub;
+          const Row       of_axle = hub.velocity_at(Row{hub.motion.x, 0., hub.motion.z, 0.});
+          const double    back    = 0.5 * std::ldexp(step, levels.of_node[i]);
+          const Row       x       = position(i);
+          v[i]                    = hub.velocity_at(x - back * (hub.velocity_at(x) - of_axle));
         }
   }
 
 
   void ExplicitDynamics::set_track_velocities()
   {
-    // How the deflection changes while the load moves by a small way, over the time that takes.
-    const double          x = hub->motion.x, load = hub->static_force();
-    const RailBeam::Field before = rail_beam->balance(x - half_way, load),
-                          after  = rail_beam->balance(x + half_way, load);
-    const double rate            = 0.5 * hub->motion.velocity_x / half_way;
+    // How the deflection changes while the loads move by a small way, over the time that takes.
+    const auto loads_moved_by = [&](const double way) {
+      std::vector<reference::SupportedBeam::Load> loads;
+      for (const Wheel &wheel : wheels)
+        loads.push_back({wheel.hub->motion.x + way, wheel.hub->static_force()});
+      return loads;
+    };
+    const RailBeam::Field before = rail_beam->balance(loads_moved_by(-half_way)),
+                          after  = rail_beam->balance(loads_moved_by(half_way));
+    const double rate            = 0.5 * wheels.front().hub->motion.velocity_x / half_way;
     rail_beam->add(after, rate, v.data());
     rail_beam->add(before, -rate, v.data());
-    hub->motion.velocity_z +=
-      rate * (after.rail.deflection(x + half_way) - before.rail.deflection(x - half_way)).real();
+    for (Wheel &wheel : wheels)
+      {
+        const double x = wheel.hub->motion.x;
+        wheel.hub->motion.velocity_z +=
+          rate * (after.rail.deflection(x + half_way) - before.rail.deflection(x - half_way)).real();
+      }
     hold_guided_nodes(v);
     mesh.distribute_hanging_nodes(v.data());
     std::vector<double> sleepers(after.sleepers.size());
@@ -221,16 +230,15 @@ namespace tread
 
   void ExplicitDynamics::start()
   {
-    if (hub)
-      nominal_angular_velocity = hub->motion.angular_velocity;
+    for (Wheel &wheel : wheels)
+      wheel.nominal_angular_velocity = wheel.hub->motion.angular_velocity;
     set_inertia();
     prepare_step();
     totals             = EnergyLedger();
     start_kinetic      = kinetic_energy(cell_forces());
     start_potential    = body_potential();
     start_strain       = strain_energy();
-    start_hub_work     = hub ? hub->external_work() : 0.;
-    start_hub_gross    = hub ? hub->gross_work() : 0.;
+    start_hub_work     = work_on_hubs();
     start_springs      = supports ? supports->spring_energy() : 0.;
     start_dissipated   = supports ? supports->dissipated() : 0.;
     last_damping_step  = n_steps;

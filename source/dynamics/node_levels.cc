@@ -11,7 +11,7 @@ namespace tread
   NodeLevels::NodeLevels(const Mesh                      &mesh,
                          const Solid                     &solid,
                          const std::vector<unsigned int> &smallest_steps,
-                         const std::vector<char>         &on_wheel)
+                         const std::vector<int>          &wheel_of_body)
   {
     set_levels(mesh, solid, smallest_steps);
     Hangs hangs(mesh.nodes.size(), nullptr);
@@ -19,7 +19,7 @@ namespace tread
       hangs[h.node] = &h;
     set_hanging_nodes(mesh, solid, hangs);
     set_slow_shares(mesh, solid, hangs);
-    set_runs(mesh, on_wheel, hangs);
+    set_runs(mesh, wheel_of_body, hangs);
   }
 
 
@@ -115,10 +115,11 @@ namespace tread
   }
 
 
-  void NodeLevels::set_runs(const Mesh &mesh, const std::vector<char> &on_wheel, const Hangs &hangs)
+  void NodeLevels::set_runs(const Mesh &mesh, const std::vector<int> &wheel_of_body, const Hangs &hangs)
   {
     const auto kind = [&](const unsigned int i) {
-      return std::make_tuple(of_node[i], on_wheel[i], mesh.shared_nodes.is_owned(i), hangs[i] != nullptr);
+      return std::make_tuple(of_node[i], wheel_of_body[mesh.node_bodies[i]], mesh.shared_nodes.is_owned(i),
+                             hangs[i] != nullptr);
     };
     for (unsigned int begin = 0, end = 0; begin < of_node.size(); begin = end)
       {
@@ -126,7 +127,7 @@ namespace tread
           ++end;
         if (!hangs[begin])
           runs[of_node[begin]].push_back(
-            {begin, end, bool(on_wheel[begin]), mesh.shared_nodes.is_owned(begin)});
+            {begin, end, wheel_of_body[mesh.node_bodies[begin]], mesh.shared_nodes.is_owned(begin)});
       }
   }
 

@@ -84,13 +84,13 @@ namespace tread
   }
 
 
-  RailBeam::Field RailBeam::balance(const double x, const double force_at_x) const
+  RailBeam::Field RailBeam::balance(const std::vector<reference::SupportedBeam::Load> &loads) const
   {
-    return respond({{x, force_at_x}}, std::vector<double>(supports.positions.size(), 0.));
+    return respond(loads, std::vector<double>(supports.positions.size(), 0.));
   }
 
 
-  RailBeam::Field RailBeam::balance(const Row *force, const double x, const double force_at_x) const
+  RailBeam::Field RailBeam::balance(const Row *force, std::vector<reference::SupportedBeam::Load> loads) const
   {
     // Forces and moments about the centroid go to the two nearest of evenly spaced places.
     const unsigned int  n          = 2 + static_cast<unsigned int>((end - begin) / element_length);
@@ -118,7 +118,6 @@ namespace tread
           sums[2 * n + support_of_body[body]] += force[i][2];
       }
     dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    std::vector<reference::SupportedBeam::Load> loads{{x, force_at_x}};
     for (unsigned int k = 0; k < n; ++k)
       loads.push_back({k + 1 < n ? begin + k * h : end, sums[2 * k], sums[2 * k + 1]});
     std::vector<double> sleeper_loads(sums.begin() + 2 * n, sums.end());

@@ -70,13 +70,13 @@ namespace tread
       previous = d.force;
     }
 
-    /// Add the contact's forces, and sum what acts on the hub.
+    /// Add the contact's forces, and sum what acts on the hubs.
     void add_contact();
 
-    /// Move the rail as a beam, and the wheel with it, by what is out of balance along it.
+    /// Move the rail as a beam, and the wheels with it, by what is out of balance along it.
     void follow_beam();
 
-    /// Displace all nodes and the hub. @param measure: find the balance.
+    /// Displace all nodes and the hubs. @param measure: find the balance.
     void advance(const bool measure);
 
     /// What is out of balance over the load as advance() has last measured it; without a load, over what was
@@ -101,20 +101,24 @@ namespace tread
     }
 
     ExplicitDynamics   &d;
-    NodalField         &x;               ///< positions, as there is no damping time
-    const NodalField    at_rest;         ///< no velocities
-    NodalField          mass;            ///< in [0], N/m, as the step has no unit
-    std::vector<double> inverse;         ///< of these, 0 where nodes are held or carried
-    NodalField          body_force;      ///< weight, true centrifugal force and external forces, N
-    NodalField          previous;        ///< forces remembered, N
-    double              hub_mass   = 0.; ///< of the nodes that the hub carries
-    double              hub_load   = 0.; ///< static force of all but the cells, N
-    double              wheel_mass = 0., wheel_load = 0.; ///< of all nodes of the wheel; with the hub's load
-    double              lightness    = 0.;
-    double              keep         = kept_at_first;
-    double              hub_velocity = 0.;
-    double              residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
-    std::shared_ptr<const FrictionLaw> law;                             ///< of the motion to come
+    NodalField         &x;          ///< positions, as there is no damping time
+    const NodalField    at_rest;    ///< no velocities
+    NodalField          mass;       ///< in [0], N/m, as the step has no unit
+    std::vector<double> inverse;    ///< of these, 0 where nodes are held or carried
+    NodalField          body_force; ///< weight, true centrifugal force and external forces, N
+    NodalField          previous;   ///< forces remembered, N
+    struct OfWheel
+    {
+      double hub_mass = 0.;        ///< of the nodes that the hub carries
+      double hub_load = 0.;        ///< static force of all but the cells, N
+      double mass = 0., load = 0.; ///< of all nodes of the wheel; with the hub's load
+      double hub_velocity = 0.;
+    };
+    std::vector<OfWheel> of_wheels;
+    double               lightness = 0.;
+    double               keep      = kept_at_first;
+    double               residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
+    std::shared_ptr<const FrictionLaw> law;                              ///< of the motion to come
   };
 
 
@@ -126,7 +130,8 @@ namespace tread
     , inverse(x.size(), 0.)
     , body_force(x.size(), Row{})
     , previous(x.size(), Row{})
-    , lightness(d.hub && d.contact ? lightness_of_wheel : 0.)
+    , of_wheels(d.wheels.size())
+    , lightness(!d.wheels.empty() && d.contact ? lightness_of_wheel : 0.)
   {
     set_masses();
     set_loads();
@@ -162,37 +167,45 @@ namespace tread
     mesh.shared_nodes.sum(mass.data());
     for (unsigned int i = 0; i < x.size(); ++i)
       if (d.carried[i])
-        hub_mass += mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
+        of_wheels[d.wheel_of(i)].hub_mass += mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
       else if (!d.fixed[i] && mass[i][0] > 0.)
         inverse[i] = 1. / mass[i][0];
-    hub_mass = sum(hub_mass, mesh.comm);
+    for (OfWheel &wheel : of_wheels)
+      wheel.hub_mass = sum(wheel.hub_mass, mesh.comm);
   }
 
 
   void ExplicitDynamics::Relaxation::set_loads()
   {
     // Weight and true centrifugal force act on the true masses; once on nodes that ranks share.
-    const Mesh  &mesh   = d.mesh;
-    const double omega2 = d.nominal_angular_velocity * d.nominal_angular_velocity;
-    const Row    axle   = d.hub ? Row{d.hub->motion.x, 0., d.hub->motion.z, 0.} : Row{};
+    const Mesh &mesh = d.mesh;
     for (unsigned int i = 0; i < x.size(); ++i)
       if (is_free_and_owned(i))
         {
           body_force[i] = Row{0., 0., -d.parameters.gravity * d.true_mass[i], 0.};
-          if (d.on_wheel[i])
-            body_force[i] += omega2 * d.true_mass[i] * Row{1., 0., 1., 0.} * (x[i] - axle);
+          if (const int number = d.wheel_of(i); number >= 0)
+            {
+              const Wheel &wheel  = d.wheels[number];
+              const double omega2 = wheel.nominal_angular_velocity * wheel.nominal_angular_velocity;
+              const Row    axle{wheel.hub->motion.x, 0., wheel.hub->motion.z, 0.};
+              body_force[i] += omega2 * d.true_mass[i] * Row{1., 0., 1., 0.} * (x[i] - axle);
+            }
           if (!d.external_force.empty())
             body_force[i] += d.external_force[i];
         }
-    hub_load = d.hub ? d.hub->static_force() : 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (d.on_wheel[i] && mesh.shared_nodes.is_owned(i))
+      if (const int number = d.wheel_of(i); number >= 0 && mesh.shared_nodes.is_owned(i))
         {
-          wheel_mass += mass[i][0];
-          wheel_load += body_force[i][2];
+          of_wheels[number].mass += mass[i][0];
+          of_wheels[number].load += body_force[i][2];
         }
-    wheel_mass = sum(wheel_mass, mesh.comm);
-    wheel_load = sum(wheel_load, mesh.comm) + hub_load;
+    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+      {
+        OfWheel &wheel = of_wheels[k];
+        wheel.hub_load = d.wheels[k].hub->static_force();
+        wheel.mass     = sum(wheel.mass, mesh.comm);
+        wheel.load     = sum(wheel.load, mesh.comm) + wheel.hub_load;
+      }
   }
 
 
@@ -214,34 +227,40 @@ namespace tread
   {
     // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves: the
     // frequency that still moves (Underwood 1983).
-    double change = 0., inertia = 0., momentum = 0.;
+    double              change = 0., inertia = 0.;
+    std::vector<double> momentum(of_wheels.size(), 0.);
     for (unsigned int i = 0; i < x.size(); ++i)
       if (is_free_and_owned(i))
         {
           change -= dot(d.v[i], d.force[i] - previous[i]);
           inertia += dot(d.v[i], d.v[i]) / inverse[i];
-          if (d.on_wheel[i])
-            momentum += d.v[i][2] / inverse[i];
+          if (const int number = d.wheel_of(i); number >= 0)
+            momentum[number] += d.v[i][2] / inverse[i];
         }
-    change   = sum(change, d.mesh.comm) / keep;
-    momentum = sum(momentum, d.mesh.comm) + hub_mass * hub_velocity;
-    inertia  = sum(inertia, d.mesh.comm) + hub_mass * hub_velocity * hub_velocity;
-    if (lightness > 0.)
-      inertia -= lightness / (1. + lightness) * momentum * momentum / wheel_mass;
+    change  = sum(change, d.mesh.comm) / keep;
+    inertia = sum(inertia, d.mesh.comm);
+    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+      {
+        const OfWheel &wheel = of_wheels[k];
+        const double   total = sum(momentum[k], d.mesh.comm) + wheel.hub_mass * wheel.hub_velocity;
+        inertia += wheel.hub_mass * wheel.hub_velocity * wheel.hub_velocity;
+        if (lightness > 0.)
+          inertia -= lightness / (1. + lightness) * total * total / wheel.mass;
+      }
     inertia /= keep * keep;
     const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
     const double kept  = std::exchange(keep, std::clamp(1. - 2. * omega, least_kept, most_kept));
     for (Row &velocity : d.v)
       velocity *= keep / kept;
-    hub_velocity *= keep / kept;
+    for (OfWheel &wheel : of_wheels)
+      wheel.hub_velocity *= keep / kept;
   }
 
 
   void ExplicitDynamics::Relaxation::add_contact()
   {
     d.hold_guided_nodes(d.force);
-    if (d.hub)
-      d.add_hub_sums(d.rank_sums);
+    d.set_hub_sums(d.rank_sums);
     if (d.contact)
       {
         if (d.contact->refresh_due())
@@ -249,31 +268,33 @@ namespace tread
         d.contact->predict(d.v.data(), d.force.data(), unit_step, d.rank_sums);
         d.contact->solve(unit_step, d.force.data());
       }
-    else if (d.hub)
+    else if (!d.wheels.empty())
       sum(d.rank_sums, d.mesh.comm, d.rank_sums);
   }
 
 
   void ExplicitDynamics::Relaxation::follow_beam()
   {
-    // The wheel with all of its load included.
-    double on_wheel_nodes = 0.;
+    // The wheels with all of their loads included.
+    std::vector<double> on_nodes(of_wheels.size(), 0.);
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (d.on_wheel[i] && !d.carried[i] && d.mesh.shared_nodes.is_owned(i))
-        on_wheel_nodes += d.force[i][2];
-    on_wheel_nodes              = sum(on_wheel_nodes, d.mesh.comm);
-    const double          place = d.hub ? d.hub->motion.x : d.supports->positions[0];
-    const RailBeam::Field field =
-      d.rail_beam->balance(d.force.data(), place, d.hub ? on_wheel_nodes + d.rank_sums[2] + hub_load : 0.);
+      if (const int number = d.wheel_of(i); number >= 0 && !d.carried[i] && d.mesh.shared_nodes.is_owned(i))
+        on_nodes[number] += d.force[i][2];
+    std::vector<reference::SupportedBeam::Load> loads;
+    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+      loads.push_back({d.wheels[k].hub->motion.x, sum(on_nodes[k], d.mesh.comm) +
+                                                    d.rank_sums[n_hub_sums * k + 2] + of_wheels[k].hub_load});
+    const RailBeam::Field field = d.rail_beam->balance(d.force.data(), loads);
     d.rail_beam->add(field, 1., x.data());
-    const double down = field.rail.deflection(place).real();
-    if (d.hub)
+    std::vector<double> up;
+    for (const Wheel &wheel : d.wheels)
       {
-        d.hub->motion.z += down;
-        for (unsigned int i = 0; i < x.size(); ++i)
-          if (d.on_wheel[i])
-            x[i][2] += down;
+        up.push_back(field.rail.deflection(wheel.hub->motion.x).real());
+        wheel.hub->motion.z += up.back();
       }
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (const int number = d.wheel_of(i); number >= 0)
+        x[i][2] += up[number];
     d.mesh.distribute_hanging_nodes(x.data());
     if (d.contact)
       refresh_contact();
@@ -282,19 +303,22 @@ namespace tread
 
   void ExplicitDynamics::Relaxation::advance(const bool measure)
   {
-    // The rigid shift r of the wheel: inverse masses M^-1 + lightness r r^T / (r^T M r). It strains no cell,
-    // as K r = 0.
-    const double shift =
-      lightness > 0. ? lightness / wheel_mass * (wheel_load + d.contact->total_impulse_on(d.hub_body)[2])
-                     : 0.;
-    double of_hub = 0.;
-    if (d.hub)
+    // The rigid shift r of a wheel: inverse masses M^-1 + lightness r r^T / (r^T M r). It strains no cell, as
+    // K r = 0.
+    std::vector<double> shift(of_wheels.size(), 0.);
+    double              of_hubs = 0., hub_loads = 0.;
+    for (std::size_t k = 0; k < of_wheels.size(); ++k)
       {
-        const double imbalance    = d.rank_sums[2] + hub_load;
-        const double displacement = hub_velocity + imbalance / hub_mass + shift;
-        d.hub->motion.z += displacement;
-        hub_velocity = keep * displacement;
-        of_hub       = std::abs(imbalance);
+        OfWheel     &of_wheel = of_wheels[k];
+        const Wheel &wheel    = d.wheels[k];
+        if (lightness > 0.)
+          shift[k] = lightness / of_wheel.mass * (of_wheel.load + d.contact->total_impulse_on(wheel.body)[2]);
+        const double imbalance    = d.rank_sums[n_hub_sums * k + 2] + of_wheel.hub_load;
+        const double displacement = of_wheel.hub_velocity + imbalance / of_wheel.hub_mass + shift[k];
+        wheel.hub->motion.z += displacement;
+        of_wheel.hub_velocity = keep * displacement;
+        of_hubs               = std::max(of_hubs, std::abs(imbalance));
+        hub_loads             = std::max(hub_loads, std::abs(of_wheel.hub_load));
       }
     double squares = 0., load_squares = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -304,22 +328,25 @@ namespace tread
             squares += dot(d.force[i], d.force[i]);
             load_squares += dot(body_force[i], body_force[i]);
           }
+        const int number = d.wheel_of(i);
         const Row displacement =
-          d.v[i] + inverse[i] * d.force[i] + Row{0., 0., d.on_wheel[i] ? shift : 0., 0.};
+          d.v[i] + inverse[i] * d.force[i] + Row{0., 0., number >= 0 ? shift[number] : 0., 0.};
         x[i] += displacement;
         d.v[i] = keep * displacement;
       }
-    for (unsigned int k = 0; k < d.hub_nodes.size(); ++k)
-      {
-        x[d.hub_nodes[k]]   = d.hub->position_of(d.hub_reference[k]);
-        d.v[d.hub_nodes[k]] = Row{0., 0., hub_velocity, 0.};
-      }
+    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+      for (std::size_t j = 0; j < d.wheels[k].nodes.size(); ++j)
+        {
+          const unsigned int i = d.wheels[k].nodes[j];
+          x[i]                 = d.wheels[k].hub->position_of(d.wheels[k].reference[j]);
+          d.v[i]               = Row{0., 0., of_wheels[k].hub_velocity, 0.};
+        }
     d.mesh.distribute_hanging_nodes(x.data());
     Mesh::distribute(d.levels.hanging_at_contact, d.v.data()); // all that is asked for
     if (!measure)
       return;
-    residual = std::max(of_hub, std::sqrt(sum(squares, d.mesh.comm)));
-    load     = std::max(std::abs(hub_load), std::sqrt(sum(load_squares, d.mesh.comm)));
+    residual = std::max(of_hubs, std::sqrt(sum(squares, d.mesh.comm)));
+    load     = std::max(hub_loads, std::sqrt(sum(load_squares, d.mesh.comm)));
     if (first_residual < 0.)
       first_residual = residual;
   }
@@ -374,8 +401,8 @@ namespace tread
     if (supports)
       supports->set_at_rest(x_damped.data());
     std::fill(force.begin(), force.end(), Row{});
-    if (hub)
-      hub->balance_suspension();
+    for (const Wheel &wheel : wheels)
+      wheel.hub->balance_suspension();
     if (contact)
       contact->set_n_unconverged_steps(unconverged_steps);
     return iteration;

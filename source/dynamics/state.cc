@@ -9,12 +9,15 @@ namespace tread
   void ExplicitDynamics::serialize(Archive &archive)
   {
     archive.same(critical_step, highest_of_step, bound_found_stable);
-    if (hub)
-      hub->serialize(archive);
+    for (Wheel &wheel : wheels)
+      {
+        wheel.hub->serialize(archive);
+        archive.same(wheel.nominal_angular_velocity);
+      }
     if (archive.restores())
       set_inertia(); // before the contact, as it looks for the pairs that may touch
-    archive.same(time, n_steps, nominal_angular_velocity);
-    archive.same(start_kinetic, start_potential, start_strain, start_hub_work, start_hub_gross, start_springs,
+    archive.same(time, n_steps);
+    archive.same(start_kinetic, start_potential, start_strain, start_hub_work, start_springs,
                  start_dissipated);
     archive.shares(totals.external_work, totals.gross_work, totals.friction, totals.contact, totals.damping,
                    totals.plastic, totals.contact_on_nodes, last_damping_power);

@@ -63,15 +63,17 @@ namespace tread
         loop([](const unsigned int) { return Row{}; });
         return;
       }
-    BodyLoads    of_run;
+    Row          squares{};
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
-    if (run.on_wheel)
+    if (run.wheel >= 0)
       {
-        const auto  &hub_motion = hub->motion;
-        const double omega      = hub_motion.angular_velocity;
-        const Row    axle{hub_motion.x, 0., hub_motion.z, 0.},
+        const Wheel       &wheel      = wheels[run.wheel];
+        const auto        &hub_motion = wheel.hub->motion;
+        BodyLoads::OfWheel of_run;
+        const double       omega = hub_motion.angular_velocity;
+        const Row          axle{hub_motion.x, 0., hub_motion.z, 0.},
           velocity{hub_motion.velocity_x, 0., hub_motion.velocity_z, 0.}, spin{omega, 0., -omega, 0.},
-          inward = -compensation() * Row{1., 0., 1., 0.};
+          inward = -compensation(wheel) * Row{1., 0., 1., 0.};
         loop([&](const unsigned int i) {
           const double mass     = free_mass(i, scaled);
           const Row    arm      = position(i) - axle;
@@ -81,18 +83,20 @@ namespace tread
           of_run.arms += mass * arm;
           of_run.momentum += momentum;
           of_run.moments += swapped * momentum;
-          of_run.squares += relative * momentum;
+          squares += relative * momentum;
           return mass * inward * arm - damping * momentum;
         });
+        if (run.is_owned)
+          sums.wheels[run.wheel] += of_run;
       }
     else
       loop([&](const unsigned int i) {
         const Row momentum = free_mass(i, scaled) * v[i];
-        of_run.squares += v[i] * momentum;
+        squares += v[i] * momentum;
         return -damping * momentum;
       });
     if (run.is_owned)
-      sums += of_run;
+      sums.squares += squares;
   }
 
 
@@ -111,7 +115,7 @@ namespace tread
   {
     set_damping_time(parameters.damping_steps * time_step);
     mesh.distribute_hanging_nodes(x_damped.data());
-    next_loads = BodyLoads();
+    next_loads = BodyLoads(wheels.size());
     std::fill(force.begin(), force.end(), Row{});
     for (unsigned int level = 0; level <= max_level(); ++level)
       for (const Run &run : levels.runs[level])
@@ -126,30 +130,37 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::add_hub_sums(std::vector<double> &sums) const
+  void ExplicitDynamics::set_hub_sums(std::vector<double> &sums) const
   {
     std::fill(sums.begin(), sums.end(), 0.);
-    for (const unsigned int i : hub_nodes)
-      if (mesh.shared_nodes.is_owned(i))
-        {
-          const Row    x  = position(i);
-          const double rx = x[0] - hub->motion.x, rz = x[2] - hub->motion.z;
-          for (unsigned int d = 0; d < 3; ++d)
-            sums[d] += force[i][d];
-          sums[3] += rz * force[i][0] - rx * force[i][2];
-        }
+    double *of_wheel = sums.data();
+    for (const Wheel &wheel : wheels)
+      {
+        const WheelHub::Motion &motion = wheel.hub->motion;
+        for (const unsigned int i : wheel.nodes)
+          if (mesh.shared_nodes.is_owned(i))
+            {
+              const Row    x  = position(i);
+              const double rx = x[0] - motion.x, rz = x[2] - motion.z;
+              for (unsigned int d = 0; d < 3; ++d)
+                of_wheel[d] += force[i][d];
+              of_wheel[3] += rz * force[i][0] - rx * force[i][2];
+            }
+        of_wheel += n_hub_sums;
+      }
   }
 
 
   void ExplicitDynamics::move_hub_nodes()
   {
-    for (unsigned int k = 0; k < hub_nodes.size(); ++k)
-      {
-        const unsigned int i = hub_nodes[k];
-        const Row          x = hub->position_of(hub_reference[k]);
-        v[i]                 = hub->velocity_at(x);
-        set_position(i, x);
-      }
+    for (const Wheel &wheel : wheels)
+      for (unsigned int k = 0; k < wheel.nodes.size(); ++k)
+        {
+          const unsigned int i = wheel.nodes[k];
+          const Row          x = wheel.hub->position_of(wheel.reference[k]);
+          v[i]                 = wheel.hub->velocity_at(x);
+          set_position(i, x);
+        }
   }
 
 
@@ -187,19 +198,19 @@ namespace tread
 
   void ExplicitDynamics::set_rank_sums(const BodyLoads &loads)
   {
-    if (hub)
+    set_hub_sums(rank_sums);
+    for (std::size_t k = 0; k < wheels.size(); ++k)
       {
-        add_hub_sums(rank_sums);
+        const BodyLoads::OfWheel &of_wheel = loads.wheels[k];
+        double                   *sums     = rank_sums.data() + n_hub_sums * k;
         for (unsigned int d = 0; d < 3; ++d)
-          rank_sums[d] += parameters.mass_damping * loads.momentum[d];
-        rank_sums[3] += parameters.mass_damping * (loads.moments[0] - loads.moments[2]);
-        rank_sums[4] = loads.arms[0];
-        rank_sums[5] = loads.arms[2];
+          sums[d] += parameters.mass_damping * of_wheel.momentum[d];
+        sums[3] += parameters.mass_damping * (of_wheel.moments[0] - of_wheel.moments[2]);
+        sums[4] = of_wheel.arms[0];
+        sums[5] = of_wheel.arms[2];
       }
-    else
-      std::fill(rank_sums.begin(), rank_sums.end(), 0.);
     if (supports)
-      supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + n_hub_sums);
+      supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + n_sums_of_hubs());
   }
 
 
@@ -223,19 +234,25 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::advance_hub()
+  void ExplicitDynamics::advance_hubs()
   {
-    const WheelHub::Motion before = hub->motion;
-    hub->advance(Row{rank_sums[0], rank_sums[1], rank_sums[2], 0.}, rank_sums[3], time_step);
-    // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
-    // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
-    const double work = -0.5 * time_step * compensation() *
-                        (rank_sums[4] * (before.velocity_x + hub->motion.velocity_x) +
-                         rank_sums[5] * (before.velocity_z + hub->motion.velocity_z));
-    if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+    const double *sums = rank_sums.data();
+    for (const Wheel &wheel : wheels)
       {
-        totals.external_work += work;
-        totals.gross_work += std::abs(work);
+        const WheelHub::Motion &motion = wheel.hub->motion;
+        const WheelHub::Motion  before = motion;
+        wheel.hub->advance(Row{sums[0], sums[1], sums[2], 0.}, sums[3], time_step);
+        // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
+        // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
+        const double work = -0.5 * time_step * compensation(wheel) *
+                            (sums[4] * (before.velocity_x + motion.velocity_x) +
+                             sums[5] * (before.velocity_z + motion.velocity_z));
+        if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+          {
+            totals.external_work += work;
+            totals.gross_work += std::abs(work);
+          }
+        sums += n_hub_sums;
       }
   }
 
@@ -244,7 +261,7 @@ namespace tread
   {
     const bool loaded = !external_force.empty();
     double     work = 0., gross = 0.;
-    next_loads = BodyLoads();
+    next_loads = BodyLoads(wheels.size());
     for (unsigned int level = 0; level <= due; ++level)
       {
         const double factor = std::ldexp(1., level), way = factor * time_step + damping_time;
@@ -302,13 +319,11 @@ namespace tread
     else if (!rank_sums.empty())
       dealii::Utilities::MPI::sum(rank_sums, mesh.comm, rank_sums);
     if (supports)
-      supports->advance(rank_sums.data() + n_hub_sums, time_step);
-    if (hub)
-      advance_hub();
+      supports->advance(rank_sums.data() + n_sums_of_hubs(), time_step);
+    advance_hubs();
     count_local_damping(due);
     advance_nodes(due);
-    if (hub)
-      move_hub_nodes();
+    move_hub_nodes();
     time += time_step;
     ++n_steps;
     place_hanging_nodes();

@@ -45,11 +45,13 @@ namespace tread
 
   void ExplicitDynamics::set_node_levels()
   {
-    std::vector<unsigned int> smallest_steps = hub_nodes;
+    std::vector<unsigned int> smallest_steps;
+    for (const Wheel &wheel : wheels)
+      smallest_steps.insert(smallest_steps.end(), wheel.nodes.begin(), wheel.nodes.end());
     if (supports)
       for (const unsigned int i : supports->nodes())
         smallest_steps.push_back(i);
-    levels           = NodeLevels(mesh, solid, smallest_steps, on_wheel);
+    levels           = NodeLevels(mesh, solid, smallest_steps, wheel_of_body);
     std::size_t most = force_before.size();
     for (const SlowShares &shares : levels.slow_shares)
       most = std::max(most, shares.nodes.size());

@@ -82,6 +82,31 @@ namespace tread
     return fine.x_begin < fine.x_end ? std::min(on_path, fine.wanted_size(x, y, depth_of_point)) : on_path;
   }
 
+  FineZones::FineZones(const std::vector<FineZone> &zones)
+    : zones(zones)
+  {
+    bool in_order = !zones.empty();
+    for (std::size_t k = 1; k < zones.size(); ++k)
+      in_order = in_order && zones[k - 1].x_end < zones[k].x_begin;
+    if (!in_order)
+      throw std::invalid_argument("fine zones must follow each other without overlap");
+  }
+
+  double FineZones::wanted_size(const double x, const double y, const double depth) const
+  {
+    double size = std::numeric_limits<double>::max();
+    for (const FineZone &zone : zones)
+      size = std::min(size, zone.wanted_size(x, y, depth));
+    return size;
+  }
+
+  bool FineZones::meet(const double begin, const double end, const double margin) const
+  {
+    return std::any_of(zones.begin(), zones.end(), [&](const FineZone &zone) {
+      return end > zone.x_begin - margin && begin < zone.x_end + margin;
+    });
+  }
+
   double regular_length(const double length, const double size)
   {
     return divide(length, size).n_regular * size;
@@ -125,53 +150,76 @@ namespace tread
     return (lines[i + 1] - lines[i]) / size;
   }
 
-  PathLines path_lines(const double    begin,
-                       const double    end,
-                       const double    size,
-                       const FineZone &zone,
-                       const double    far_stretch)
+  namespace
   {
-    if (zone.path_stretch <= 1. && far_stretch <= 1.)
-      return {coarse_lines(begin, end, (begin <= 0. && 0. <= end) ? 0. : 0.5 * (begin + end), size), size};
-    const double from = std::max(begin, zone.cubes()[0]), to = std::min(end, zone.cubes()[1]);
-    if (!(from <= to))
-      throw std::invalid_argument("path_lines: the path does not lie between begin and end");
-    const double anchor = (from <= 0. && 0. <= to) ? 0. : 0.5 * (from + to);
+    /// Lines from begin to end about one zone, of rows that may be longer than others.
+    std::vector<double> lines_about(const double    begin,
+                                    const double    end,
+                                    const double    size,
+                                    const FineZone &zone,
+                                    const double    far_stretch)
+    {
+      const double from = std::max(begin, zone.cubes()[0]), to = std::min(end, zone.cubes()[1]);
+      if (!(from <= to))
+        throw std::invalid_argument("path_lines: the path does not lie between begin and end");
+      const double anchor = (from <= 0. && 0. <= to) ? 0. : 0.5 * (from + to);
 
-    constexpr double growth = 1.4;
-    // distances from the anchor, without the anchor itself
-    const auto side = [&](const double length, const double cubes, const double path) {
-      std::vector<double> lines;
-      const unsigned int  n_regular = std::min(std::floor(length / size), std::ceil(cubes / size - 1e-6));
-      for (unsigned int i = 1; i <= n_regular; ++i)
-        lines.push_back(i * size);
-      const double regular = n_regular * size, rest = length - regular;
-      if (rest < 0.7 * size && !lines.empty())
-        {
-          lines.back() = length;
-          return lines;
-        }
-      double row = size, position = regular;
-      while (position < length - 1e-6 * size)
-        {
-          const double limit = position < path ? zone.path_stretch : std::max(far_stretch, zone.path_stretch);
-          row                = std::min(growth * row, std::max(limit, 1.) * size);
-          position += row;
-          lines.push_back(position);
-        }
-      for (unsigned int i = n_regular; i < lines.size(); ++i)
-        lines[i] = regular + (lines[i] - regular) * rest / (position - regular);
+      constexpr double growth = 1.4;
+      // distances from the anchor, without the anchor itself
+      const auto side = [&](const double length, const double cubes, const double path) {
+        std::vector<double> lines;
+        const unsigned int  n_regular = std::min(std::floor(length / size), std::ceil(cubes / size - 1e-6));
+        for (unsigned int i = 1; i <= n_regular; ++i)
+          lines.push_back(i * size);
+        const double regular = n_regular * size, rest = length - regular;
+        if (rest < 0.7 * size && !lines.empty())
+          {
+            lines.back() = length;
+            return lines;
+          }
+        double row = size, position = regular;
+        while (position < length - 1e-6 * size)
+          {
+            const double limit =
+              position < path ? zone.path_stretch : std::max(far_stretch, zone.path_stretch);
+            row = std::min(growth * row, std::max(limit, 1.) * size);
+            position += row;
+            lines.push_back(position);
+          }
+        for (unsigned int i = n_regular; i < lines.size(); ++i)
+          lines[i] = regular + (lines[i] - regular) * rest / (position - regular);
+        return lines;
+      };
+
+      std::vector<double> lines = side(anchor - begin, anchor - from, anchor - zone.x_begin);
+      std::reverse(lines.begin(), lines.end());
+      for (double &line : lines)
+        line = anchor - line;
+      lines.push_back(anchor);
+      for (const double line : side(end - anchor, to - anchor, zone.x_end - anchor))
+        lines.push_back(anchor + line);
       return lines;
-    };
+    }
+  } // namespace
 
+  PathLines path_lines(const double     begin,
+                       const double     end,
+                       const double     size,
+                       const FineZones &zones,
+                       const double     far_stretch)
+  {
+    if (zones.any().path_stretch <= 1. && far_stretch <= 1.)
+      return {coarse_lines(begin, end, (begin <= 0. && 0. <= end) ? 0. : 0.5 * (begin + end), size), size};
     PathLines path{{}, size};
-    path.lines = side(anchor - begin, anchor - from, anchor - zone.x_begin);
-    std::reverse(path.lines.begin(), path.lines.end());
-    for (double &line : path.lines)
-      line = anchor - line;
-    path.lines.push_back(anchor);
-    for (const double line : side(end - anchor, to - anchor, zone.x_end - anchor))
-      path.lines.push_back(anchor + line);
+    double    from = begin;
+    for (std::size_t k = 0; k < zones.all().size(); ++k)
+      {
+        const FineZone &zone = zones.all()[k];
+        const double to = k + 1 < zones.all().size() ? 0.5 * (zone.x_end + zones.all()[k + 1].x_begin) : end;
+        const std::vector<double> lines = lines_about(from, to, size, zone, far_stretch);
+        path.lines.insert(path.lines.end(), lines.begin() + (k > 0 ? 1 : 0), lines.end());
+        from = to;
+      }
     return path;
   }
 

@@ -16,10 +16,10 @@ namespace tread
     };
 
     /// Fills everything of the body but to_space: a box with the chart (x, y, -depth), symmetric to y = 0.
-    Body make_flat_box(const FlatBox  &box,
-                       const double    coarsest,
-                       const double    contact_half_width,
-                       const FineZone &zone)
+    Body make_flat_box(const FlatBox   &box,
+                       const double     coarsest,
+                       const double     contact_half_width,
+                       const FineZones &zones)
     {
       if (!(box.x_begin < box.x_end && box.half_width > 0. && box.depth > 0.))
         throw std::invalid_argument("a rail needs a positive length, width and height");
@@ -27,15 +27,15 @@ namespace tread
       // The coarse grid starts at x = 0 where it can, so that a symmetric zone gets a symmetric mesh.
       const double anchor = (box.x_begin <= 0. && 0. <= box.x_end) ? 0. : 0.5 * (box.x_begin + box.x_end);
       // If rows may be longer than others, all rows of cubes are regular anyway.
-      std::vector<CoarseSide> sides{{box.half_width, zone.reach()}, {box.depth, zone.depth}};
-      if (zone.path_stretch <= 1.)
+      std::vector<CoarseSide> sides{{box.half_width, zones.any().reach()}, {box.depth, zones.any().depth}};
+      if (zones.any().path_stretch <= 1.)
         {
-          sides.push_back({anchor - box.x_begin, anchor - zone.x_begin});
-          sides.push_back({box.x_end - anchor, zone.x_end - anchor});
+          sides.push_back({anchor - box.x_begin, anchor - zones.x_begin()});
+          sides.push_back({box.x_end - anchor, zones.x_end() - anchor});
         }
-      const double size = coarse_cell_size(zone.finest_cell_size, coarsest, sides);
+      const double size = coarse_cell_size(zones.any().finest_cell_size, coarsest, sides);
 
-      const PathLines           path = path_lines(box.x_begin, box.x_end, size, zone, 1.);
+      const PathLines           path = path_lines(box.x_begin, box.x_end, size, zones, 1.);
       const std::vector<double> x    = path.lines;
       const std::vector<double> y    = coarse_lines(-box.half_width, box.half_width, 0., size);
       const std::vector<double> z    = coarse_lines(-box.depth, 0., 0., size);
@@ -59,11 +59,11 @@ namespace tread
               body.cells.push_back(cell);
             }
 
-      body.wanted_cell_size = [zone](const dealii::Point<3> &p) {
-        return zone.wanted_size(p[0], p[1], -p[2]);
+      body.wanted_cell_size = [zones](const dealii::Point<3> &p) {
+        return zones.wanted_size(p[0], p[1], -p[2]);
       };
 
-      if (zone.path_stretch > 1.)
+      if (zones.any().path_stretch > 1.)
         body.path_stretch = [path](const dealii::Point<3> &p) {
           return std::max(1., path.stretch(p[0]));
         };
@@ -98,7 +98,7 @@ namespace tread
     };
   }
 
-  Body make_rail_block(const RailBlock &block, const FineZone &zone)
+  Body make_rail_block(const RailBlock &block, const FineZones &zones)
   {
     if (!(block.crown_radius > 0.5 * block.width))
       throw std::invalid_argument("the block's crown radius must exceed half its width");
@@ -106,7 +106,7 @@ namespace tread
       throw std::invalid_argument("the block is lower than its crown's rise");
 
     Body body = make_flat_box({block.x_begin, block.x_end, 0.5 * block.width, block.height},
-                              block.coarsest_cell_size, block.contact_half_width, zone);
+                              block.coarsest_cell_size, block.contact_half_width, zones);
     body.name = "rail block";
     // Down to some depth all lines keep the crown's shape, which leaves cells parallelepipeds (the cheapest
     // ones); below it they go over to the flat bottom.
@@ -121,14 +121,14 @@ namespace tread
     return body;
   }
 
-  Body make_rail_head(const RailProfile &profile, const RailHead &head, const FineZone &zone)
+  Body make_rail_head(const RailProfile &profile, const RailHead &head, const FineZones &zones)
   {
     const double width  = profile.shoulder_length(); // half the width of the chart
     const double depth  = profile.head_depth();
     const double length = profile.head_length() - width; // of the chart's vertical sides
 
     Body body = make_flat_box({head.x_begin, head.x_end, width, depth}, head.coarsest_cell_size,
-                              head.contact_half_width, zone);
+                              head.contact_half_width, zones);
     body.name = "rail head " + profile.name();
 
     // Straight lines from the top outline to points evenly spaced on the flat bottom, which at s = 0 is the

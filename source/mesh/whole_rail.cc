@@ -155,17 +155,18 @@ namespace tread
     }
   } // namespace
 
-  Body make_whole_rail(const RailProfile &profile, const WholeRail &rail, const FineZone &zone)
+  Body make_whole_rail(const RailProfile &profile, const WholeRail &rail, const FineZones &zones)
   {
     const RailProfile::Corners corners     = profile.corners();
     const Point2               head_fillet = profile.outline_point(corners.head_fillet),
                  foot_fillet               = profile.outline_point(corners.foot_fillet);
 
     Chart chart;
-    chart.half_head   = profile.shoulder_length();
-    chart.head_depth  = profile.head_depth();
-    const double size = coarse_cell_size(zone.finest_cell_size, rail.coarsest_cell_size,
-                                         {{chart.half_head, zone.reach()}, {chart.head_depth, zone.depth}});
+    chart.half_head  = profile.shoulder_length();
+    chart.head_depth = profile.head_depth();
+    const double size =
+      coarse_cell_size(zones.any().finest_cell_size, rail.coarsest_cell_size,
+                       {{chart.half_head, zones.any().reach()}, {chart.head_depth, zones.any().depth}});
     // Away from the wheel longer cells do: they bend with the rail.
     const double wide = 1.5 * size;
 
@@ -191,7 +192,7 @@ namespace tread
     section.add_grid(even_lines(-chart.half_foot, -chart.half_web, n_flange), foot_depths);
     section.add_grid(even_lines(chart.half_web, chart.half_foot, n_flange), foot_depths);
 
-    const PathLines path = path_lines(rail.x_begin, rail.x_end, size, zone, rail.longest_row / size);
+    const PathLines path = path_lines(rail.x_begin, rail.x_end, size, zones, rail.longest_row / size);
     Body            body;
     body.name                = "rail " + profile.name();
     const unsigned int n     = section.vertices.size();
@@ -214,21 +215,20 @@ namespace tread
         return dealii::Point<3>(p[0], std::copysign(q[0], p[1]), q[1]);
       },
       rail.top, chart.head_depth);
-    body.wanted_cell_size = [zone](const dealii::Point<3> &p) {
-      return zone.wanted_size(p[0], p[1], -p[2]);
+    body.wanted_cell_size = [zones](const dealii::Point<3> &p) {
+      return zones.wanted_size(p[0], p[1], -p[2]);
     };
     body.path_stretch = [path](const dealii::Point<3> &p) {
       return std::max(1., path.stretch(p[0]));
     };
 
     const double tolerance = 1e-3 * size;
-    body.boundary_at       = [rail, chart, tolerance, from = zone.x_begin - rail.contact_margin,
-                        to = zone.x_end + rail.contact_margin, path](const dealii::Point<3> &p) {
+    body.boundary_at       = [rail, chart, tolerance, zones, path](const dealii::Point<3> &p) {
       if (std::abs(p[2]) < tolerance)
         {
           const double half_row = 0.5 * path.size * path.stretch(p[0]);
-          const bool   in_reach =
-            std::abs(p[1]) <= rail.contact_half_width && p[0] + half_row > from && p[0] - half_row < to;
+          const bool   in_reach = std::abs(p[1]) <= rail.contact_half_width &&
+                                zones.meet(p[0] - half_row, p[0] + half_row, rail.contact_margin);
           return in_reach ? Boundary::contact : Boundary::free;
         }
       if (std::abs(p[2] + chart.base_depth) < tolerance)

@@ -17,88 +17,131 @@ namespace tread
   }
 
 
-  Columns<HistoryRow> history_columns(const std::vector<int> &supports)
+  namespace
   {
-    using R = HistoryRow;
+    /// Of a wheel: what acts in its contact.
+    const Columns<WheelRecord> &contact_columns()
+    {
+      using R = WheelRecord;
+      static const Columns<R> columns{{"normal_force", "N",
+                                       [](const R &r) {
+                                         return r.force[2];
+                                       }},
+                                      {"longitudinal_force", "N",
+                                       [](const R &r) {
+                                         return r.force[0];
+                                       }},
+                                      {"lateral_force", "N",
+                                       [](const R &r) {
+                                         return r.force[1];
+                                       }},
+                                      {"traction_coefficient", "",
+                                       [](const R &r) {
+                                         return r.force[2] > 0. ? r.force[0] / r.force[2] : 0.;
+                                       }},
+                                      {"creepage", "",
+                                       [](const R &r) {
+                                         return r.creepage;
+                                       }},
+                                      {"contact_area", "m2",
+                                       [](const R &r) {
+                                         return r.patch.area;
+                                       }},
+                                      {"adhesion_share", "",
+                                       [](const R &r) {
+                                         return r.patch.adhesion_share;
+                                       }},
+                                      {"max_pressure", "Pa", [](const R &r) {
+                                         return r.patch.max_pressure;
+                                       }}};
+      return columns;
+    }
+
+    /// Of a wheel: what its axle box feels.
+    const Columns<WheelRecord> &axle_columns()
+    {
+      using R = WheelRecord;
+      static const Columns<R> columns{{"axle_box_acceleration", "m_per_s2", [](const R &r) {
+                                         return r.axle_box_acceleration;
+                                       }}};
+      return columns;
+    }
+
+    const Columns<EnergyLedger> &energy_columns()
+    {
+      using R = EnergyLedger;
+      static const Columns<R> columns{{"external_work", "J",
+                                       [](const R &r) {
+                                         return r.external_work;
+                                       }},
+                                      {"kinetic_energy", "J",
+                                       [](const R &r) {
+                                         return r.kinetic;
+                                       }},
+                                      {"internal_energy", "J",
+                                       [](const R &r) {
+                                         return r.strain;
+                                       }},
+                                      {"hourglass_energy", "J",
+                                       [](const R &r) {
+                                         return r.hourglass;
+                                       }},
+                                      {"frictional_work", "J",
+                                       [](const R &r) {
+                                         return r.friction;
+                                       }},
+                                      {"contact_loss", "J",
+                                       [](const R &r) {
+                                         return r.contact;
+                                       }},
+                                      {"damping_work", "J",
+                                       [](const R &r) {
+                                         return r.damping;
+                                       }},
+                                      {"plastic_work", "J",
+                                       [](const R &r) {
+                                         return r.plastic;
+                                       }},
+                                      {"energy_residual", "J", [](const R &r) {
+                                         return r.residual();
+                                       }}};
+      return columns;
+    }
+
+    /// Add the columns of one of the parts of a row, with a prefix to their names. @param part of the row
+    template <typename Part, typename PartOf>
+    void add_columns(Columns<HistoryRow> &columns,
+                     const Columns<Part> &of_part,
+                     const std::string   &prefix,
+                     const PartOf        &part)
+    {
+      for (const Column<Part> &column : of_part)
+        columns.push_back(
+          {prefix + column.name, column.unit, [part, value = column.value](const HistoryRow &r) {
+             return value(part(r));
+           }});
+    }
+  } // namespace
+
+
+  Columns<HistoryRow> history_columns(const unsigned int n_wheels, const std::vector<int> &supports)
+  {
+    using R          = HistoryRow;
+    const auto wheel = [](const std::size_t i) {
+      return [i](const R &r) -> const WheelRecord & {
+        return r.wheels[i];
+      };
+    };
     Columns<R> columns{{"time", "s",
                         [](const R &r) {
                           return r.time;
                         }},
-                       {"position", "m",
-                        [](const R &r) {
+                       {"position", "m", [](const R &r) {
                           return r.position;
-                        }},
-                       {"normal_force", "N",
-                        [](const R &r) {
-                          return r.force[2];
-                        }},
-                       {"longitudinal_force", "N",
-                        [](const R &r) {
-                          return r.force[0];
-                        }},
-                       {"lateral_force", "N",
-                        [](const R &r) {
-                          return r.force[1];
-                        }},
-                       {"traction_coefficient", "",
-                        [](const R &r) {
-                          return r.force[2] > 0. ? r.force[0] / r.force[2] : 0.;
-                        }},
-                       {"creepage", "",
-                        [](const R &r) {
-                          return r.creepage;
-                        }},
-                       {"contact_area", "m2",
-                        [](const R &r) {
-                          return r.patch.area;
-                        }},
-                       {"adhesion_share", "",
-                        [](const R &r) {
-                          return r.patch.adhesion_share;
-                        }},
-                       {"max_pressure", "Pa",
-                        [](const R &r) {
-                          return r.patch.max_pressure;
-                        }},
-                       {"external_work", "J",
-                        [](const R &r) {
-                          return r.energy.external_work;
-                        }},
-                       {"kinetic_energy", "J",
-                        [](const R &r) {
-                          return r.energy.kinetic;
-                        }},
-                       {"internal_energy", "J",
-                        [](const R &r) {
-                          return r.energy.strain;
-                        }},
-                       {"hourglass_energy", "J",
-                        [](const R &r) {
-                          return r.energy.hourglass;
-                        }},
-                       {"frictional_work", "J",
-                        [](const R &r) {
-                          return r.energy.friction;
-                        }},
-                       {"contact_loss", "J",
-                        [](const R &r) {
-                          return r.energy.contact;
-                        }},
-                       {"damping_work", "J",
-                        [](const R &r) {
-                          return r.energy.damping;
-                        }},
-                       {"plastic_work", "J",
-                        [](const R &r) {
-                          return r.energy.plastic;
-                        }},
-                       {"energy_residual", "J",
-                        [](const R &r) {
-                          return r.energy.residual();
-                        }},
-                       {"axle_box_acceleration", "m_per_s2", [](const R &r) {
-                          return r.axle_box_acceleration;
                         }}};
+    add_columns(columns, contact_columns(), "", wheel(0));
+    add_columns(columns, energy_columns(), "", [](const R &r) -> const EnergyLedger & { return r.energy; });
+    add_columns(columns, axle_columns(), "", wheel(0));
     if (!supports.empty())
       columns.push_back({"spring_energy", "J", [](const R &r) {
                            return r.energy.springs;
@@ -127,11 +170,11 @@ namespace tread
                                                return s.rail_at_mid_span;
                                              }}};
     for (std::size_t i = 0; i < supports.size(); ++i)
-      for (const Column<SupportRecord> &column : of_support)
-        columns.push_back({"support_" + std::to_string(supports[i]) + "_" + column.name, column.unit,
-                           [i, value = column.value](const R &r) {
-                             return value(r.supports[i]);
-                           }});
+      add_columns(columns, of_support, "support_" + std::to_string(supports[i]) + "_",
+                  [i](const R &r) -> const SupportRecord & { return r.supports[i]; });
+    for (unsigned int i = 1; i < n_wheels; ++i)
+      for (const auto *of_wheel : {&contact_columns(), &axle_columns()})
+        add_columns(columns, *of_wheel, "wheel_" + std::to_string(i + 1) + "_", wheel(i));
     return columns;
   }
 

@@ -91,7 +91,8 @@ namespace tread
       {
         const std::string       name = entry.path().filename();
         static const std::regex own(
-          "(summary\\.json|(history|patch|patch_averaged|reference_patch|subsurface|transient|rail_cells|"
+          "(summary\\.json|(history|patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|transient|"
+          "rail_cells|"
           "rail_surface|strip|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
@@ -187,6 +188,7 @@ namespace tread
 
   void RunFolder::open_histories(const bool              resume,
                                  const double            time,
+                                 const unsigned int      n_wheels,
                                  const std::vector<int> &supports,
                                  const std::size_t       n_cells)
   {
@@ -203,7 +205,7 @@ namespace tread
             if (std::stod((*i)[1]) <= time)
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    of_history = history_columns(supports);
+    of_history = history_columns(n_wheels, supports);
     of_cells   = cell_columns(n_cells);
     open_table(history, "history.csv", heading(of_history), resume, time);
     if (n_cells > 0)

@@ -122,9 +122,8 @@ namespace tread
   }
 
 
-  void RunFolder::write_volume(const ExplicitDynamics &dynamics,
-                               const WheelHub         &hub,
-                               const unsigned int      wheel_body)
+  void RunFolder::write_volume(const ExplicitDynamics                         &dynamics,
+                               const std::map<unsigned int, const WheelHub *> &hubs)
   {
     const Mesh    &mesh = dynamics.mesh;
     ArrayOutput<3> output;
@@ -142,7 +141,6 @@ namespace tread
       for (const char *name : {"equivalent_plastic_strain_percent", "stress_xx_MPa", "stress_yy_MPa",
                                "stress_zz_MPa", "stress_xy_MPa", "stress_yz_MPa", "stress_zx_MPa"})
         output.names.emplace_back(name);
-    const Row axle_at_start{hub.start_x(), 0., hub.start_z(), 0.};
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         ArrayOutput<3>::Patch patch;
@@ -150,13 +148,17 @@ namespace tread
         patch.patch_index    = c;
         patch.n_subdivisions = 1;
         patch.data.reinit(output.names.size(), 8);
+        const auto wheel = hubs.find(mesh.cells[c].body);
         for (unsigned int v = 0; v < 8; ++v)
           {
             const unsigned int i = mesh.cells[c].nodes[v];
             const Row          x = dynamics.position(i);
-            const Row          reference{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
-            const Row          rigid =
-              mesh.cells[c].body == wheel_body ? hub.position_of(reference - axle_at_start) : reference;
+            Row                rigid{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+            if (wheel != hubs.end())
+              {
+                const WheelHub &hub = *wheel->second;
+                rigid               = hub.position_of(rigid - Row{hub.start_x(), 0., hub.start_z(), 0.});
+              }
             patch.vertices[v] = dealii::Point<3>(x[0], x[1], x[2]);
             set_vector<3>(patch, 0, v, 1e6 * (x - rigid));
             set_vector<3>(patch, 3, v, dynamics.v[i]);

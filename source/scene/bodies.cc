@@ -27,12 +27,15 @@ namespace tread
     }
 
 
-    FineZone zone_on_rail(const Scene &scene, const reference::HertzEllipse &ellipse)
+    /// The zone of a wheel's path.
+    FineZone zone_on_rail(const Scene                   &scene,
+                          const unsigned int             wheel,
+                          const reference::HertzEllipse &ellipse)
     {
       FineZone on_rail;
       on_rail.finest_cell_size = scene.mesh.finest_cell;
-      on_rail.x_begin          = scene.path_begin() - beyond_path(scene, ellipse);
-      on_rail.x_end            = scene.path_end() + beyond_path(scene, ellipse);
+      on_rail.x_begin          = scene.path_begin(wheel) - beyond_path(scene, ellipse);
+      on_rail.x_end            = scene.path_end(wheel) + beyond_path(scene, ellipse);
       on_rail.half_width       = scene.fine_half_width();
       on_rail.depth            = scene.mesh.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.mesh.cells_per_level;
@@ -50,20 +53,38 @@ namespace tread
     }
 
 
-    /// The rail's zone laid along the tread, from where it touches at the start.
-    FineZone zone_on_wheel(const Scene &scene, const FineZone &on_rail, const double beyond_path)
+    /// Those of all paths, in the order of x. Paths that follow each other closely have one zone.
+    FineZones zones_on_rail(const Scene &scene, const reference::HertzEllipse &ellipse)
     {
-      FineZone on_wheel = on_rail;
-      on_wheel.cubes_begin -= scene.path_begin();
-      on_wheel.cubes_end -= scene.path_begin();
-      on_wheel.x_begin = -beyond_path;
-      on_wheel.x_end   = scene.motion.rolled_distance + beyond_path;
+      std::vector<FineZone> zones;
+      for (unsigned int wheel = scene.n_wheels(); wheel-- > 0;)
+        {
+          const FineZone zone = zone_on_rail(scene, wheel, ellipse);
+          // Between two boxes there is room for all sizes of cells to grow and shrink again.
+          if (!zones.empty() && zone.x_begin - zones.back().x_end < 4. * scene.mesh.coarsest_cell)
+            zones.back().x_end = zone.x_end;
+          else
+            zones.push_back(zone);
+        }
+      return FineZones(zones);
+    }
 
+
+    /// The zone of a wheel's path laid along the tread, from where it touches at the start.
+    FineZone zone_on_wheel(const Scene                   &scene,
+                           const unsigned int             wheel,
+                           const reference::HertzEllipse &ellipse)
+    {
+      FineZone on_wheel = zone_on_rail(scene, wheel, ellipse);
+      on_wheel.cubes_begin -= scene.path_begin(wheel);
+      on_wheel.cubes_end -= scene.path_begin(wheel);
+      on_wheel.x_begin = -beyond_path(scene, ellipse);
+      on_wheel.x_end   = scene.motion.rolled_distance + beyond_path(scene, ellipse);
       return on_wheel;
     }
 
 
-    Body rail_body(const Scene &scene, const FineZone &zone)
+    Body make_rail(const Scene &scene, const FineZones &zones)
     {
       const RailTop top{scene.rail_height(), scene.rail.angle()};
       if (scene.rail.is_block())
@@ -76,7 +97,7 @@ namespace tread
           block.height             = scene.rail.block_height;
           block.crown_radius       = scene.rail.crown_radius;
           block.coarsest_cell_size = scene.mesh.coarsest_cell;
-          return make_rail_block(block, zone);
+          return make_rail_block(block, zones);
         }
       if (scene.rail.shape == RailShape::full_section)
         {
@@ -86,23 +107,23 @@ namespace tread
           rail.coarsest_cell_size = std::min(scene.mesh.coarsest_cell, coarsest_of_a_profile);
           rail.longest_row        = scene.mesh.longest_row;
           rail.top                = top;
-          return make_whole_rail(scene.rail.standard_profile(), rail, zone);
+          return make_whole_rail(scene.rail.standard_profile(), rail, zones);
         }
       RailHead head;
       head.x_begin            = scene.rail_begin();
       head.x_end              = scene.rail_end();
       head.top                = top;
       head.coarsest_cell_size = std::min(scene.mesh.coarsest_cell, coarsest_of_a_profile);
-      return make_rail_head(scene.rail.standard_profile(), head, zone);
+      return make_rail_head(scene.rail.standard_profile(), head, zones);
     }
 
 
-    Body wheel_body(const Scene &scene, const FineZone &zone)
+    Body make_wheel(const Scene &scene, const unsigned int number, const FineZone &zone)
     {
       if (!scene.wheel.is_full())
         {
           WheelSector sector;
-          sector.center_x           = scene.path_begin();
+          sector.center_x           = scene.path_begin(number);
           sector.lift               = scene.first_contact().lift;
           sector.tread_offset       = scene.surfaces().tread_offset;
           sector.radius             = scene.wheel.radius;
@@ -114,7 +135,7 @@ namespace tread
           return make_wheel_sector(sector, zone);
         }
       FullWheel wheel;
-      wheel.center_x           = scene.path_begin();
+      wheel.center_x           = scene.path_begin(number);
       wheel.lift               = scene.first_contact().lift;
       wheel.tread_offset       = scene.surfaces().tread_offset;
       wheel.radius             = scene.wheel.radius;
@@ -129,7 +150,7 @@ namespace tread
     }
 
 
-    Body sleeper_body(const Scene &scene, const double x)
+    Body make_sleeper(const Scene &scene, const double x)
     {
       // Three cells over the height, and no larger than 60 mm.
       SleeperBox box;
@@ -140,7 +161,7 @@ namespace tread
       box.top                = scene.base_middle()[2] - pad_thickness;
       box.height             = scene.track.solid_sleeper_height();
       box.coarsest_cell_size = std::min(box.height / 3., 0.06);
-      return make_sleeper(box);
+      return tread::make_sleeper(box);
     }
   } // namespace
 
@@ -148,15 +169,17 @@ namespace tread
   std::vector<Body> make_bodies(const Scene &scene)
   {
     const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
-    const FineZone                on_rail = zone_on_rail(scene, ellipse);
     std::vector<Body>             bodies;
-    bodies.push_back(rail_body(scene, on_rail));
+    bodies.push_back(make_rail(scene, zones_on_rail(scene, ellipse)));
     bodies.back().name = "rail";
-    bodies.push_back(wheel_body(scene, zone_on_wheel(scene, on_rail, beyond_path(scene, ellipse))));
-    bodies.back().name = "wheel";
+    for (unsigned int k = 0; k < scene.n_wheels(); ++k)
+      {
+        bodies.push_back(make_wheel(scene, k, zone_on_wheel(scene, k, ellipse)));
+        bodies.back().name = k == 0 ? "wheel" : "wheel " + std::to_string(k + 1);
+      }
     if (scene.track.has_solid_sleepers())
       for (const double x : scene.support_positions())
-        bodies.push_back(sleeper_body(scene, x));
+        bodies.push_back(make_sleeper(scene, x));
     return bodies;
   }
 } // namespace tread

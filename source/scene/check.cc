@@ -29,6 +29,7 @@ namespace tread
     check_surfaces();
     check_defect();
     wheel.check();
+    further_wheels.check(2. * wheel.radius);
     mesh.check();
     check_mesh();
     check_track();
@@ -50,18 +51,20 @@ namespace tread
               " %; at most " + text_of(100. * largest_inertia_error) + " % is allowed");
     motion.check();
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
-    require(std::abs(motion.traction_coefficient) < contact.friction_coefficient ||
-              motion.traction_coefficient == 0. || (motion.drive == Drive::creepage && motion.creepage),
-            "'Motion/Traction coefficient' " + text_of(motion.traction_coefficient) +
-              " must be below 'Contact/Friction coefficient' " + text_of(contact.friction_coefficient) +
-              " in size");
+    for (unsigned int k = 0; k < n_wheels(); ++k)
+      if (const double traction = traction_coefficient(k);
+          traction != 0. && !(motion.drive == Drive::creepage && motion.creepage))
+        require(std::abs(traction) < contact.friction_coefficient,
+                (k == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
+                  text_of(traction) + " must be below 'Contact/Friction coefficient' " +
+                  text_of(contact.friction_coefficient) + " in size");
     friction_law();
   }
 
 
   void Scene::check_surfaces() const
   {
-    const double from = path_begin() - rail.margin, to = path_end() + rail.margin;
+    const double from = path_begin(last_wheel()) - rail.margin, to = path_end() + rail.margin;
     require(rail_begin() <= from + round_off && rail_end() >= to - round_off,
             "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(rail_begin()) + " to " +
               text_in_mm(rail_end()) + " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " +
@@ -190,7 +193,7 @@ namespace tread
     if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
       {
         const double clear =
-          std::min(path_begin() - ends.begin, ends.end - path_end()) - track.sleeper_spacing;
+          std::min(path_begin(last_wheel()) - ends.begin, ends.end - path_end()) - track.sleeper_spacing;
         require(ends.length <= clear + round_off,
                 "'Rail/Absorbing length (m)' " + text_of(ends.length) +
                   " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
@@ -261,6 +264,14 @@ namespace tread
             "'Time stepping/Levels' " + std::to_string(time_stepping.levels) +
               " needs 'Solid/Stiffness damping (time steps)' of at least " +
               text_of(least_damping_of_levels) + ": levels of time steps resonate without it");
+  }
+
+
+  double Scene::traction_coefficient(const unsigned int number) const
+  {
+    return number == 0 || further_wheels.traction_coefficients.empty()
+             ? motion.traction_coefficient
+             : further_wheels.traction_coefficients[number - 1];
   }
 
 

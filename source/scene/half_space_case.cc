@@ -43,11 +43,11 @@ namespace tread
   }
 
 
-  reference::RollingCase half_space_case(const Scene &scene)
+  reference::RollingCase half_space_case(const Scene &scene, const unsigned int wheel)
   {
     const bool             creepage_given = scene.motion.drive == Drive::creepage && scene.motion.creepage;
     reference::RollingCase c =
-      half_space_case(scene, scene.static_load(), creepage_given ? 0. : scene.motion.traction_coefficient);
+      half_space_case(scene, scene.static_load(), creepage_given ? 0. : scene.traction_coefficient(wheel));
     c.prescribe_force = !creepage_given;
     if (creepage_given)
       c.creepage = -*scene.motion.creepage;

@@ -9,7 +9,8 @@ namespace tread
 {
   std::vector<ElasticMaterial> materials(const Scene &scene)
   {
-    std::vector<ElasticMaterial> list{scene.rail.material.elastic(), scene.wheel.material.elastic()};
+    std::vector<ElasticMaterial> list{scene.rail.material.elastic()};
+    list.insert(list.end(), scene.n_wheels(), scene.wheel.material.elastic());
     if (scene.track.has_solid_sleepers())
       list.insert(
         list.end(), scene.support_positions().size(),
@@ -24,7 +25,8 @@ namespace tread
     const double              middle = -0.5 * scene.track.rail_distance;
     if (scene.track.has_solid_sleepers())
       for (unsigned int i = 0; i < scene.support_positions().size(); ++i)
-        list.push_back({2 + i, middle, middle + 0.5 * scene.track.sleeper_length, scene.track.sleeper_width});
+        list.push_back({sleeper_body(scene, i), middle, middle + 0.5 * scene.track.sleeper_length,
+                        scene.track.sleeper_width});
     return list;
   }
 
@@ -49,28 +51,35 @@ namespace tread
     // Cells yield this far, in semi-axes, ahead of and behind the path, and as far again as they do below it.
     constexpr double beyond_path = 1.4;
     const double     patch       = beyond_path * hertz(scene, scene.static_load()).semi_axis_x;
-    for (const bool wheel : {false, true})
+    for (unsigned int body = rail_body; body <= wheel_body(scene.n_wheels() - 1); ++body)
       {
+        const bool             wheel      = body != rail_body;
         const MaterialSection &material   = wheel ? scene.wheel.material : scene.rail.material;
         const double           half_width = material.plastic_half_width;
-        // Distance along the path and below the surface; of the wheel along its tread, from the lowest
-        // point in the reference position.
-        const auto add = [&](const double begin, const double end, const double depth, const double yield,
+        // Distance along the path and below the surface; of a wheel along its tread, from the lowest point in
+        // the reference position.
+        const double axle = scene.path_begin(wheel ? body - wheel_body(0) : 0);
+        const auto   add  = [&](const double begin, const double end, const double depth, const double yield,
                              const double tangent) {
-          zones.push_back(
-            {wheel ? 1u : 0u, material.plastic(yield, tangent), [=, &scene](const dealii::Point<3> &p) {
-               const double dx = p[0] - scene.path_begin(), dz = p[2] - scene.axle_height();
-               const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
-               const double below = wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
-               return along >= begin && along <= end && below <= depth &&
-                      std::abs(p[1] - scene.path_y()) <= half_width;
-             }});
+          zones.push_back({body, material.plastic(yield, tangent), [=, &scene](const dealii::Point<3> &p) {
+                             const double dx = p[0] - axle, dz = p[2] - scene.axle_height();
+                             const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
+                             const double below =
+                               wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
+                             return along >= begin && along <= end && below <= depth &&
+                                    std::abs(p[1] - scene.path_y()) <= half_width;
+                           }});
         };
-        const double depth = material.plastic_depth;
-        const double begin = (wheel ? 0. : scene.path_begin()) - patch - depth,
-                     end   = (wheel ? rolled : scene.path_end()) + patch + depth;
+        const double depth = material.plastic_depth, beyond = patch + depth;
         if (material.yield_stress > 0.)
-          add(begin, end, depth, material.yield_stress, material.tangent_modulus);
+          {
+            if (wheel)
+              add(-beyond, rolled + beyond, depth, material.yield_stress, material.tangent_modulus);
+            else
+              for (unsigned int k = 0; k < scene.n_wheels(); ++k)
+                add(scene.path_begin(k) - beyond, scene.path_end(k) + beyond, depth, material.yield_stress,
+                    material.tangent_modulus);
+          }
         for (const MaterialSection::Zone &zone : material.zones())
           add(zone.begin, zone.end, zone.depth, zone.yield_stress, zone.tangent_modulus);
       }

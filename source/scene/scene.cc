@@ -16,6 +16,7 @@ namespace tread
     track.declare(handler);
     vehicle.declare(handler);
     motion.declare(handler);
+    further_wheels.declare(handler);
     time_stepping.declare(handler);
     start.declare(handler);
     output.declare(handler);

@@ -128,7 +128,7 @@ namespace tread
     std::string list;
     for (const double value : values)
       list += (list.empty() ? "" : ",") + in_file(value, unit);
-    declare(name, list, meaning, dealii::Patterns::List(range, 1, at_most),
+    declare(name, list, meaning, dealii::Patterns::List(range, values.empty() ? 0 : 1, at_most),
             [&values, unit](const std::string &text) {
               values.clear();
               for (const std::string &part : dealii::Utilities::split_string_list(text))

@@ -35,11 +35,13 @@ namespace tread
   {
     auto         made   = std::make_shared<Shapes>();
     const double begin  = motion.start.value_or(-motion.rolled_distance),
-                 margin = rail.length > 0. ? 0.5 * (rail.length - motion.rolled_distance) : rail.margin;
-    made->path_begin    = begin;
-    made->path_end      = begin + motion.rolled_distance;
-    made->rail_begin    = rail.begin.value_or(begin - margin);
-    made->defect        = defect.make(located(defect.profile_file));
+                 behind = distance_behind(last_wheel()),
+                 margin =
+                   rail.length > 0. ? 0.5 * (rail.length - motion.rolled_distance - behind) : rail.margin;
+    made->path_begin = begin;
+    made->path_end   = begin + motion.rolled_distance;
+    made->rail_begin = rail.begin.value_or(begin - behind - margin);
+    made->defect     = defect.make(located(defect.profile_file));
     shape_wheel(made->surfaces);
     shape_rail(*made);
     made->contact = tread::first_contact(made->surfaces, made->path_begin);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace tread
 {
@@ -32,13 +33,19 @@ namespace tread
     std::vector<int> numbers = output.supports;
     if (numbers.empty())
       {
-        const int size  = support_positions().size();
-        const int first = std::max<int>(first_support(),
-                                        std::floor((path_begin() - track.support_0) / track.sleeper_spacing)),
-                  last  = std::min<int>(first_support() + size - 1,
-                                       std::ceil((path_end() - track.support_0) / track.sleeper_spacing));
-        for (int i = first; i <= last; ++i)
-          numbers.push_back(i);
+        const int     size = support_positions().size();
+        std::set<int> beside_paths;
+        for (unsigned int k = 0; k < n_wheels(); ++k)
+          {
+            const int first = std::max<int>(first_support(), std::floor((path_begin(k) - track.support_0) /
+                                                                        track.sleeper_spacing)),
+                      last =
+                        std::min<int>(first_support() + size - 1,
+                                      std::ceil((path_end(k) - track.support_0) / track.sleeper_spacing));
+            for (int i = first; i <= last; ++i)
+              beside_paths.insert(i);
+          }
+        numbers.assign(beside_paths.begin(), beside_paths.end());
       }
     return numbers;
   }

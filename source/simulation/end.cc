@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a simulation says at the end of a passage and of the run.
+#include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
+#include <tread/scene/parts.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,12 +14,6 @@
 
 namespace tread
 {
-  PatchMeasures Simulation::measures_of_solution() const
-  {
-    return measure(solution_taken ? solution_patch : patch_now());
-  }
-
-
   void Simulation::end_passage(RunFolder &folder)
   {
     using dealii::Utilities::MPI::max;
@@ -44,11 +40,12 @@ namespace tread
           residual = std::max(residual, von_mises(stress[c]));
         }
     n_nodes                   = std::max(1., sum(n_nodes, comm));
+    const Row          force  = last_force_on(wheels.front());
     const EnergyLedger energy = dynamics.ledger();
     passages.push_back({passages.size() + 1., sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes,
                         max(strain, comm), max(residual, comm), energy.plastic, energy.friction,
-                        last_force_sum[2] > 0. ? last_force_sum[0] / last_force_sum[2] : 0.,
-                        measures_of_solution().max_pressure, energy.residual_share(),
+                        force[2] > 0. ? force[0] / force[2] : 0.,
+                        measure(solution_patches().front()).max_pressure, energy.residual_share(),
                         energy.of_dissipated(energy.residual())});
     folder.write_passages(passages);
   }
@@ -94,6 +91,35 @@ namespace tread
     summary.set("rolled_patch_lengths", rolled.patch_lengths);
     summary.set("long_enough_to_be_steady", rolled.long_enough());
     return rolled;
+  }
+
+
+  std::string Simulation::add_further_wheels(Summary                                   &summary,
+                                             const std::vector<std::vector<PatchNode>> &patches) const
+  {
+    std::string lines;
+    for (const RollingWheel &wheel : wheels)
+      {
+        if (wheel.number == 0)
+          continue;
+        const std::string   prefix   = "wheel_" + std::to_string(wheel.number + 1) + "_";
+        const Row           force    = last_force_on(wheel);
+        const PatchMeasures patch    = wheel.averaged_measures(patches[wheel.number]);
+        const double        traction = force[2] > 0. ? force[0] / force[2] : 0.;
+        for (const auto &[name, value] :
+             {std::pair("normal_force_N", force[2]), std::pair("longitudinal_force_N", force[0]),
+              std::pair("lateral_force_N", force[1]), std::pair("traction_coefficient", traction),
+              std::pair("creepage", wheel.creepage(scene)), std::pair("max_pressure_Pa", patch.max_pressure),
+              std::pair("patch_area_m2", patch.area), std::pair("adhesion_share", patch.adhesion_share),
+              std::pair("max_slip_m_per_s", patch.max_slip),
+              std::pair("frictional_power_W", patch.frictional_power)})
+          summary.set(prefix + name, value);
+        lines += format("wheel %u: normal force %.2f kN, traction coefficient %.4f, creepage %.4fe-3, "
+                        "maximum pressure %.1f MPa, adhesion %.1f %%\n",
+                        wheel.number + 1, 1e-3 * force[2], traction, 1e3 * wheel.creepage(scene),
+                        1e-6 * patch.max_pressure, 100. * patch.adhesion_share);
+      }
+    return lines.empty() ? lines : lines + "\n";
   }
 
 
@@ -151,23 +177,19 @@ namespace tread
   {
     const bool          completed = end == End::complete;
     const EnergyLedger  energy    = dynamics.ledger();
-    const bool          averaged  = average.n_steps() > 0;
-    const PatchMeasures mean      = averaged ? average.measures() : measures_of_solution();
-    const Row           force     = last_steps > 0 ? (1. / last_steps) * last_force_sum
-                                                   : (1. / dynamics.time_step) * contact.total_impulse();
+    const RollingWheel &wheel     = wheels.front();
+    const auto          patches   = solution_patches();
+    const bool          averaged  = wheel.average.n_steps() > 0;
+    const Row           force     = last_force_on(wheel);
     const double        normal    = force[2]; // 0 while the wheel is in the air
-    const double        ripple    = last_steps > 0 && normal > 0.
-                                      ? std::max(last_force_high - normal, normal - last_force_low) / normal
-                                      : 0.;
+    const double        ripple    = last_steps > 0 ? wheel.ripple(normal) : 0.;
     const double        traction  = normal > 0. ? force[0] / normal : 0.;
-    const double        creepage =
-      hub.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1. - free_creepage;
 
     Summary             summary;
-    const ContactAnswer answer{force, creepage, mean};
+    const ContactAnswer answer{force, wheel.creepage(scene), wheel.averaged_measures(patches.front())};
     summarise(summary, scene, "explicit finite elements", answer, completed);
     summary.set("normal_force_ripple_share", ripple);
-    summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, free_creepage,
+    summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, wheel.free_creepage,
                  "creepage, 1e-3");
 
     std::string            note;
@@ -187,24 +209,27 @@ namespace tread
     Quality quality;
     quality.energy = energy;
     if (averaged)
-      quality.slip_chatter = average.slip_chatter();
+      quality.slip_chatter = wheel.average.slip_chatter();
     quality.contact_unconverged =
       dynamics.n_steps > 0 ? double(contact.n_unconverged_steps()) / dynamics.n_steps : 0.;
     quality.add_to(summary);
-    const Rolled rolled = add_size(summary, normal);
+    const Rolled      rolled         = add_size(summary, normal);
+    const std::string further_wheels = add_further_wheels(summary, patches);
     add_cost(summary);
     add_recorded(summary, folder);
     folder.write("summary.json", summary.text());
     if (averaged)
-      folder.write_patch("patch_averaged.csv", average.nodes());
+      for (const RollingWheel &of_table : wheels)
+        folder.write_patch(RunFolder::table_of_wheel("patch_averaged", of_table.number),
+                           of_table.average.nodes());
     if (!reference_patch.empty())
       folder.write_patch("reference_patch.csv", reference_patch);
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s\n%s%s%s",
-                    1e-3 * normal, 100. * ripple, traction, summary.table().c_str(), quality.lines().c_str(),
-                    note.c_str(), note.empty() ? "" : "\n");
+        std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s\n%s%s%s%s",
+                    1e-3 * normal, 100. * ripple, traction, summary.table().c_str(), further_wheels.c_str(),
+                    quality.lines().c_str(), note.c_str(), note.empty() ? "" : "\n");
         for (const std::string &warning : quality.warnings())
           std::printf("WARNING: %s\n", warning.c_str());
         if (completed && !rolled.long_enough())

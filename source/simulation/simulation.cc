@@ -26,6 +26,9 @@ namespace tread
       signal_received = 1;
     }
 
+    /// Forces of the summary are means over this end of the way before the solution instant, m.
+    constexpr double last_way = 10e-3;
+
     /// Something that is done after so many steps at the latest.
     struct EverySoManySteps
     {
@@ -48,14 +51,12 @@ namespace tread
     , comm(comm)
     , mesh(comm, make_bodies(scene), scene.time_stepping.levels - 1, cell_cost(scene))
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
-    , hub(hub_parameters(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), scene.friction_law())
     , end_position(scene.path_end() + 0.5 * scene.mesh.finest_cell)
   {
-    const double omega = scene.motion.speed / scene.rolling_radius();
-    hub.place(scene.path_begin(), scene.axle_height());
-    hub.motion.angular_velocity = omega;
+    for (unsigned int number = 0; number < scene.n_wheels(); ++number)
+      wheels.emplace_back(scene, number);
     if (scene.track.has_supports())
       {
         supports = std::make_unique<Supports>(mesh, rail_body, scene.support_positions(),
@@ -74,7 +75,8 @@ namespace tread
       }
     else
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
-    dynamics.attach_hub(hub, wheel_body, omega);
+    for (RollingWheel &wheel : wheels)
+      dynamics.attach_hub(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
     dynamics.attach_contact(contact);
 
     if (scene.output.strip_half_width > 0.)
@@ -93,13 +95,12 @@ namespace tread
 
   void Simulation::serialize(Archive &archive)
   {
-    dynamics.serialize(archive); // and hub, supports and contact, which are attached to it
+    dynamics.serialize(archive); // and hubs, supports and contact, which are attached to it
     if (strip)
       strip->serialize(archive);
-    average.serialize(archive);
-    archive.same(target_creepage, free_creepage, torque_released, solution_taken, solution_patch, passages);
-    archive.same(interval_force, interval_steps, interval_start_time, interval_start_speed);
-    archive.same(last_force_sum, last_force_low, last_force_high, last_steps);
+    for (RollingWheel &wheel : wheels)
+      wheel.serialize(archive);
+    archive.same(torque_released, solution_taken, passages, interval_steps, interval_start_time, last_steps);
     archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
   }
 
@@ -143,9 +144,12 @@ namespace tread
     if (scene.motion.drive == Drive::torque && !torque_released &&
         position() >= scene.path_begin() + scene.motion.hold_distance)
       {
-        hub.drive        = Drive::torque;
-        hub.drive_torque = scene.motion.traction_coefficient * scene.static_load() *
-                           (hub.motion.z + scene.rolling_radius() - scene.axle_height());
+        for (RollingWheel &wheel : wheels)
+          {
+            wheel.hub.drive        = Drive::torque;
+            wheel.hub.drive_torque = scene.traction_coefficient(wheel.number) * scene.static_load() *
+                                     (wheel.hub.motion.z + scene.rolling_radius() - scene.axle_height());
+          }
         torque_released = true;
       }
   }
@@ -153,18 +157,28 @@ namespace tread
 
   void Simulation::add_to_interval()
   {
-    const Row force = (1. / dynamics.time_step) * contact.total_impulse();
-    interval_force += force;
-    ++interval_steps;
-    if (position() <= scene.path_end() && position() >= scene.path_end() - 10e-3)
+    const bool is_last = position() <= scene.path_end() && position() >= scene.path_end() - last_way;
+    for (RollingWheel &wheel : wheels)
       {
-        last_force_sum += force;
-        last_force_low  = std::min(last_force_low, force[2]);
-        last_force_high = std::max(last_force_high, force[2]);
-        ++last_steps;
+        const Row force = force_on(wheel);
+        wheel.interval_force += force;
+        if (is_last)
+          wheel.add_to_last_force(force);
       }
+    ++interval_steps;
+    last_steps += is_last;
     if (std::abs(position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell)
-      average.add(contact.active_nodes(), position(), dynamics.time_step);
+      {
+        const auto states = contact_states();
+        for (RollingWheel &wheel : wheels)
+          wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.time_step);
+      }
+  }
+
+
+  Row Simulation::last_force_on(const RollingWheel &wheel) const
+  {
+    return last_steps > 0 ? wheel.mean_last_force(last_steps) : force_on(wheel);
   }
 
 
@@ -186,44 +200,79 @@ namespace tread
   void Simulation::end_interval(RunFolder &folder)
   {
     HistoryRow row;
-    row.time     = dynamics.time;
-    row.position = position();
-    row.force    = (1. / interval_steps) * interval_force;
-    row.creepage =
-      hub.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1. - free_creepage;
-    row.patch  = measure(patch_now());
-    row.energy = dynamics.ledger();
-    row.axle_box_acceleration =
-      (hub.motion.velocity_z - interval_start_speed) / (dynamics.time - interval_start_time);
+    row.time           = dynamics.time;
+    row.position       = position();
+    const auto patches = patches_now();
+    for (RollingWheel &wheel : wheels)
+      row.wheels.push_back(wheel.end_interval(scene, patches[wheel.number], interval_steps,
+                                              dynamics.time - interval_start_time));
+    row.energy   = dynamics.ledger();
     row.supports = support_records();
     if (probes)
       row.cells = probes->record(dynamics);
     if (strip)
       strip->sample(dynamics, position());
     folder.append(row);
-    interval_start_time  = dynamics.time;
-    interval_start_speed = hub.motion.velocity_z;
-    interval_force       = Row{};
-    interval_steps       = 0;
+    interval_start_time = dynamics.time;
+    interval_steps      = 0;
   }
 
 
-  std::vector<PatchNode> Simulation::patch_now() const
+  std::vector<std::vector<ContactNodeState>> Simulation::contact_states() const
   {
-    return patch_nodes(contact.active_nodes(), position(), dynamics.time_step);
+    std::vector<std::vector<ContactNodeState>> of_wheels(wheels.size());
+    for (const ContactNodeState &state : contact.active_nodes())
+      for (const RollingWheel &wheel : wheels)
+        if (state.master_body == wheel.body)
+          of_wheels[wheel.number].push_back(state);
+    return of_wheels;
+  }
+
+
+  std::vector<std::vector<PatchNode>> Simulation::patches_now() const
+  {
+    std::vector<std::vector<PatchNode>> patches;
+    const auto                          states = contact_states();
+    for (const RollingWheel &wheel : wheels)
+      patches.push_back(patch_nodes(states[wheel.number], wheel.hub.motion.x, dynamics.time_step));
+    return patches;
+  }
+
+
+  std::vector<std::vector<PatchNode>> Simulation::solution_patches() const
+  {
+    if (!solution_taken)
+      return patches_now();
+    std::vector<std::vector<PatchNode>> patches;
+    for (const RollingWheel &wheel : wheels)
+      patches.push_back(wheel.solution_patch);
+    return patches;
   }
 
 
   void Simulation::take_solution(RunFolder &folder)
   {
-    solution_patch = patch_now();
+    const auto patches = patches_now();
+    for (RollingWheel &wheel : wheels)
+      {
+        wheel.solution_patch = patches[wheel.number];
+        folder.write_patch(RunFolder::table_of_wheel("patch", wheel.number), wheel.solution_patch);
+      }
     solution_taken = true;
-    folder.write_patch("patch.csv", solution_patch);
     if (scene.output.table_depth > 0.)
       folder.write_rail_tables(dynamics, rail_body, scene.output.table_depth);
     folder.write_surface(dynamics, contact, rail_body);
     if (scene.output.write_volume)
-      folder.write_volume(dynamics, hub, wheel_body);
+      write_volume(folder);
+  }
+
+
+  void Simulation::write_volume(RunFolder &folder) const
+  {
+    std::map<unsigned int, const WheelHub *> hubs;
+    for (const RollingWheel &wheel : wheels)
+      hubs[wheel.body] = &wheel.hub;
+    folder.write_volume(dynamics, hubs);
   }
 
 
@@ -266,8 +315,8 @@ namespace tread
         folder.remove_results();
       }
     // Times are written with twelve digits.
-    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, scene.recorded_supports(),
-                          probes ? probes->centres().size() : 0);
+    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size(),
+                          scene.recorded_supports(), probes ? probes->centres().size() : 0);
     checked_position = position();
 
     const End end = roll(folder, checkpoint, progress);
@@ -372,7 +421,7 @@ namespace tread
     if (interval_ended(scene.output.surface_interval))
       folder.write_surface(dynamics, contact, rail_body);
     if (scene.output.write_volume && interval_ended(scene.output.volume_interval))
-      folder.write_volume(dynamics, hub, wheel_body);
+      write_volume(folder);
     checked_position = position();
   }
 
@@ -387,7 +436,7 @@ namespace tread
                         100. * passages.back().plastic_strain));
     try
       {
-        next_wheel(progress);
+        next_passage(progress);
       }
     catch (const Interruption &)
       {
@@ -412,7 +461,7 @@ namespace tread
 
   void Simulation::show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const
   {
-    const Row    force = (1. / dynamics.time_step) * contact.total_impulse();
+    const Row    force = force_on(wheels.front());
     const double spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step;
     progress.show(
       format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),

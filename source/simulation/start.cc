@@ -6,40 +6,25 @@
 #include "interruption.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace tread
 {
   void Simulation::prepare_start(Progress &progress)
   {
-    const double             began = progress.seconds();
-    reference::RollingResult half_space;
-    bool                     predicts_tractions = scene.start.tractions == StartTractions::predicted;
-    if (!scene.motion.creepage)
-      {
-        const reference::RollingEstimate estimate = reference::estimate_rolling(half_space_case(scene));
-        half_space                                = estimate.fields;
-        target_creepage                           = -estimate.creepage.value;
-      }
-    else
-      target_creepage = *scene.motion.creepage;
-    if (predicts_tractions && scene.motion.creepage)
-      try
-        {
-          reference::RollingCase c = half_space_case(scene);
-          c.prescribe_force        = false;
-          c.creepage               = -target_creepage;
-          half_space               = reference::estimate_rolling(c).fields;
-        }
-      catch (const std::exception &error)
-        {
-          predicts_tractions = false;
-          progress.say(std::string("start without tractions: ") + error.what());
-        }
+    const double                                         began = progress.seconds();
+    std::vector<std::optional<reference::RollingResult>> half_space;
+    for (RollingWheel &wheel : wheels)
+      half_space.push_back(predict_rolling(wheel, progress));
+    const bool predicts_tractions =
+      std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
-      free_creepage = contact.free_rolling_creepage(dynamics.positions().data()) - half_space_stretch(scene);
+      for (RollingWheel &wheel : wheels)
+        wheel.free_creepage =
+          contact.free_rolling_creepage(dynamics.positions().data(), wheel.body) - half_space_stretch(scene);
     };
     bool         free_rolling_known = false;
     unsigned int unloaded           = 0; // measurements in a row
@@ -47,7 +32,10 @@ namespace tread
     const auto after_each_measurement = [&](const unsigned int iteration, const double share) {
       if (interrupted())
         throw Interruption();
-      unloaded = contact.total_impulse()[2] > 0. ? 0 : unloaded + 1;
+      const bool all_loaded = std::all_of(wheels.begin(), wheels.end(), [&](const RollingWheel &wheel) {
+        return contact.total_impulse_on(wheel.body)[2] > 0.;
+      });
+      unloaded              = all_loaded ? 0 : unloaded + 1;
       if (unloaded > 100)
         throw std::runtime_error(
           "the wheel finds no rail under it at the start: it sinks past what is meshed "
@@ -58,9 +46,16 @@ namespace tread
           free_rolling_known = true;
           // On a track those to the side, of spin, are left to build up: an iteration takes long to bend the
           // rail that way.
-          contact.give_tractions([half_space, to_the_side = !supports, x = hub.motion.x,
-                                  y = scene.first_contact().y](const Row place) {
-            const Row ratio = traction_over_pressure(half_space, place[0] - x, place[1] - y);
+          contact.give_tractions([half_space, to_the_side = !supports, this](const Row place) {
+            const auto distance = [&](const RollingWheel &wheel) {
+              return std::abs(place[0] - wheel.hub.motion.x);
+            };
+            const RollingWheel &nearest = *std::min_element(
+              wheels.begin(), wheels.end(),
+              [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
+            const Row ratio =
+              traction_over_pressure(*half_space[nearest.number], place[0] - nearest.hub.motion.x,
+                                     place[1] - scene.first_contact().y);
             return Row{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
           });
         }
@@ -76,41 +71,73 @@ namespace tread
     // Cells deformed by earlier wheels may have become slower or faster.
     if (!passages.empty())
       dynamics.renew_critical_time_step();
+    std::string forces;
+    for (const RollingWheel &wheel : wheels)
+      forces += format(forces.empty() ? "%.2f" : ", %.2f", 1e-3 * contact.total_impulse_on(wheel.body)[2]);
     progress.say(
-      format("start: equilibrium after %.0f iterations, %.1f s; normal force %.2f kN; free rolling at %.2e",
-             relaxation_iterations, relaxation_seconds, 1e-3 * contact.total_impulse()[2], free_creepage));
+      format("start: equilibrium after %.0f iterations, %.1f s; normal force %s kN; free rolling at %.2e",
+             relaxation_iterations, relaxation_seconds, forces.c_str(), wheels.front().free_creepage));
 
     contact.give_tractions({});
-    hub.drive             = Drive::creepage;
-    hub.motion.velocity_x = scene.motion.speed;
-    hub.motion.angular_velocity =
-      scene.motion.speed / scene.rolling_radius() * (1. + target_creepage + free_creepage);
+    for (RollingWheel &wheel : wheels)
+      {
+        wheel.hub.drive             = Drive::creepage;
+        wheel.hub.motion.velocity_x = scene.motion.speed;
+        wheel.hub.motion.angular_velocity =
+          scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
+      }
     if (supports)
       dynamics.set_track_velocities();
     dynamics.set_wheel_velocities();
     contact.scale_impulses(scene.time_stepping.courant_number * dynamics.critical_time_step());
     dynamics.start();
-    interval_start_time  = dynamics.time;
-    interval_start_speed = hub.motion.velocity_z;
+    interval_start_time = dynamics.time;
+    for (RollingWheel &wheel : wheels)
+      wheel.interval_start_speed = wheel.hub.motion.velocity_z;
   }
 
 
-  void Simulation::next_wheel(Progress &progress)
+  std::optional<reference::RollingResult> Simulation::predict_rolling(RollingWheel &wheel,
+                                                                      Progress     &progress) const
   {
-    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      if (mesh.node_bodies[i] == wheel_body)
-        dynamics.set_position(i, Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
-    solid.plastic().forget(wheel_body, dynamics.history);
-    hub.motion = WheelHub::Motion();
-    hub.place(scene.path_begin(), scene.axle_height());
-    hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
+    const bool predicts_tractions = scene.start.tractions == StartTractions::predicted;
+    if (!scene.motion.creepage)
+      {
+        const reference::RollingEstimate estimate =
+          reference::estimate_rolling(half_space_case(scene, wheel.number));
+        wheel.target_creepage = -estimate.creepage.value;
+        return predicts_tractions ? std::make_optional(estimate.fields) : std::nullopt;
+      }
+    wheel.target_creepage = *scene.motion.creepage;
+    if (predicts_tractions)
+      try
+        {
+          reference::RollingCase c = half_space_case(scene, wheel.number);
+          c.prescribe_force        = false;
+          c.creepage               = -wheel.target_creepage;
+          return reference::estimate_rolling(c).fields;
+        }
+      catch (const std::exception &error)
+        {
+          progress.say(std::string("start without tractions: ") + error.what());
+        }
+    return {};
+  }
+
+
+  void Simulation::next_passage(Progress &progress)
+  {
+    for (RollingWheel &wheel : wheels)
+      {
+        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+          if (mesh.node_bodies[i] == wheel.body)
+            dynamics.set_position(i, Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
+        solid.plastic().forget(wheel.body, dynamics.history);
+        wheel.place(scene);
+      }
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
     checked_position                 = position();
-    average                          = PatchAverage();
-    last_force_sum                   = Row{};
-    last_force_low                   = 1e300;
-    last_force_high                  = -1e300;
     last_steps                       = 0;
     prepare_start(progress);
   }

@@ -62,7 +62,6 @@ namespace
           dynamics.fix_nodes(std::vector<unsigned int>(cell.nodes.begin(), cell.nodes.end()));
     ContactParameters contact_parameters;
     contact_parameters.slave_body        = test.slave;
-    contact_parameters.master_body       = 1 - test.slave;
     contact_parameters.solver.tolerance  = test.tolerance;
     contact_parameters.solver.max_sweeps = 1000;
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(test.friction));

@@ -80,7 +80,6 @@ namespace
     ExplicitDynamics  dynamics(mesh, solid, dynamics_parameters);
     ContactParameters contact_parameters;
     contact_parameters.slave_body    = slave;
-    contact_parameters.master_body   = 1 - slave;
     contact_parameters.sliding_share = sliding_share;
     // Sweeps that end elsewhere on other ranks must not hide behind the tolerance.
     contact_parameters.solver.tolerance  = 1e-13;

@@ -72,7 +72,6 @@ namespace
 
     ContactParameters contact_parameters;
     contact_parameters.slave_body        = test.slave;
-    contact_parameters.master_body       = 1 - test.slave;
     contact_parameters.solver.tolerance  = 1e-12;
     contact_parameters.solver.max_sweeps = 1000;
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));

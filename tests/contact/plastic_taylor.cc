@@ -113,7 +113,6 @@ namespace
     dynamics.fix_nodes(held);
     ContactParameters contact_parameters;
     contact_parameters.slave_body  = 0;
-    contact_parameters.master_body = 1;
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));
     dynamics.attach_contact(contact);
     dynamics.start();

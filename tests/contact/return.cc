@@ -49,7 +49,6 @@ namespace
         dynamics.fix_nodes(std::vector<unsigned int>(cell.nodes.begin(), cell.nodes.end()));
     ContactParameters contact_parameters;
     contact_parameters.slave_body        = slave;
-    contact_parameters.master_body       = 1 - slave;
     contact_parameters.solver.tolerance  = 1e-13;
     contact_parameters.solver.max_sweeps = 1000;
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(friction));

@@ -17,7 +17,7 @@ namespace tread
 {
   struct ContactParameters
   {
-    unsigned int            slave_body = 0, master_body = 1;
+    unsigned int            slave_body = 0; ///< the surfaces of all others are masters
     CoulombSolverParameters solver;
     // Chosen by trial. In prm/smooth-rolling.prm with cells of 1.3 mm, rolled 12 mm, the coupling is
     // integrated 18 times with these; half and double of each change the frictional power by up to 0.1 %, the
@@ -34,6 +34,7 @@ namespace tread
   struct ContactNodeState
   {
     unsigned int node;                      ///< surface node
+    unsigned int master_body;               ///< that it touches
     Row    position, normal, impulse, slip; ///< m, -, N s (on the master surface), m/s (master over slave)
     double area, gap;                       ///< m^2, m
     bool   adhesion;
@@ -53,7 +54,8 @@ namespace tread
     double on_nodes = 0.; ///< lost by what the forces on the nodes do
   };
 
-  /// Contact between two surfaces: search, mortar coupling and impulses of each step.
+  /// Contact between the surface of one body and those of others, each of which touches it in a place of its
+  /// own: search, mortar coupling and impulses of each step.
   ///
   /// All ranks know the same small problem: each is sent the predicted velocities that its strip needs and
   /// finds the strip's impulses, these are gathered, and each rank applies those on its own nodes.
@@ -107,14 +109,11 @@ namespace tread
     /// Nodes with inverse mass 0 keep their velocity. Collective.
     CoulombSolverResult solve(const double time_step, Row *force);
 
-    /// Total impulse on the master surface in the last step, N s.
+    /// Total impulse on the master surfaces in the last step, N s.
     Row total_impulse() const;
 
     /// Total impulse on the given body in the last step, N s.
-    Row total_impulse_on(const unsigned int body) const
-    {
-      return (body == parameters.master_body ? 1. : -1.) * total_impulse();
-    }
+    Row total_impulse_on(const unsigned int body) const;
 
     /// This rank's share.
     ContactWork last_work() const
@@ -125,7 +124,7 @@ namespace tread
     /// Creepage omega R / V - 1 at which the loaded surfaces roll without mean slip: the difference of their
     /// stretch along x, weighted with the load. In half-space theory it is zero for like bodies; for wheels
     /// and rails of finite size it is about 1e-5. Collective; x: nodal positions of this rank.
-    double free_rolling_creepage(const Row *x) const;
+    double free_rolling_creepage(const Row *x, const unsigned int master_body) const;
 
     /// Slave nodes that carry an impulse after the last step, ordered by number. Collective.
     std::vector<ContactNodeState> active_nodes() const;
@@ -193,6 +192,7 @@ namespace tread
     std::vector<Row>          position, predicted, velocity, velocity_before;
     std::vector<Row>          mean_velocity;    ///< of before and after the step, by compact number
     std::vector<Row>          impulse;          ///< by constraint
+    std::vector<unsigned int> master_of;        ///< by constraint: the body of its master surface
     std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
     std::vector<Row>          given_ratio;      ///< by constraint: of impulses, tangential over normal
     std::vector<double>       gap_rate;         ///< by constraint of the strip

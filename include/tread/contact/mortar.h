@@ -23,7 +23,7 @@ namespace tread
     double       coefficient;
   };
 
-  /// Weighted gaps and relative velocities between two surfaces:
+  /// Weighted gaps and relative velocities between a slave surface and those of the masters:
   /// gap_j = normal_j . sum_i c_ji x_i, positive when open, u_j = sum_i c_ji v_i, sum_i c_ji = 0.
   ///
   /// c = (M - D) / area with D_jk = int psi_j N_k^slave, M_jl = int psi_j N_l^master and dual
@@ -41,8 +41,8 @@ namespace tread
     double time_to_touch; ///< shortest gap over closing speed of faces beyond that share of the reach, s
   };
 
-  /// Couple slave_body's surface to master_body's. Collective: each rank integrates a share of the faces and
-  /// gets all rows.
+  /// Couple slave_body's surface to those of all other bodies. Collective: each rank integrates a share of the
+  /// faces and gets all rows.
   /// @param x, v positions and velocities of all surface nodes.
   /// @param search_reach faces further apart than this (m) are not looked at.
   /// @param reach slave nodes get a row if a face around them is nearer than this (m) to the master surface,
@@ -51,7 +51,6 @@ namespace tread
                         const std::vector<Row> &x,
                         const std::vector<Row> &v,
                         const unsigned int      slave_body,
-                        const unsigned int      master_body,
                         const double            search_reach,
                         const double            reach);
 } // namespace tread

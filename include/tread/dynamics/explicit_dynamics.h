@@ -12,6 +12,7 @@
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -42,7 +43,7 @@ namespace tread
     double internal_forces = 0., contact = 0., search = 0., communication = 0., nodes = 0.;
   };
 
-  /// Central differences for all bodies, the wheel's hub and the contact between them.
+  /// Central differences for all bodies, the hubs of wheels and the contact between them.
   ///
   /// With levels of cells (SolidParameters::max_level) the cells of level l are evaluated every 2^l-th step
   /// only, and nodes move with the step of their fastest cell. Nodes between levels feel the slow cells'
@@ -75,9 +76,9 @@ namespace tread
       return boundary_nodes(body, Boundary::support);
     }
 
-    /// Attach the support nodes of a body to a rigid hub. The centrifugal force of the density added by
-    /// scaling, which does not exist in reality, is compensated on this body, at the given angular velocity
-    /// until start() takes that of the hub.
+    /// Make a body a wheel: its support nodes are attached to a rigid hub. The centrifugal force of the
+    /// density added by scaling, which does not exist in reality, is compensated on this body, at the given
+    /// angular velocity until start() takes that of the hub. The body has not been made a wheel before.
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
 
     void attach_contact(Contact &contact);
@@ -91,8 +92,8 @@ namespace tread
     void attach_supports(Supports &supports, const ElasticMaterial &rail_material);
 
     /// Set the velocities of rail and sleepers (half a step back) to those with which the deflection of a
-    /// beam under the hub's load follows the hub, and that of the hub to its motion along this path. To be
-    /// called before set_wheel_velocities().
+    /// beam under the hubs' loads follows the hubs, and those of the hubs to their motion along this path.
+    /// All hubs run equally fast. To be called before set_wheel_velocities().
     void set_track_velocities();
 
     /// Largest stable time step of level 0 with the prescribed damping, s, from the highest frequencies of
@@ -110,7 +111,7 @@ namespace tread
     /// or 30 per level if a bound from the cells' stretches is not sufficient.
     void check_cells();
 
-    /// Set the velocities of the wheel's nodes to those of the hub's rigid motion half a step ago.
+    /// Set the velocities of the wheels' nodes to those of their hubs' rigid motion half a step ago.
     void set_wheel_velocities();
 
     /// Set inertia and time step and reset the ledger; call after everything is attached and set.
@@ -137,7 +138,7 @@ namespace tread
       return ideal_gain_of_levels(max_level());
     }
 
-    /// Find the equilibrium at rest under weight, the hub's static force and the centrifugal force of the
+    /// Find the equilibrium at rest under weight, the hubs' static forces and the centrifugal force of the
     /// true density at the nominal angular velocity, by dynamic relaxation (Underwood 1983) with masses that
     /// give every cell the same frequency. Contact is frictionless here, or has given tractions. Cells of
     /// plastic zones yield in one step, from their initial history to the equilibrium; intermediate states of
@@ -227,9 +228,15 @@ namespace tread
     void           place_hanging_nodes();
     mutable double critical_step = 0., highest_of_step = 0.; ///< s, and the frequency that it is for, rad/s
     mutable double bound_found_stable = 0.; ///< times the Courant number: no check is needed below it, rad/s
-    void           add_hub_sums(std::vector<double> &sums) const;
-    void           hold_guided_nodes(NodalField &field) const;
-    void           move_hub_nodes();
+    void           set_hub_sums(std::vector<double> &sums) const;
+    std::size_t    n_sums_of_hubs() const
+    {
+      return n_hub_sums * wheels.size();
+    }
+    /// Work from outside on all hubs and the sum of its absolute amounts, J.
+    std::array<double, 2> work_on_hubs() const;
+    void                  hold_guided_nodes(NodalField &field) const;
+    void                  move_hub_nodes();
     /// Kinetic energy from the velocities half a step back and the change that the cells' forces cause in
     /// half a step.
     double       kinetic_energy(NodalField cell_forces) const;
@@ -265,6 +272,22 @@ namespace tread
       Row          load; ///< N, times 2^level
     };
 
+    /// A body on a rigid hub.
+    struct Wheel
+    {
+      WheelHub                 *hub;
+      unsigned int              body;
+      double                    nominal_angular_velocity; ///< rad/s
+      std::vector<unsigned int> nodes{};                  ///< that the hub carries
+      std::vector<Row>          reference{};              ///< of these nodes, relative to the axle
+    };
+
+    /// The wheel that a node is on; -1: none.
+    int wheel_of(const unsigned int node) const
+    {
+      return wheel_of_body[mesh.node_bodies[node]];
+    }
+
     /// A node with damping of its own.
     struct DampedNode
     {
@@ -282,18 +305,27 @@ namespace tread
     /// added by scaling: sums over this rank's own nodes, weighted with their scaled masses.
     struct BodyLoads
     {
-      Row arms{};     ///< from the axle to the wheel's nodes, kg m
-      Row momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
-      Row moments{};  ///< z v_x and x v_z of that momentum about the axle, kg m^2/s
-      Row squares{};  ///< squares of all velocities on top of the rigid motion, kg m^2/s^2
-
-      void operator+=(const BodyLoads &other)
+      struct OfWheel
       {
-        arms += other.arms;
-        momentum += other.momentum;
-        moments += other.moments;
-        squares += other.squares;
+        Row arms{};     ///< from the axle to the wheel's nodes, kg m
+        Row momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
+        Row moments{};  ///< z v_x and x v_z of that momentum about the axle, kg m^2/s
+
+        void operator+=(const OfWheel &other)
+        {
+          arms += other.arms;
+          momentum += other.momentum;
+          moments += other.moments;
+        }
+      };
+
+      explicit BodyLoads(const std::size_t n_wheels = 0)
+        : wheels(n_wheels)
+      {
       }
+
+      std::vector<OfWheel> wheels;
+      Row                  squares{}; ///< squares of all velocities on top of the rigid motion, kg m^2/s^2
     };
 
     /// Mass of a node that is free to move, times factor, kg.
@@ -318,21 +350,22 @@ namespace tread
 
     bool has_body_loads(const Run &run) const
     {
-      return parameters.mass_damping > 0. || (run.on_wheel && compensation() != 0.);
+      return parameters.mass_damping > 0. || (run.wheel >= 0 && compensation(wheels[run.wheel]) != 0.);
     }
 
     /// Centripetal acceleration per radius that compensates the density added by scaling, 1/s^2.
-    double compensation() const
+    double compensation(const Wheel &wheel) const
     {
-      return (1. - 1. / parameters.density_scale) * nominal_angular_velocity * nominal_angular_velocity;
+      return (1. - 1. / parameters.density_scale) * wheel.nominal_angular_velocity *
+             wheel.nominal_angular_velocity;
     }
 
     // What step() does, in this order, to nodes up to the level that is due.
     void      sum_forces(const unsigned int due); ///< over the ranks
-    BodyLoads add_loads(const unsigned int due);  ///< forces from outside. @returns sums for the hub
+    BodyLoads add_loads(const unsigned int due);  ///< forces from outside. @returns sums for the hubs
     void      set_rank_sums(const BodyLoads &loads);
     void      add_contact_forces();
-    void      advance_hub();
+    void      advance_hubs();
     void      advance_nodes(const unsigned int due);
 
     /// Save, for shared nodes up to this level, the load with which their forces begin.
@@ -350,30 +383,27 @@ namespace tread
     std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
     std::vector<LoadOfShared>                          loads_of_shared;
     BodyLoads                                          next_loads; ///< of level 0 in its next step
-    std::vector<char>                                  fixed, carried, on_wheel;
+    std::vector<char>                                  fixed, carried;
     std::vector<std::pair<unsigned int, unsigned int>> guided; ///< node, direction
     std::vector<DampedNode>                            damped_nodes;
-    std::vector<unsigned int>                          hub_nodes;
-    std::vector<Row>                                   hub_reference; ///< relative to the axle
-    WheelHub                                          *hub      = nullptr;
-    unsigned int                                       hub_body = 0;
+    std::vector<Wheel>                                 wheels;
+    std::vector<int>                                   wheel_of_body; ///< number in wheels, -1: none
     Contact                                           *contact  = nullptr;
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
-    double                                             nominal_angular_velocity = 0.;
-    /// Sums over the ranks in a step: force and moment on the hub, first moments of the compensated loads;
-    /// then those of the supports.
+    /// Sums over the ranks in a step: of each wheel force and moment on the hub and first moments of the
+    /// compensated loads; then those of the supports.
     std::vector<double>           rank_sums;
     static constexpr unsigned int n_hub_sums = 6;
 
-    EnergyLedger  totals; ///< accumulated by step()
-    double        start_kinetic = 0., start_potential = 0.;
-    StrainEnergy  start_strain;
-    double        start_hub_work = 0., start_hub_gross = 0.;
-    double        start_springs = 0., start_dissipated = 0.;
-    double        last_damping_power = 0.;
-    std::uint64_t last_damping_step  = 0;
-    bool          damping_is_sampled = false; ///< since start()
+    EnergyLedger          totals; ///< accumulated by step()
+    double                start_kinetic = 0., start_potential = 0.;
+    StrainEnergy          start_strain;
+    std::array<double, 2> start_hub_work{}; ///< @see work_on_hubs
+    double                start_springs = 0., start_dissipated = 0.;
+    double                last_damping_power = 0.;
+    std::uint64_t         last_damping_step  = 0;
+    bool                  damping_is_sampled = false; ///< since start()
   };
 } // namespace tread
 

@@ -37,11 +37,12 @@ namespace tread
   class NodeLevels
   {
   public:
-    /// Nodes [begin, end) of one level, all or none of them on the wheel, and this rank's own.
+    /// Nodes [begin, end) of one level, all of them on the same wheel or on none, and this rank's own.
     struct Run
     {
       unsigned int begin, end;
-      bool         on_wheel, is_owned;
+      int          wheel; ///< -1: none
+      bool         is_owned;
     };
 
     /// Hanging nodes by the levels of cells around them on this rank.
@@ -54,11 +55,11 @@ namespace tread
     NodeLevels() = default;
 
     /// @param smallest_steps nodes of level 0, besides those of contact surfaces.
-    /// @param on_wheel by node. Collective.
+    /// @param wheel_of_body number of the wheel that a body is, -1: none. Collective.
     NodeLevels(const Mesh                      &mesh,
                const Solid                     &solid,
                const std::vector<unsigned int> &smallest_steps,
-               const std::vector<char>         &on_wheel);
+               const std::vector<int>          &wheel_of_body);
 
     unsigned int max_level() const
     {
@@ -85,7 +86,7 @@ namespace tread
     void set_levels(const Mesh &mesh, const Solid &solid, const std::vector<unsigned int> &smallest_steps);
     void set_hanging_nodes(const Mesh &mesh, const Solid &solid, const Hangs &hangs);
     void set_slow_shares(const Mesh &mesh, const Solid &solid, const Hangs &hangs);
-    void set_runs(const Mesh &mesh, const std::vector<char> &on_wheel, const Hangs &hangs);
+    void set_runs(const Mesh &mesh, const std::vector<int> &wheel_of_body, const Hangs &hangs);
   };
 } // namespace tread
 

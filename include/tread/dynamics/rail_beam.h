@@ -28,10 +28,10 @@ namespace tread
       std::vector<double>                sleepers; ///< by support; solid or rigid
     };
 
-    /// The displacement field that balances these nodal forces (N, of this rank) and a vertical force at x on
-    /// the rail. Collective.
-    Field balance(const Row *force, const double x, const double force_at_x) const;
-    Field balance(const double x, const double force_at_x) const;
+    /// The displacement field that balances loads on the rail, and nodal forces (N, of this rank). The
+    /// first is collective.
+    Field balance(const Row *force, std::vector<reference::SupportedBeam::Load> loads) const;
+    Field balance(const std::vector<reference::SupportedBeam::Load> &loads) const;
 
     /// Add factor times the field to the values of rail and solid sleepers.
     void add(const Field &field, const double factor, Row *values) const;

@@ -61,6 +61,47 @@ namespace tread
     double wanted_size(double x, double y, double depth) const;
   };
 
+  /// The boxes on one body, in the order of x, none of which overlap along it: one for each wheel that rolls
+  /// on a rail.
+  class FineZones
+  {
+  public:
+    FineZones(const FineZone &zone)
+      : FineZones(std::vector<FineZone>{zone})
+    {
+    }
+
+    /// @throws std::invalid_argument unless there is one, and they follow each other.
+    explicit FineZones(const std::vector<FineZone> &zones);
+
+    /// The smallest value of those of the zones.
+    double wanted_size(double x, double y, double depth) const;
+
+    /// Whether one of them, longer by a margin at each end, meets the interval between two x (m).
+    bool meet(double begin, double end, double margin) const;
+
+    const std::vector<FineZone> &all() const
+    {
+      return zones;
+    }
+    /// What is the same for all: sizes of cells, width and depth.
+    const FineZone &any() const
+    {
+      return zones.front();
+    }
+    double x_begin() const
+    {
+      return zones.front().x_begin;
+    }
+    double x_end() const
+    {
+      return zones.back().x_end;
+    }
+
+  private:
+    std::vector<FineZone> zones;
+  };
+
   /// Lines of coarse cells on one axis: anchor + i size for whole i, apart from the last one or two
   /// rows at each side, which take up the remainder and are 0.7 to 1.5 times the size (0.5 to 1.5 beside a
   /// single regular row). A side shorter than that is one row. begin <= anchor <= end (m).
@@ -76,11 +117,11 @@ namespace tread
     double stretch(double x) const;
   };
 
-  /// Lines from begin to end. Rows have the given size between cubes_begin and cubes_end of the zone. From
+  /// Lines from begin to end. Rows have the given size between cubes_begin and cubes_end of each zone. From
   /// there they grow by a factor of up to 1.4 per row to at most path_stretch times the size along the path,
-  /// and to far_stretch times the size outside it (m). If neither allows longer rows, the lines are those of
-  /// coarse_lines.
-  PathLines path_lines(double begin, double end, double size, const FineZone &zone, double far_stretch);
+  /// and to far_stretch times the size outside it, up to the middle between two zones (m). If neither allows
+  /// longer rows, the lines are those of coarse_lines.
+  PathLines path_lines(double begin, double end, double size, const FineZones &zones, double far_stretch);
 
   /// Distance from the anchor over which the rows of coarse_lines have exactly the size, on a side that is
   /// `length` long (m).

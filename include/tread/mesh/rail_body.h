@@ -56,13 +56,13 @@ namespace tread
 
   /// The block as coarse cells of 2^k finest_cell_size. Chart: (x, y, -depth) of a flat box. to_space keeps x
   /// and y and sets z = -depth + z_crown(y) (1 - depth/height): top on the crown, bottom flat.
-  Body make_rail_block(const RailBlock &block, const FineZone &zone);
+  Body make_rail_block(const RailBlock &block, const FineZones &zones);
 
   /// The rail head by a transfinite map. Chart: (x, s, -depth) with s the arc length along the top outline
   /// from the crown, |s| <= profile.shoulder_length() (the middle of the gauge corner arc), depth from 0 to
   /// profile.head_depth(); near the crown depth is vertical. The chart's vertical sides are the rest of the
   /// gauge corner and the flank.
-  Body make_rail_head(const RailProfile &profile, const RailHead &head, const FineZone &zone);
+  Body make_rail_head(const RailProfile &profile, const RailHead &head, const FineZones &zones);
 } // namespace tread
 
 #endif

@@ -24,7 +24,7 @@ namespace tread
   /// The whole rail. Chart: (x, s, -depth), shaped like the letter I. In the head s is the arc length along
   /// the running surface as in make_rail_head, and its bottom follows the underside; web and foot lie below,
   /// their sides on the outline. Base of the foot: support; cut faces: end; top in reach: contact.
-  Body make_whole_rail(const RailProfile &profile, const WholeRail &rail, const FineZone &zone);
+  Body make_whole_rail(const RailProfile &profile, const WholeRail &rail, const FineZones &zones);
 } // namespace tread
 
 #endif

@@ -20,21 +20,27 @@ namespace tread
     double rail_at_mid_span;         ///< the same half a spacing ahead
   };
 
+  /// One wheel in a row of history.csv, SI units.
+  struct WheelRecord
+  {
+    Row           force; ///< on the wheel, mean over the interval
+    double        creepage;
+    PatchMeasures patch;
+    double        axle_box_acceleration; ///< vertical, mean over the interval
+  };
+
   /// One row of history.csv and of cells.csv, SI units.
   struct HistoryRow
   {
-    double                     time, position;
-    Row                        force; ///< on the wheel, mean over the interval
-    double                     creepage;
-    PatchMeasures              patch;
+    double                     time, position; ///< of the first wheel
+    std::vector<WheelRecord>   wheels;         ///< as many as were passed to open_histories
     EnergyLedger               energy;
-    double                     axle_box_acceleration; ///< vertical, mean over the interval
-    std::vector<SupportRecord> supports;              ///< as many as were passed to open_histories
-    std::vector<CellRecord>    cells;                 ///< likewise
+    std::vector<SupportRecord> supports; ///< likewise
+    std::vector<CellRecord>    cells;    ///< likewise
   };
 
-  /// Residual state of the rail after a wheel, SI units: averages over the nodes in the middle of the rolled
-  /// distance, 10 mm long and on the line y = 0, and the largest values of the cells below them.
+  /// Residual state of the rail after the first wheel, SI units: averages over the nodes in the middle of the
+  /// rolled distance, 10 mm long and on the line y = 0, and the largest values of the cells below them.
   struct Passage
   {
     double number;                ///< 1 for the first wheel

@@ -12,6 +12,7 @@
 
 #include <fstream>
 #include <iomanip>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -61,6 +62,12 @@ namespace tread
 
     void write_patch(const std::string &name, const std::vector<PatchNode> &patch) const;
 
+    /// Name of a wheel's table: that of the first one has no number. @param number from 0
+    static std::string table_of_wheel(const std::string &stem, const unsigned int number)
+    {
+      return stem + (number > 0 ? "_wheel_" + std::to_string(number + 1) : "") + ".csv";
+    }
+
     /// rail_cells.csv: reference position, stress and plastic strain of the cells of a body whose top is at
     /// z = 0, down to the depth (m) and as wide as it is deep; rail_surface.csv: reference position and
     /// displacement of the nodes of its contact surface. Collective.
@@ -75,16 +82,18 @@ namespace tread
     void write_strip(const std::vector<StripColumn> &columns) const;
 
     /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
-    /// row not later than time. @param supports numbers of those whose forces the rows contain.
+    /// row not later than time. @param n_wheels that the rows contain; @param supports numbers of those whose
+    /// forces they contain.
     void open_histories(const bool              resume,
                         const double            time,
+                        const unsigned int      n_wheels,
                         const std::vector<int> &supports,
                         const std::size_t       n_cells);
     void append(const HistoryRow &row);
 
-    /// Write the present state of the bodies: displacement without the hub's rigid motion, velocity, stress.
-    /// Collective.
-    void write_volume(const ExplicitDynamics &dynamics, const WheelHub &hub, const unsigned int wheel_body);
+    /// Write the present state of the bodies: displacement without the hubs' rigid motion, velocity, stress.
+    /// Collective. @param hubs of the bodies that are wheels
+    void write_volume(const ExplicitDynamics &dynamics, const std::map<unsigned int, const WheelHub *> &hubs);
 
     /// Write a body's contact surface with pressure, shear, slip and state. Collective.
     void write_surface(const ExplicitDynamics &dynamics, const Contact &contact, const unsigned int body);

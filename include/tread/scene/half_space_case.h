@@ -19,9 +19,9 @@ namespace tread
                                          double       normal_force,
                                          double       traction_coefficient);
 
-  /// The same for the forces or the creepage that the scene prescribes: its static load, and its traction
-  /// coefficient if a torque drives or the creepage is to be predicted.
-  reference::RollingCase half_space_case(const Scene &scene);
+  /// The same for the forces or the creepage that the scene prescribes for a wheel: its static load, and its
+  /// traction coefficient if a torque drives or the creepage is to be predicted.
+  reference::RollingCase half_space_case(const Scene &scene, unsigned int wheel = 0);
 
   /// Hertz's patch of a case with like curvatures along each axis, its true gap aside.
   reference::HertzEllipse hertz(const reference::RollingCase &c);

@@ -18,12 +18,23 @@ namespace tread
 {
   // Inputs of the parts of a simulation, derived from a scene.
 
-  /// Rail, wheel and solid sleepers, in this order; the materials are in the same order.
+  // Numbers of the bodies: the rail, the wheels in their order, solid sleepers.
+  constexpr unsigned int rail_body = 0;
+  inline unsigned int    wheel_body(const unsigned int number)
+  {
+    return rail_body + 1 + number;
+  }
+  inline unsigned int sleeper_body(const Scene &scene, const unsigned int number)
+  {
+    return wheel_body(scene.n_wheels()) + number;
+  }
+
+  /// Rail, wheels and solid sleepers, in the order of their numbers; the materials are in the same order.
   std::vector<Body>            make_bodies(const Scene &scene);
   std::vector<ElasticMaterial> materials(const Scene &scene);
   std::vector<SolidSleeper>    solid_sleepers(const Scene &scene);
   SolidParameters              solid_parameters(const Scene &scene);
-  /// Cells under the contact path that may yield, on both bodies.
+  /// Cells under the contact paths that may yield, on rail and wheels.
   std::vector<PlasticZone> plastic_zones(const Scene &scene);
   /// Cost of a cell from the work of the selected element, the time step that the cell needs and the distance
   /// rolled.

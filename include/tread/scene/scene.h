@@ -5,6 +5,7 @@
 #include <tread/geometry/running_surfaces.h>
 #include <tread/scene/sections/contact.h>
 #include <tread/scene/sections/defect.h>
+#include <tread/scene/sections/further_wheels.h>
 #include <tread/scene/sections/general.h>
 #include <tread/scene/sections/mesh.h>
 #include <tread/scene/sections/motion.h>
@@ -30,19 +31,20 @@ namespace tread
   public:
     Scene();
 
-    GeneralSection      general;
-    WheelSection        wheel;
-    RailSection         rail;
-    DefectSection       defect;
-    MeshSection         mesh;
-    SolidSection        solid;
-    ContactSection      contact;
-    TrackSection        track;
-    VehicleSection      vehicle;
-    MotionSection       motion;
-    TimeSteppingSection time_stepping;
-    StartSection        start;
-    OutputSection       output;
+    GeneralSection       general;
+    WheelSection         wheel;
+    FurtherWheelsSection further_wheels;
+    RailSection          rail;
+    DefectSection        defect;
+    MeshSection          mesh;
+    SolidSection         solid;
+    ContactSection       contact;
+    TrackSection         track;
+    VehicleSection       vehicle;
+    MotionSection        motion;
+    TimeSteppingSection  time_stepping;
+    StartSection         start;
+    OutputSection        output;
 
     /// Read a parameter file (none: all defaults), then "Section/Name=value" settings in their order, and
     /// check that they make sense together. @throws SceneError
@@ -59,7 +61,7 @@ namespace tread
     /// are checked. @throws SceneError
     static std::vector<Parameter> parameters_in(const std::string &file);
 
-    /// Weight that rests on the contact, N.
+    /// Weight that rests on the contact of each wheel, N.
     double static_load() const
     {
       return (wheel.mass + vehicle.sprung_mass) * vehicle.gravity;
@@ -91,15 +93,21 @@ namespace tread
     /// SceneError
     std::vector<dealii::Point<3>> recorded_cells() const;
 
-    /// x of the wheel at the start and at the solution instant, m.
-    double path_begin() const
+    unsigned int n_wheels() const
     {
-      return shapes->path_begin;
+      return 1 + further_wheels.distances.size();
     }
-    double path_end() const
+    /// x of a wheel at the start and at the solution instant, m. Wheel 0 runs ahead of the others.
+    double path_begin(const unsigned int number = 0) const
     {
-      return shapes->path_end;
+      return shapes->path_begin - distance_behind(number);
     }
+    double path_end(const unsigned int number = 0) const
+    {
+      return shapes->path_end - distance_behind(number);
+    }
+    /// Longitudinal over normal force that the drive of a wheel aims at.
+    double traction_coefficient(const unsigned int number) const;
     /// Ends of the rail, m.
     double rail_begin() const
     {
@@ -166,6 +174,16 @@ namespace tread
       FirstContact                          contact;
       PatchExtent                           patch;
     };
+
+    /// Of a wheel behind the first one, m.
+    double distance_behind(const unsigned int number) const
+    {
+      return number == 0 ? 0. : further_wheels.distances[number - 1];
+    }
+    unsigned int last_wheel() const
+    {
+      return n_wheels() - 1;
+    }
 
     void parse(const std::string &file);
     void set(const std::string &setting);

@@ -72,7 +72,8 @@ namespace tread
              double                         &value,
              const std::string              &meaning,
              const dealii::Patterns::Double &range);
-    /// A list of numbers, separated by commas. @param range of each of them; @param at_most so many
+    /// A list of numbers, separated by commas; it may be empty if it is so by default. @param range of each
+    /// of them; @param at_most so many
     void add(const std::string              &name,
              std::vector<double>            &values,
              const std::string              &meaning,

@@ -13,12 +13,13 @@
 #include <tread/output/summary.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
+#include <tread/simulation/rolling_wheel.h>
 #include <tread/solid/solid.h>
-#include <tread/track/wheel_hub.h>
 
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 
@@ -26,7 +27,7 @@ namespace tread
 {
   class Checkpoint;
 
-  /// One wheel rolling over one rail, from equilibrium at the start to the solution instant.
+  /// Wheels rolling over one rail, from equilibrium at the start to the solution instant.
   class Simulation
   {
   public:
@@ -43,17 +44,31 @@ namespace tread
     void serialize(Archive &archive);
 
   private:
-    void                       prepare_start(Progress &progress);
-    void                       set_drive();
-    std::vector<SupportRecord> support_records() const;
-    void                       add_to_interval();
-    void                       end_interval(RunFolder &folder);
-    std::vector<PatchNode>     patch_now() const;
-    /// Measures of the patch at the solution instant, or at present if it has not been reached.
-    PatchMeasures measures_of_solution() const;
-    void          take_solution(RunFolder &folder);
-    void          end_passage(RunFolder &folder);
-    void          next_wheel(Progress &progress);
+    void prepare_start(Progress &progress);
+    /// Half-space theory's rolling for a wheel's start, from which its creepage is taken if it is to be
+    /// predicted; nothing where tractions are not. @returns the fields of its tractions.
+    std::optional<reference::RollingResult> predict_rolling(RollingWheel &wheel, Progress &progress) const;
+    void                                    set_drive();
+    std::vector<SupportRecord>              support_records() const;
+    void                                    add_to_interval();
+    void                                    end_interval(RunFolder &folder);
+    /// The patch of each wheel. Collective.
+    std::vector<std::vector<PatchNode>> patches_now() const;
+    /// The patches at the solution instant, or at present if it has not been reached. Collective.
+    std::vector<std::vector<PatchNode>> solution_patches() const;
+    /// Nodes in contact with each wheel. Collective.
+    std::vector<std::vector<ContactNodeState>> contact_states() const;
+    /// Force on a wheel in the last step, N.
+    Row force_on(const RollingWheel &wheel) const
+    {
+      return (1. / dynamics.time_step) * contact.total_impulse_on(wheel.body);
+    }
+    /// Mean force on a wheel over the end of the way, or the present one if that has not begun, N.
+    Row  last_force_on(const RollingWheel &wheel) const;
+    void take_solution(RunFolder &folder);
+    void write_volume(RunFolder &folder) const;
+    void end_passage(RunFolder &folder);
+    void next_passage(Progress &progress);
     /// How a run ends.
     enum class End
     {
@@ -93,14 +108,17 @@ namespace tread
       }
     };
     Rolled add_size(Summary &summary, const double normal_force) const;
-    void   add_cost(Summary &summary) const;
-    void   add_recorded(Summary &summary, RunFolder &folder) const;
+    /// @returns a line for each on the screen.
+    std::string add_further_wheels(Summary                                   &summary,
+                                   const std::vector<std::vector<PatchNode>> &patches) const;
+    void        add_cost(Summary &summary) const;
+    void        add_recorded(Summary &summary, RunFolder &folder) const;
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
     bool   interrupted() const;
-    double position() const
+    double position() const ///< of the first wheel, m
     {
-      return hub.motion.x;
+      return wheels.front().hub.motion.x;
     }
     std::uint64_t remaining_steps() const;
     /// Whether the wheel has passed, since checked_position, the end of one of the intervals into which the
@@ -108,37 +126,30 @@ namespace tread
     bool   interval_ended(const double interval) const;
     double memory_of_cells_and_nodes() const; // bytes, of all ranks
 
-    static constexpr unsigned int rail_body = 0, wheel_body = 1;
-
     const Scene                 &scene;
     MPI_Comm                     comm;
     Mesh                         mesh;
     Solid                        solid;
-    WheelHub                     hub;
+    std::vector<RollingWheel>    wheels; ///< of fixed number
     ExplicitDynamics             dynamics;
     Contact                      contact;
     std::unique_ptr<Supports>    supports; ///< none: the rail's bottom is held
     std::unique_ptr<StressStrip> strip;    ///< none: no table
     std::unique_ptr<CellProbes>  probes;   ///< none: no table
 
-    double target_creepage = 0., free_creepage = 0., end_position;
+    double end_position; ///< of the first wheel, m
     bool   torque_released = false, solution_taken = false;
 
     // Sums since the last row of the history.
-    Row          interval_force{};
     unsigned int interval_steps      = 0;
-    double       interval_start_time = 0., interval_start_speed = 0.; ///< of the hub, vertical: m/s
-    double       checked_position = 0.; ///< of the wheel when the ends of intervals were last checked, m
+    double       interval_start_time = 0.;
+    double checked_position = 0.; ///< of the first wheel when the ends of intervals were last checked, m
 
-    PatchAverage           average; ///< while the wheel rolls over one cell around the solution instant
-    std::vector<PatchNode> solution_patch;
-    Row                    last_force_sum{}; ///< over the last 10 mm before the solution instant
-    double                 last_force_low = 1e300, last_force_high = -1e300;
-    std::uint64_t          last_steps = 0;
-    std::vector<Passage>   passages;
-    double                 relaxation_seconds = 0., relaxation_iterations = 0.;
-    double                 wall_seconds   = 0.; ///< including the parts before resuming
-    double                 seconds_before = 0.; ///< those parts
+    std::uint64_t        last_steps = 0; ///< in the end of the way before the solution instant
+    std::vector<Passage> passages;
+    double               relaxation_seconds = 0., relaxation_iterations = 0.;
+    double               wall_seconds   = 0.; ///< including the parts before resuming
+    double               seconds_before = 0.; ///< those parts
   };
 } // namespace tread
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/parts.h>
+#include <tread/simulation/rolling_wheel.h>
+
+#include <algorithm>
+
+namespace tread
+{
+  RollingWheel::RollingWheel(const Scene &scene, const unsigned int number)
+    : number(number)
+    , body(wheel_body(number))
+    , hub(hub_parameters(scene))
+  {
+    place(scene);
+  }
+
+
+  void RollingWheel::place(const Scene &scene)
+  {
+    hub.motion = WheelHub::Motion();
+    hub.place(scene.path_begin(number), scene.axle_height());
+    hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
+    average                     = PatchAverage();
+    last_force_sum              = Row{};
+    last_force_low              = 1e300;
+    last_force_high             = -1e300;
+    solution_patch.clear();
+  }
+
+
+  double RollingWheel::creepage(const Scene &scene) const
+  {
+    return hub.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1. - free_creepage;
+  }
+
+
+  void RollingWheel::add_to_last_force(const Row force)
+  {
+    last_force_sum += force;
+    last_force_low  = std::min(last_force_low, force[2]);
+    last_force_high = std::max(last_force_high, force[2]);
+  }
+
+
+  double RollingWheel::ripple(const double mean) const
+  {
+    return mean > 0. ? std::max(last_force_high - mean, mean - last_force_low) / mean : 0.;
+  }
+
+
+  WheelRecord RollingWheel::end_interval(const Scene                  &scene,
+                                         const std::vector<PatchNode> &now,
+                                         const unsigned int            n_steps,
+                                         const double                  seconds)
+  {
+    const WheelRecord record{(1. / n_steps) * interval_force, creepage(scene), measure(now),
+                             (hub.motion.velocity_z - interval_start_speed) / seconds};
+    interval_force       = Row{};
+    interval_start_speed = hub.motion.velocity_z;
+    return record;
+  }
+
+
+  void RollingWheel::serialize(Archive &archive)
+  {
+    average.serialize(archive);
+    archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_start_speed,
+                 last_force_sum, last_force_low, last_force_high);
+  }
+} // namespace tread
