@@ -94,7 +94,7 @@ int main(int argc, char **argv)
         parameters.element_type = kind.type;
         const Solid      solid(mesh, {ElasticMaterial()}, parameters);
         ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
-        NodalField       force(mesh.nodes.size(), Row{});
+        NodalField       force(mesh.nodes.size(), Vector3{});
         const NodalField x = dynamics.positions();
         const double     time =
           best_time([&]() { solid.add_internal_forces(x.data(), dynamics.v.data(), force.data()); });

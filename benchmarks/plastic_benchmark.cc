@@ -48,14 +48,14 @@ int main(int argc, char **argv)
       PlasticHistory history = plastic.virgin();
       for (const bool flows : {false, true})
         {
-          NodalField x(mesh.nodes.size()), force(mesh.nodes.size(), Row{});
+          NodalField x(mesh.nodes.size()), force(mesh.nodes.size(), Vector3{});
           double     best[2] = {1e300, 1e300}, strain = flows ? 5e-3 : 1e-4;
           for (unsigned int repetition = 0; repetition < 60; ++repetition)
             {
               // Every step stretches on, so that each cell yields each time.
               strain += flows ? 1e-4 : 0.;
               for (unsigned int i = 0; i < x.size(); ++i)
-                x[i] = Row{(1. + strain) * mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+                x[i] = Vector3{(1. + strain) * mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
               for (const bool with_zone : {false, true})
                 {
                   const double start = seconds();

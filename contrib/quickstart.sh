@@ -20,7 +20,7 @@ if [ "$jobs" -ge 2 ]; then
 fi
 "${launch[@]}" build/source/tread prm/smooth-rolling.prm --output "$results"
 
-contrib/plot/plot-run.py "$results" --contact contrib/reference/contact_F127_mu030_dx010.csv.gz
+contrib/plot/plot-run.py "$results" --contact contrib/contact-data/contact_F127_mu030_dx010.csv.gz
 echo "For ParaView:"
 ls "$results"/*.pvd
 echo "Done in $((SECONDS / 60)) min $((SECONDS % 60)) s."

@@ -28,7 +28,7 @@ namespace
   };
 
   /// @returns what the user asked for; nothing if it was help or the version, which is then printed.
-  /// @throws SceneError
+  /// @throws InputError
   std::optional<CommandLine> parse(const int argc, char **argv, const bool speaks)
   {
     CommandLine line;
@@ -69,12 +69,12 @@ namespace
       }
     catch (const CLI::ParseError &error)
       {
-        throw tread::SceneError(std::string(error.what()) + "; tread --help lists all options");
+        throw tread::InputError(std::string(error.what()) + "; tread --help lists all options");
       }
     if (!line.dynamic.run.empty() && !line.scene.empty())
-      throw tread::SceneError("--dynamic-force reads two runs; it takes no scene");
+      throw tread::InputError("--dynamic-force reads two runs; it takes no scene");
     if (!line.dynamic.run.empty() && (line.resume || line.reference_only || line.dry_run))
-      throw tread::SceneError(
+      throw tread::InputError(
         "--dynamic-force reads what two runs left; --resume, --reference-only and --dry-run are for a scene");
     return line;
   }
@@ -93,7 +93,7 @@ namespace
         return 0;
       }
     if (line.scene.empty() && !line.print_parameters)
-      throw tread::SceneError("no scene given; tread --help shows how, prm/ holds scenes to start from");
+      throw tread::InputError("no scene given; tread --help shows how, prm/ holds scenes to start from");
     tread::Scene scene;
     scene.read(line.scene, line.settings);
     if (line.print_parameters)
@@ -151,7 +151,7 @@ int main(int argc, char **argv)
     {
       code = run(argc, argv, MPI_COMM_WORLD);
     }
-  catch (const tread::SceneError &error)
+  catch (const tread::InputError &error)
     {
       code = fail(error.what(), 1, errors);
     }

@@ -14,7 +14,7 @@
 
 namespace tread::tests
 {
-  inline double size(const Row a)
+  inline double size(const Vector3 a)
   {
     return std::sqrt(dot(a, a));
   }
@@ -23,12 +23,12 @@ namespace tread::tests
   inline double largest(const NodalField &field)
   {
     double square = 0.;
-    for (const Row &row : field)
+    for (const Vector3 &row : field)
       square = std::max(square, dot(row, row));
     return std::sqrt(square);
   }
 
-  inline Row sum_over_ranks(Row a, const MPI_Comm comm)
+  inline Vector3 sum_over_ranks(Vector3 a, const MPI_Comm comm)
   {
     for (unsigned int d = 0; d < 3; ++d)
       a[d] = dealii::Utilities::MPI::sum(a[d], comm);
@@ -40,19 +40,19 @@ namespace tread::tests
   {
     NodalField x(mesh.nodes.size());
     for (unsigned int i = 0; i < x.size(); ++i)
-      x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+      x[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     return x;
   }
 
   /// Positions turned about the skew axis (1, 2, 3) by an angle (rad), then shifted.
-  inline NodalField turned(const NodalField &x, const double angle, const Row shift = Row{})
+  inline NodalField turned(const NodalField &x, const double angle, const Vector3 shift = Vector3{})
   {
     const dealii::Point<3> axis(1. / std::sqrt(14.), 2. / std::sqrt(14.), 3. / std::sqrt(14.));
     NodalField             y(x.size());
     for (unsigned int i = 0; i < x.size(); ++i)
       {
         const dealii::Point<3> p = turn(dealii::Point<3>(x[i][0], x[i][1], x[i][2]), axis, angle);
-        y[i]                     = Row{p[0], p[1], p[2], 0.} + shift;
+        y[i]                     = Vector3{p[0], p[1], p[2], 0.} + shift;
       }
     return y;
   }

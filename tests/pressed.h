@@ -105,7 +105,7 @@ namespace tread::tests
     static ContactParameters contact_parameters(const PressParameters &p)
     {
       ContactParameters parameters;
-      parameters.slave_body  = p.slave;
+      parameters.slave_body = p.slave;
       return parameters;
     }
   };

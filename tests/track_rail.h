@@ -144,7 +144,7 @@ namespace tread::tests
         dynamics->guide_nodes(dynamics->boundary_nodes(sleeper.body, Boundary::end), 1);
       if (solid_sleepers)
         dynamics->guide_nodes(supports->guided_nodes(0), 0);
-      dynamics->external_force.assign(mesh->nodes.size(), Row{});
+      dynamics->external_force.assign(mesh->nodes.size(), Vector3{});
     }
 
     /// Nodes that share a force, and whose mean displacement with the same shares is what it moves.
@@ -169,7 +169,7 @@ namespace tread::tests
     void load(const Patch &patch, const double force)
     {
       for (const auto &[node, share] : patch)
-        dynamics->external_force[node] = Row{0., 0., -force * share, 0.};
+        dynamics->external_force[node] = Vector3{0., 0., -force * share, 0.};
     }
 
     /// Downwards, m.

@@ -45,11 +45,11 @@ namespace tread
     std::vector<PatchNode> patch;
     for (const ContactNodeState &state : states)
       {
-        const double normal     = dot(state.impulse, state.normal);
-        const Row    tangential = state.impulse - normal * state.normal;
-        const double scale      = 1. / (state.area * time_step);
-        PatchNode    node;
-        node.position = state.position - Row{centre_x, 0., 0., 0.};
+        const double  normal     = dot(state.impulse, state.normal);
+        const Vector3 tangential = state.impulse - normal * state.normal;
+        const double  scale      = 1. / (state.area * time_step);
+        PatchNode     node;
+        node.position = state.position - Vector3{centre_x, 0., 0., 0.};
         node.area     = state.area;
         node.pressure = scale * normal;
         node.adhesion = state.adhesion;
@@ -145,7 +145,7 @@ namespace tread
     for (const auto &[number, sum] : sums)
       {
         PatchNode node = sum.values;
-        node.position  = (1. / sum.in_contact) * node.position - Row{centre_sum / steps, 0., 0., 0.};
+        node.position  = (1. / sum.in_contact) * node.position - Vector3{centre_sum / steps, 0., 0., 0.};
         node.area /= sum.in_contact;
         node.pressure /= steps;
         for (unsigned int d = 0; d < 2; ++d)

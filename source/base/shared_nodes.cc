@@ -71,7 +71,7 @@ namespace tread
   }
 
 
-  void SharedNodes::sum(Row *field) const
+  void SharedNodes::sum(Vector3 *field) const
   {
     if (neighbours.empty())
       return;
@@ -94,7 +94,7 @@ namespace tread
     for (unsigned int i = 0; i < shared.size(); ++i)
       {
         own_values[i]    = field[shared[i]];
-        field[shared[i]] = Row{};
+        field[shared[i]] = Vector3{};
       }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
@@ -111,7 +111,7 @@ namespace tread
           add_own();
         for (const unsigned int node : neighbour.nodes)
           {
-            field[node] += Row{received[0], received[1], received[2], 0.};
+            field[node] += Vector3{received[0], received[1], received[2], 0.};
             received += 3;
           }
       }

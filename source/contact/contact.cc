@@ -37,7 +37,7 @@ namespace tread
     /// are away at least.
     constexpr double most_travel = 0.5;
 
-    double norm(const Row a)
+    double norm(const Vector3 a)
     {
       return std::sqrt(dot(a, a));
     }
@@ -82,8 +82,8 @@ namespace tread
   {
     NodalField rows(inverse_masses.size());
     for (unsigned int i = 0; i < inverse_masses.size(); ++i)
-      rows[i] = Row{inverse_masses[i], 0., 0., 0.};
-    std::vector<Row> replicated;
+      rows[i] = Vector3{inverse_masses[i], 0., 0., 0.};
+    std::vector<Vector3> replicated;
     surfaces.replicate(rows.data(), replicated);
     for (unsigned int i = 0; i < replicated.size(); ++i)
       inverse_mass[i] = replicated[i][0];
@@ -93,19 +93,19 @@ namespace tread
 
   void Contact::scale_impulses(const double factor)
   {
-    for (Row &p : impulse)
+    for (Vector3 &p : impulse)
       p *= factor;
     previous_impulse = impulse;
   }
 
 
-  void Contact::refresh(const Row *x, const Row *v, const double time_step)
+  void Contact::refresh(const Vector3 *x, const Vector3 *v, const double time_step)
   {
-    std::vector<Row> all_x, all_v;
+    std::vector<Vector3> all_x, all_v;
     surfaces.replicate(x, all_x);
     surfaces.replicate(v, all_v);
 
-    std::vector<Row> impulse_of_node(surfaces.nodes.size(), Row{}); // the warm start
+    std::vector<Vector3> impulse_of_node(surfaces.nodes.size(), Vector3{}); // the warm start
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       impulse_of_node[problem.constraints[j].slave] = impulse[j];
 
@@ -124,13 +124,13 @@ namespace tread
       std::min(most_travel * search_reach,
                std::max(least_travel * reach, of_time_to_touch * speed * coupling.time_to_touch));
     time_to_refresh = std::numeric_limits<double>::max();
-    Row                 turning{};
+    Vector3             turning{};
     unsigned int        n_loaded = 0;
     std::vector<double> gap(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
         const MortarRow &row = coupling.rows[j];
-        Row              distance{}, u{};
+        Vector3          distance{}, u{};
         for (std::size_t i = row.begin; i < row.end; ++i)
           {
             distance += coupling.entries[i].coefficient * all_x[coupling.entries[i].node];
@@ -147,8 +147,8 @@ namespace tread
               {
                 const auto  &corners = surfaces.faces[f].nodes;
                 const double share   = 1. / (slave_faces[row.slave].size() * face_size);
-                turning += share * Row{dot(all_v[corners[2]] - all_v[corners[0]], row.normal),
-                                       dot(all_v[corners[3]] - all_v[corners[1]], row.normal), 0., 0.};
+                turning += share * Vector3{dot(all_v[corners[2]] - all_v[corners[0]], row.normal),
+                                           dot(all_v[corners[3]] - all_v[corners[1]], row.normal), 0., 0.};
               }
           }
       }
@@ -166,7 +166,7 @@ namespace tread
   }
 
 
-  std::array<double, 2> Contact::largest_speeds(const Row *v) const
+  std::array<double, 2> Contact::largest_speeds(const Vector3 *v) const
   {
     std::array<double, 2> squares{{0., 0.}};
     for (const unsigned int side : {0u, 1u})
@@ -181,8 +181,8 @@ namespace tread
 
   void Contact::compact(const MortarCoupling            &coupling,
                         const std::vector<unsigned int> &chosen,
-                        const std::vector<Row>          &impulse_of_node,
-                        const std::vector<Row>          &x)
+                        const std::vector<Vector3>      &impulse_of_node,
+                        const std::vector<Vector3>      &x)
   {
     std::vector<int> number(surfaces.nodes.size(), -1);
     involved.clear();
@@ -265,10 +265,10 @@ namespace tread
         if (const unsigned int body = surfaces.nodes[involved[problem.entries[i].node]].body;
             body != parameters.slave_body)
           master_of[j] = body;
-    velocity.assign(involved.size(), Row{});
-    predicted.assign(involved.size(), Row{});
-    velocity_before.assign(involved.size(), Row{});
-    mean_velocity.assign(involved.size(), Row{});
+    velocity.assign(involved.size(), Vector3{});
+    predicted.assign(involved.size(), Vector3{});
+    velocity_before.assign(involved.size(), Vector3{});
+    mean_velocity.assign(involved.size(), Vector3{});
     gap_rate.resize(problem.constraints.size());
     slips.assign(problem.constraints.size(), false);
     const unsigned int n_ranks = involved_of_rank.size();
@@ -348,7 +348,7 @@ namespace tread
     gather_strips(previous_impulse);
     gather_strips(slid);
 
-    std::vector<Row> rows;
+    std::vector<Vector3> rows;
     for (const unsigned int i : involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])
       rows.push_back(position[i]);
     rows     = gathered(rows, comm);
@@ -375,7 +375,10 @@ namespace tread
   }
 
 
-  void Contact::predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra)
+  void Contact::predict(const Vector3       *v,
+                        const Vector3       *force,
+                        const double         time_step,
+                        std::vector<double> &extra)
   {
     const unsigned int n_ranks = involved_of_rank.size();
     // Measured as rarely as the normals are updated, because speeds change little in between.
@@ -411,7 +414,7 @@ namespace tread
             send_buffer.insert(send_buffer.end(), largest.begin(), largest.end());
             send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
             for (const unsigned int i : sent_to[rank])
-              for (const Row &row : {velocity_before[i], predicted[i]})
+              for (const Vector3 &row : {velocity_before[i], predicted[i]})
                 send_buffer.insert(send_buffer.end(), {row[0], row[1], row[2]});
             send_counts[rank] = send_buffer.size() - send_offsets[rank];
             counts[rank]      = largest.size() + extra.size() + 6 * received_from[rank].size();
@@ -431,8 +434,8 @@ namespace tread
               sums[i] += rank == this_rank ? extra[i] : *received++;
             for (const unsigned int i : received_from[rank])
               {
-                velocity_before[i] = Row{received[0], received[1], received[2], 0.};
-                predicted[i]       = Row{received[3], received[4], received[5], 0.};
+                velocity_before[i] = Vector3{received[0], received[1], received[2], 0.};
+                predicted[i]       = Vector3{received[3], received[4], received[5], 0.};
                 received += 6;
               }
           }
@@ -448,7 +451,7 @@ namespace tread
   {
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       {
-        Row sum{};
+        Vector3 sum{};
         for (unsigned int k = 0; k < corners_around[j].size(); k += 4)
           {
             const unsigned int *c = &corners_around[j][k];
@@ -460,7 +463,7 @@ namespace tread
   }
 
 
-  CoulombSolverResult Contact::solve(const double time_step, Row *force)
+  CoulombSolverResult Contact::solve(const double time_step, Vector3 *force)
   {
     if (++steps_since_normals > steps_between_normals)
       update_normals();
@@ -472,7 +475,7 @@ namespace tread
     // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       {
-        const Row guess     = 2. * impulse[j] - previous_impulse[j];
+        const Vector3 guess = 2. * impulse[j] - previous_impulse[j];
         previous_impulse[j] = impulse[j];
         if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
           impulse[j] = guess;
@@ -489,7 +492,7 @@ namespace tread
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         if (dot(impulse[j], constraint.normal) <= 0. || !slips[j])
           continue;
-        const Row after = problem.combine(constraint, velocity);
+        const Vector3 after = problem.combine(constraint, velocity);
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
         slid_enough = slid_enough || slid[j] > parameters.sliding_share * face_size;
       }
@@ -499,26 +502,26 @@ namespace tread
     work = ContactWork();
     for (const NodeTerms &of_node : node_terms)
       {
-        Row          sum[2] = {}; // each addition waits for the one before it
+        Vector3      sum[2] = {}; // each addition waits for the one before it
         unsigned int k      = of_node.begin;
         for (; k + 2 <= of_node.end; k += 2)
           for (unsigned int half : {0u, 1u})
             sum[half] += terms[k + half].coefficient * impulse[terms[k + half].constraint];
         if (k < of_node.end)
           sum[0] += terms[k].coefficient * impulse[terms[k].constraint];
-        const Row p     = sum[0] + sum[1];
-        Row      &after = velocity[of_node.node];
-        after           = predicted[of_node.node] + of_node.inverse_mass * p;
+        const Vector3 p     = sum[0] + sum[1];
+        Vector3      &after = velocity[of_node.node];
+        after               = predicted[of_node.node] + of_node.inverse_mass * p;
         position[of_node.node] += time_step * after;
         mean_velocity[of_node.node] = 0.5 * (after + velocity_before[of_node.node]);
         if (of_node.local < 0)
           continue;
-        const Row before = force[of_node.local];
+        const Vector3 before = force[of_node.local];
         force[of_node.local] += (1. / time_step) * p;
         if (of_node.owned)
           {
             // The work is that of the force actually applied to the node, not of the impulse intended.
-            const Row given = time_step * (force[of_node.local] - before);
+            const Vector3 given = time_step * (force[of_node.local] - before);
             work.on_nodes -= 0.5 * dot(given, velocity_before[of_node.node] + predicted[of_node.node] +
                                                 of_node.inverse_mass * given);
           }
@@ -539,9 +542,9 @@ namespace tread
         const double                      normal     = dot(impulse[j], constraint.normal);
         if (normal <= 0.)
           continue;
-        const Row    u          = problem.combine(constraint, mean_velocity);
-        const Row    tangential = impulse[j] - normal * constraint.normal;
-        const double lost       = -dot(tangential, u);
+        const Vector3 u          = problem.combine(constraint, mean_velocity);
+        const Vector3 tangential = impulse[j] - normal * constraint.normal;
+        const double  lost       = -dot(tangential, u);
         work.normal -= normal * dot(u, constraint.normal);
         (slips[j] ? work.friction : work.adhesion) += lost;
       }

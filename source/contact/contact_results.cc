@@ -10,27 +10,27 @@ namespace tread
 {
   namespace
   {
-    double norm(const Row a)
+    double norm(const Vector3 a)
     {
       return std::sqrt(dot(a, a));
     }
   } // namespace
 
 
-  Row Contact::total_impulse() const
+  Vector3 Contact::total_impulse() const
   {
-    Row sum{};
-    for (const Row &p : impulse)
+    Vector3 sum{};
+    for (const Vector3 &p : impulse)
       sum += p;
     return sum;
   }
 
 
-  Row Contact::total_impulse_on(const unsigned int body) const
+  Vector3 Contact::total_impulse_on(const unsigned int body) const
   {
     if (body == parameters.slave_body)
       return -1. * total_impulse();
-    Row sum{};
+    Vector3 sum{};
     for (unsigned int j = 0; j < impulse.size(); ++j)
       if (master_of[j] == body)
         sum += impulse[j];
@@ -38,16 +38,16 @@ namespace tread
   }
 
 
-  double Contact::free_rolling_creepage(const Row *x, const unsigned int master_body) const
+  double Contact::free_rolling_creepage(const Vector3 *x, const unsigned int master_body) const
   {
-    std::vector<Row> now;
+    std::vector<Vector3> now;
     surfaces.replicate(x, now);
     std::vector<double> load(surfaces.nodes.size(), 0.);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
         if (master_of[j] == master_body)
-        load[involved[problem.entries[i].node]] +=
-          problem.entries[i].coefficient * dot(impulse[j], problem.constraints[j].normal);
+          load[involved[problem.entries[i].node]] +=
+            problem.entries[i].coefficient * dot(impulse[j], problem.constraints[j].normal);
 
     double stretch[2] = {0., 0.}, weight[2] = {0., 0.};
     for (const ContactSurfaces::Face &face : surfaces.faces)
@@ -91,7 +91,7 @@ namespace tread
         state.position    = position[number[constraint.slave]];
         state.normal      = constraint.normal;
         state.impulse     = impulse[j];
-        const Row u       = problem.combine(constraint, velocity);
+        const Vector3 u   = problem.combine(constraint, velocity);
         state.slip        = u - dot(u, constraint.normal) * constraint.normal;
         state.area        = constraint.area;
         state.gap         = dot(problem.combine(constraint, position), constraint.normal);
@@ -102,15 +102,15 @@ namespace tread
   }
 
 
-  std::optional<Row> Contact::contact_at_rim() const
+  std::optional<Vector3> Contact::contact_at_rim() const
   {
     if (rim_nodes.empty())
       return {};
     // Slave nodes beside the patch have no impulse. Master nodes there have some where faces overlap, but not
     // as much as those under it.
-    constexpr double  beside_patch = 0.3;
-    std::vector<Row>  nodal_impulse(involved.size(), Row{});
-    std::vector<char> loaded(surfaces.nodes.size(), false);
+    constexpr double     beside_patch = 0.3;
+    std::vector<Vector3> nodal_impulse(involved.size(), Vector3{});
+    std::vector<char>    loaded(surfaces.nodes.size(), false);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       if (const ContactProblem::Constraint &constraint = problem.constraints[j]; norm(impulse[j]) > 0.)
         {
@@ -119,7 +119,7 @@ namespace tread
             nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * impulse[j];
         }
     double largest = 0.;
-    for (const Row &p : nodal_impulse)
+    for (const Vector3 &p : nodal_impulse)
       largest = std::max(largest, norm(p));
     for (const unsigned int i : rim_nodes)
       if (surfaces.nodes[involved[i]].body == parameters.slave_body

@@ -65,7 +65,7 @@ namespace tread
         for (unsigned int v = 0; v < 4; ++v)
           {
             const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
-            const Row          edge = nodes[b].reference - nodes[a].reference;
+            const Vector3      edge = nodes[b].reference - nodes[a].reference;
             if (4. * edge[1] * edge[1] <= dot(edge, edge))
               ++n_faces[std::minmax(a, b)];
           }
@@ -98,7 +98,7 @@ namespace tread
 
     nodes.resize(n);
     for (const auto &[key, i] : number)
-      nodes[i] = {static_cast<unsigned int>(key[0]), false, -1, -1, Row{}};
+      nodes[i] = {static_cast<unsigned int>(key[0]), false, -1, -1, Vector3{}};
     for (const auto &entry : sorted)
       {
         Face face;
@@ -138,10 +138,10 @@ namespace tread
     for (unsigned int rank = 0; rank < nodes_of_rank.size(); ++rank)
       for (const unsigned int i : nodes_of_rank[rank])
         nodes[i].owner = rank;
-    NodalField       reference(mesh.nodes.size());
-    std::vector<Row> rows;
+    NodalField           reference(mesh.nodes.size());
+    std::vector<Vector3> rows;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+      reference[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     replicate(reference.data(), rows);
     for (unsigned int i = 0; i < n; ++i)
       nodes[i].reference = rows[i];
@@ -150,7 +150,7 @@ namespace tread
   }
 
 
-  void ContactSurfaces::replicate(const Row *field, std::vector<Row> &rows) const
+  void ContactSurfaces::replicate(const Vector3 *field, std::vector<Vector3> &rows) const
   {
     rows.resize(nodes.size());
     const unsigned int n_ranks   = nodes_of_rank.size(),
@@ -172,7 +172,7 @@ namespace tread
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       for (const unsigned int i : nodes_of_rank[rank])
         {
-          rows[i] = Row{value[0], value[1], value[2], 0.};
+          rows[i] = Vector3{value[0], value[1], value[2], 0.};
           value += 3;
         }
   }

@@ -11,10 +11,10 @@ namespace tread
                                     const CoulombSolverParameters &parameters,
                                     Strips                        &strips,
                                     const std::vector<double>     &gap_rate,
-                                    std::vector<Row>              &velocity,
-                                    std::vector<Row>              &impulse,
+                                    std::vector<Vector3>          &velocity,
+                                    std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
-                                    const std::vector<Row>        &given)
+                                    const std::vector<Vector3>    &given)
   {
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
@@ -34,8 +34,8 @@ namespace tread
           if (!all && waits[j])
             continue;
           const ContactProblem::Constraint &constraint  = problem.constraints[j];
-          const Row                         u           = problem.combine(constraint, velocity);
-          const Row                         old         = impulse[j];
+          const Vector3                     u           = problem.combine(constraint, velocity);
+          const Vector3                     old         = impulse[j];
           const double                      old_normal  = dot(old, constraint.normal);
           const double                      normal_rate = dot(u, constraint.normal) + gap_rate[j];
           const double new_normal = std::max(0., old_normal - normal_rate / constraint.compliance);
@@ -43,10 +43,10 @@ namespace tread
           if (waits[j])
             continue;
 
-          Row tangential;
+          Vector3 tangential;
           if (given.empty())
             {
-              const Row slip = u - dot(u, constraint.normal) * constraint.normal;
+              const Vector3 slip = u - dot(u, constraint.normal) * constraint.normal;
               tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
               const double bound = static_coefficient * new_normal; // of adhesion
               const double size2 = dot(tangential, tangential);
@@ -65,8 +65,8 @@ namespace tread
               slips[j] = true;
             }
 
-          impulse[j]       = new_normal * constraint.normal + tangential;
-          const Row change = impulse[j] - old;
+          impulse[j]           = new_normal * constraint.normal + tangential;
+          const Vector3 change = impulse[j] - old;
           problem.apply(constraint, change, velocity);
           largest[0] = std::max(largest[0], dot(change, change));
           largest[1] = std::max(largest[1], new_normal);

@@ -30,7 +30,7 @@ namespace tread
     /// Coefficients below this share are round-off: functions of faces that only touch.
     constexpr double least_coefficient = 1e-10;
 
-    Row normalised(const Row a)
+    Vector3 normalised(const Vector3 a)
     {
       return a * (1. / std::sqrt(dot(a, a)));
     }
@@ -40,25 +40,25 @@ namespace tread
     using Box      = bg::model::box<BoxPoint>;
 
     /// Bounding box of a face that moves back and forth by a given distance.
-    Box box_of(const ContactSurfaces::Face &face, const std::vector<Row> &x, const Row way)
+    Box box_of(const ContactSurfaces::Face &face, const std::vector<Vector3> &x, const Vector3 way)
     {
-      Row low = x[face.nodes[0]], high = low;
+      Vector3 low = x[face.nodes[0]], high = low;
       for (const unsigned int i : face.nodes)
         for (unsigned int d = 0; d < 3; ++d)
           {
             low[d]  = std::min(low[d], x[i][d]);
             high[d] = std::max(high[d], x[i][d]);
           }
-      const Row margin{std::abs(way[0]), std::abs(way[1]), std::abs(way[2]), 0.};
+      const Vector3 margin{std::abs(way[0]), std::abs(way[1]), std::abs(way[2]), 0.};
       low -= margin;
       high += margin;
       return Box(BoxPoint(low[0], low[1], low[2]), BoxPoint(high[0], high[1], high[2]));
     }
 
     /// The same way in all directions.
-    Row everywhere(const double way)
+    Vector3 everywhere(const double way)
     {
-      return way * Row{1., 1., 1., 0.};
+      return way * Vector3{1., 1., 1., 0.};
     }
 
 
@@ -66,10 +66,10 @@ namespace tread
     class MasterFaces
     {
     public:
-      MasterFaces(const ContactSurfaces  &surfaces,
-                  const std::vector<Row> &x,
-                  const unsigned int      slave_body,
-                  const double            search_reach)
+      MasterFaces(const ContactSurfaces      &surfaces,
+                  const std::vector<Vector3> &x,
+                  const unsigned int          slave_body,
+                  const double                search_reach)
       {
         Box slave_extent;
         bg::assign_inverse(slave_extent);
@@ -80,7 +80,7 @@ namespace tread
         std::vector<Entry> boxes;
         for (unsigned int f = 0; f < surfaces.faces.size(); ++f)
           if (surfaces.faces[f].body != slave_body)
-            if (const Box box = box_of(surfaces.faces[f], x, Row{}); bg::intersects(box, slave_extent))
+            if (const Box box = box_of(surfaces.faces[f], x, Vector3{}); bg::intersects(box, slave_extent))
               {
                 boxes.emplace_back(box, f);
                 bg::expand(extent, box);
@@ -122,24 +122,24 @@ namespace tread
     struct SlaveFace
     {
       const ContactSurfaces::Face *face;
-      Row                          origin, normal, along_s, along_t, area_vector;
+      Vector3                      origin, normal, along_s, along_t, area_vector;
       std::vector<unsigned int>    opposite;
       bool                         is_near;
 
-      SlaveFace(const ContactSurfaces::Face &face, const std::vector<Row> &x)
+      SlaveFace(const ContactSurfaces::Face &face, const std::vector<Vector3> &x)
         : face(&face)
         , is_near(false)
       {
-        const auto &n  = face.nodes;
-        area_vector    = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
-        normal         = normalised(area_vector);
-        origin         = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
-        const Row edge = x[n[1]] - x[n[0]];
-        along_s        = normalised(edge - dot(edge, normal) * normal);
-        along_t        = cross(normal, along_s);
+        const auto &n      = face.nodes;
+        area_vector        = 0.5 * cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
+        normal             = normalised(area_vector);
+        origin             = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
+        const Vector3 edge = x[n[1]] - x[n[0]];
+        along_s            = normalised(edge - dot(edge, normal) * normal);
+        along_t            = cross(normal, along_s);
       }
 
-      Plane2 project(const Row x) const
+      Plane2 project(const Vector3 x) const
       {
         return {dot(x - origin, along_s), dot(x - origin, along_t)};
       }
@@ -158,14 +158,14 @@ namespace tread
     void choose_opposite(SlaveFace                       &slave,
                          const std::vector<unsigned int> &faces,
                          const ContactSurfaces           &surfaces,
-                         const std::vector<Row>          &x,
-                         const std::vector<Row>          &v,
+                         const std::vector<Vector3>      &x,
+                         const std::vector<Vector3>      &v,
                          const double                     search_reach,
                          const double                     reach,
                          double                          &time_to_touch)
     {
-      const auto &n              = slave.face->nodes;
-      const Row   slave_velocity = 0.25 * (v[n[0]] + v[n[1]] + v[n[2]] + v[n[3]]);
+      const auto   &n              = slave.face->nodes;
+      const Vector3 slave_velocity = 0.25 * (v[n[0]] + v[n[1]] + v[n[2]] + v[n[3]]);
       for (const unsigned int f : faces)
         {
           const auto &m       = surfaces.faces[f].nodes;
@@ -186,13 +186,13 @@ namespace tread
     }
 
     /// First pass: the slave faces that have a master face opposite, and how near it is. Collective.
-    Found search(const ContactSurfaces  &surfaces,
-                 const std::vector<Row> &x,
-                 const std::vector<Row> &v,
-                 const unsigned int      slave_body,
-                 const MasterFaces      &master_faces,
-                 const double            search_reach,
-                 const double            reach)
+    Found search(const ContactSurfaces      &surfaces,
+                 const std::vector<Vector3> &x,
+                 const std::vector<Vector3> &v,
+                 const unsigned int          slave_body,
+                 const MasterFaces          &master_faces,
+                 const double                search_reach,
+                 const double                reach)
     {
       Found found;
       found.near_node.assign(surfaces.nodes.size(), false);
@@ -238,7 +238,7 @@ namespace tread
     struct NodeSum
     {
       unsigned int                                    node = 0;
-      Row                                             normal{};
+      Vector3                                         normal{};
       double                                          area = 0., covered = 0., whole = 0.; ///< m^2
       boost::container::small_vector<MortarEntry, 32> entries;
 
@@ -306,7 +306,7 @@ namespace tread
         for (const double *value = all.data(); value < all.data() + all.size();)
           {
             NodeSum &sum = of(value[0]);
-            sum.normal += Row{value[1], value[2], value[3], 0.};
+            sum.normal += Vector3{value[1], value[2], value[3], 0.};
             sum.area += value[4];
             sum.covered += value[5];
             sum.whole += value[6];
@@ -336,11 +336,11 @@ namespace tread
     };
 
     /// The parts of a slave face that master faces cover. @returns their area, m^2.
-    double cut(const SlaveFace        &slave,
-               const Quadrilateral    &corners,
-               const ContactSurfaces  &surfaces,
-               const std::vector<Row> &x,
-               std::vector<Piece>     &pieces)
+    double cut(const SlaveFace            &slave,
+               const Quadrilateral        &corners,
+               const ContactSurfaces      &surfaces,
+               const std::vector<Vector3> &x,
+               std::vector<Piece>         &pieces)
     {
       pieces.clear();
       double covered_area = 0.;
@@ -434,7 +434,9 @@ namespace tread
 
     /// Second pass: integrate all faces around the nodes that are near. What a hanging node's parents need
     /// are all the faces around them and around the nodes that hang on them. Collective.
-    NodeSums integrate_near(const ContactSurfaces &surfaces, const std::vector<Row> &x, const Found &found)
+    NodeSums integrate_near(const ContactSurfaces      &surfaces,
+                            const std::vector<Vector3> &x,
+                            const Found                &found)
     {
       std::vector<signed char> integrated = found.near_node;
       for (const auto &h : surfaces.hanging_nodes)
@@ -544,12 +546,12 @@ namespace tread
   } // namespace
 
 
-  MortarCoupling couple(const ContactSurfaces  &surfaces,
-                        const std::vector<Row> &x,
-                        const std::vector<Row> &v,
-                        const unsigned int      slave_body,
-                        const double            search_reach,
-                        const double            reach)
+  MortarCoupling couple(const ContactSurfaces      &surfaces,
+                        const std::vector<Vector3> &x,
+                        const std::vector<Vector3> &v,
+                        const unsigned int          slave_body,
+                        const double                search_reach,
+                        const double                reach)
   {
     MortarCoupling    coupling;
     const MasterFaces master_faces(surfaces, x, slave_body, search_reach);

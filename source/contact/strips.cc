@@ -27,10 +27,10 @@ namespace tread
   }
 
 
-  Strips::Strips(const ContactProblem   &problem,
-                 const std::vector<Row> &impulse,
-                 const unsigned int      n_nodes,
-                 const MPI_Comm          comm)
+  Strips::Strips(const ContactProblem       &problem,
+                 const std::vector<Vector3> &impulse,
+                 const unsigned int          n_nodes,
+                 const MPI_Comm              comm)
     : Strips(problem)
   {
     this->comm                 = comm;
@@ -129,7 +129,7 @@ namespace tread
   }
 
 
-  void Strips::send(Neighbour &to, const std::vector<Row> &velocity)
+  void Strips::send(Neighbour &to, const std::vector<Vector3> &velocity)
   {
     if (to.nodes.empty())
       return;
@@ -156,7 +156,7 @@ namespace tread
   }
 
 
-  void Strips::receive(Neighbour &from, std::vector<Row> &velocity)
+  void Strips::receive(Neighbour &from, std::vector<Vector3> &velocity)
   {
     if (from.nodes.empty())
       return;
@@ -167,7 +167,7 @@ namespace tread
     const double *value = receive_buffer.data();
     for (const unsigned int node : from.nodes)
       {
-        velocity[node] = Row{value[0], value[1], value[2], 0.};
+        velocity[node] = Vector3{value[0], value[1], value[2], 0.};
         value += 3;
       }
   }
@@ -180,7 +180,7 @@ namespace tread
   }
 
 
-  double Strips::gather(std::vector<Row> &values, const double own)
+  double Strips::gather(std::vector<Vector3> &values, const double own)
   {
     const unsigned int n_ranks = begin_of_strip.size() - 1;
     if (n_ranks == 1)
@@ -205,7 +205,7 @@ namespace tread
       {
         most = std::max(most, *value++);
         for (unsigned int j = begin_of_strip[rank]; j < begin_of_strip[rank + 1]; ++j, value += 3)
-          values[j] = Row{value[0], value[1], value[2], 0.};
+          values[j] = Vector3{value[0], value[1], value[2], 0.};
       }
     return most;
   }

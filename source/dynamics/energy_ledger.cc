@@ -15,7 +15,7 @@ namespace tread
 
   NodalField ExplicitDynamics::cell_forces() const
   {
-    NodalField forces(v.size(), Row{});
+    NodalField forces(v.size(), Vector3{});
     solid.add_internal_forces(positions().data(), v.data(), forces.data(), history);
     return forces;
   }
@@ -24,15 +24,15 @@ namespace tread
   double ExplicitDynamics::damping_forces(const NodalField &forces, NodalField &damping) const
   {
     // f(x + beta v) - f(x), and how much power it takes with the velocities of half a step back.
-    damping.assign(v.size(), Row{});
+    damping.assign(v.size(), Vector3{});
     if (!(parameters.damping_steps > 0. || solid.needs_velocity()))
       return 0.;
     NodalField without;
     solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history);
     if (solid.needs_velocity())
       {
-        const NodalField no_velocity(v.size(), Row{});
-        without.assign(v.size(), Row{});
+        const NodalField no_velocity(v.size(), Vector3{});
+        without.assign(v.size(), Vector3{});
         solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
       }
     const NodalField &elastic = solid.needs_velocity() ? without : forces;
@@ -119,8 +119,8 @@ namespace tread
     for (unsigned int i = 0; i < v.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          const double back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
-          const Row    before = position(i) - back * v[i];
+          const double  back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
+          const Vector3 before = position(i) - back * v[i];
           potential += true_mass[i] * parameters.gravity * before[2];
           if (const int number = wheel_of(i); number >= 0)
             {

@@ -29,12 +29,12 @@ namespace tread
   ExplicitDynamics::ExplicitDynamics(const Mesh               &mesh,
                                      const Solid              &solid,
                                      const DynamicsParameters &parameters)
-    : v(mesh.nodes.size(), Row{})
+    : v(mesh.nodes.size(), Vector3{})
     , history(solid.virgin())
     , mesh(mesh)
     , solid(solid)
     , parameters(parameters)
-    , force(mesh.nodes.size(), Row{})
+    , force(mesh.nodes.size(), Vector3{})
     , x_damped(mesh.nodes.size())
     , true_mass(mesh.nodes.size())
     , inverse_mass(mesh.nodes.size(), 0.)
@@ -43,8 +43,8 @@ namespace tread
     , wheel_of_body(mesh.body_names.size(), -1)
   {
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      x_damped[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
-    NodalField mass(mesh.nodes.size(), Row{});
+      x_damped[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+    NodalField mass(mesh.nodes.size(), Vector3{});
     const auto cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       for (unsigned int a = 0; a < 8; ++a)
@@ -92,7 +92,7 @@ namespace tread
     for (const unsigned int i : wheel.nodes)
       {
         carried[i] = true;
-        wheel.reference.push_back(position(i) - Row{motion.x, 0., motion.z, 0.});
+        wheel.reference.push_back(position(i) - Vector3{motion.x, 0., motion.z, 0.});
       }
     rank_sums.resize(n_sums_of_hubs() + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
@@ -101,8 +101,8 @@ namespace tread
     for (unsigned int i = 0; i < v.size(); ++i)
       if (wheel_of(i) == number && !carried[i] && mesh.shared_nodes.is_owned(i))
         {
-          const Row    x  = position(i);
-          const double rx = x[0] - motion.x, rz = x[2] - motion.z;
+          const Vector3 x  = position(i);
+          const double  rx = x[0] - motion.x, rz = x[2] - motion.z;
           sums[0] += true_mass[i];
           sums[1] += true_mass[i] * (rx * rx + rz * rz);
           sums[2] += true_mass[i] * rx;
@@ -135,7 +135,7 @@ namespace tread
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == body && true_mass[i] > 0.) // hanging nodes have none
         if (const double r = rate(mesh.nodes[i]); r > 0.)
-          damped_nodes.push_back({i, r, Row{}});
+          damped_nodes.push_back({i, r, Vector3{}});
   }
 
 
@@ -157,9 +157,9 @@ namespace tread
       if (const int number = wheel_of(i); number >= 0)
         {
           const WheelHub &hub     = *wheels[number].hub;
-          const Row       of_axle = hub.velocity_at(Row{hub.motion.x, 0., hub.motion.z, 0.});
+          const Vector3   of_axle = hub.velocity_at(Vector3{hub.motion.x, 0., hub.motion.z, 0.});
           const double    back    = 0.5 * std::ldexp(step, levels.of_node[i]);
-          const Row       x       = position(i);
+          const Vector3   x       = position(i);
           v[i]                    = hub.velocity_at(x - back * (hub.velocity_at(x) - of_axle));
         }
   }
@@ -201,7 +201,7 @@ namespace tread
     inverse_mass             = free_inverse_masses();
     loads_of_shared.clear();
     for (const unsigned int i : mesh.shared_nodes.nodes())
-      loads_of_shared.push_back({i, levels.of_node[i], Row{}});
+      loads_of_shared.push_back({i, levels.of_node[i], Vector3{}});
     if (contact)
       {
         contact->set_inverse_masses(inverse_mass);
@@ -250,7 +250,7 @@ namespace tread
   void ExplicitDynamics::check_stability() const
   {
     double fastest = 0.;
-    for (const Row &velocity : v)
+    for (const Vector3 &velocity : v)
       {
         const double speed2 = dot(velocity, velocity);
         fastest             = speed2 <= fastest ? fastest : speed2; // NaN is kept

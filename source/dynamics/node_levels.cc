@@ -36,7 +36,7 @@ namespace tread
     for (unsigned int level = max_level; level-- > 0;)
       {
         // A node moves with its fastest cell on any rank, a parent with those of its hanging nodes, too.
-        NodalField marks(of_node.size(), Row{});
+        NodalField marks(of_node.size(), Vector3{});
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
@@ -110,7 +110,7 @@ namespace tread
                 shares.nodes.push_back(i);
             shares.end_of_level.push_back(shares.nodes.size());
           }
-        shares.steady.assign(shares.nodes.size(), Row{});
+        shares.steady.assign(shares.nodes.size(), Vector3{});
       }
   }
 
@@ -145,7 +145,7 @@ namespace tread
     std::size_t bytes =
       of_node.size() * sizeof(of_node[0]) + hanging_at_contact.size() * sizeof(Mesh::HangingNode);
     for (const SlowShares &shares : slow_shares)
-      bytes += shares.nodes.size() * (sizeof(unsigned int) + sizeof(Row));
+      bytes += shares.nodes.size() * (sizeof(unsigned int) + sizeof(Vector3));
     for (const HangingNodes &of_level : hanging)
       bytes += (of_level.loaded.size() + of_level.placed.size()) * sizeof(Mesh::HangingNode);
     return bytes;

@@ -90,7 +90,8 @@ namespace tread
   }
 
 
-  RailBeam::Field RailBeam::balance(const Row *force, std::vector<reference::SupportedBeam::Load> loads) const
+  RailBeam::Field RailBeam::balance(const Vector3                              *force,
+                                    std::vector<reference::SupportedBeam::Load> loads) const
   {
     // Forces and moments about the centroid go to the two nearest of evenly spaced places.
     const unsigned int  n          = 2 + static_cast<unsigned int>((end - begin) / element_length);
@@ -129,7 +130,7 @@ namespace tread
   }
 
 
-  void RailBeam::add(const Field &field, const double factor, Row *values) const
+  void RailBeam::add(const Field &field, const double factor, Vector3 *values) const
   {
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       {
@@ -139,10 +140,10 @@ namespace tread
           {
             const double turned = field.rail.rotation(p[0]).real();
             values[i] +=
-              factor * Row{-turned * (p[2] - centroid_z), 0., field.rail.deflection(p[0]).real(), 0.};
+              factor * Vector3{-turned * (p[2] - centroid_z), 0., field.rail.deflection(p[0]).real(), 0.};
           }
         else if (support_of_body[body] >= 0)
-          values[i] += factor * Row{0., 0., field.sleepers[support_of_body[body]], 0.};
+          values[i] += factor * Vector3{0., 0., field.sleepers[support_of_body[body]], 0.};
       }
   }
 } // namespace tread

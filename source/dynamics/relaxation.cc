@@ -125,17 +125,17 @@ namespace tread
   ExplicitDynamics::Relaxation::Relaxation(ExplicitDynamics &dynamics)
     : d(dynamics)
     , x(d.x_damped)
-    , at_rest(x.size(), Row{})
-    , mass(x.size(), Row{})
+    , at_rest(x.size(), Vector3{})
+    , mass(x.size(), Vector3{})
     , inverse(x.size(), 0.)
-    , body_force(x.size(), Row{})
-    , previous(x.size(), Row{})
+    , body_force(x.size(), Vector3{})
+    , previous(x.size(), Vector3{})
     , of_wheels(d.wheels.size())
     , lightness(!d.wheels.empty() && d.contact ? lightness_of_wheel : 0.)
   {
     set_masses();
     set_loads();
-    std::fill(d.v.begin(), d.v.end(), Row{});
+    std::fill(d.v.begin(), d.v.end(), Vector3{});
     if (d.contact)
       {
         d.contact->set_inverse_masses(inverse);
@@ -159,7 +159,7 @@ namespace tread
     mesh.condense_hanging_nodes(mass.data());
     if (d.supports)
       {
-        NodalField rows(x.size(), Row{});
+        NodalField rows(x.size(), Vector3{});
         d.supports->add_row_sums(rows.data());
         for (unsigned int i = 0; i < x.size(); ++i)
           mass[i][0] += rows[i][0] / (frequency_of_cells * frequency_of_cells);
@@ -182,13 +182,13 @@ namespace tread
     for (unsigned int i = 0; i < x.size(); ++i)
       if (is_free_and_owned(i))
         {
-          body_force[i] = Row{0., 0., -d.parameters.gravity * d.true_mass[i], 0.};
+          body_force[i] = Vector3{0., 0., -d.parameters.gravity * d.true_mass[i], 0.};
           if (const int number = d.wheel_of(i); number >= 0)
             {
-              const Wheel &wheel  = d.wheels[number];
-              const double omega2 = wheel.nominal_angular_velocity * wheel.nominal_angular_velocity;
-              const Row    axle{wheel.hub->motion.x, 0., wheel.hub->motion.z, 0.};
-              body_force[i] += omega2 * d.true_mass[i] * Row{1., 0., 1., 0.} * (x[i] - axle);
+              const Wheel  &wheel  = d.wheels[number];
+              const double  omega2 = wheel.nominal_angular_velocity * wheel.nominal_angular_velocity;
+              const Vector3 axle{wheel.hub->motion.x, 0., wheel.hub->motion.z, 0.};
+              body_force[i] += omega2 * d.true_mass[i] * Vector3{1., 0., 1., 0.} * (x[i] - axle);
             }
           if (!d.external_force.empty())
             body_force[i] += d.external_force[i];
@@ -250,7 +250,7 @@ namespace tread
     inertia /= keep * keep;
     const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
     const double kept  = std::exchange(keep, std::clamp(1. - 2. * omega, least_kept, most_kept));
-    for (Row &velocity : d.v)
+    for (Vector3 &velocity : d.v)
       velocity *= keep / kept;
     for (OfWheel &wheel : of_wheels)
       wheel.hub_velocity *= keep / kept;
@@ -328,9 +328,9 @@ namespace tread
             squares += dot(d.force[i], d.force[i]);
             load_squares += dot(body_force[i], body_force[i]);
           }
-        const int number = d.wheel_of(i);
-        const Row displacement =
-          d.v[i] + inverse[i] * d.force[i] + Row{0., 0., number >= 0 ? shift[number] : 0., 0.};
+        const int     number = d.wheel_of(i);
+        const Vector3 displacement =
+          d.v[i] + inverse[i] * d.force[i] + Vector3{0., 0., number >= 0 ? shift[number] : 0., 0.};
         x[i] += displacement;
         d.v[i] = keep * displacement;
       }
@@ -339,7 +339,7 @@ namespace tread
         {
           const unsigned int i = d.wheels[k].nodes[j];
           x[i]                 = d.wheels[k].hub->position_of(d.wheels[k].reference[j]);
-          d.v[i]               = Row{0., 0., of_wheels[k].hub_velocity, 0.};
+          d.v[i]               = Vector3{0., 0., of_wheels[k].hub_velocity, 0.};
         }
     d.mesh.distribute_hanging_nodes(x.data());
     Mesh::distribute(d.levels.hanging_at_contact, d.v.data()); // all that is asked for
@@ -396,11 +396,11 @@ namespace tread
       throw std::runtime_error(
         "no equilibrium at the start within " + std::to_string(max_iterations) +
         " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
-    std::fill(v.begin(), v.end(), Row{});
+    std::fill(v.begin(), v.end(), Vector3{});
     solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history);
     if (supports)
       supports->set_at_rest(x_damped.data());
-    std::fill(force.begin(), force.end(), Row{});
+    std::fill(force.begin(), force.end(), Vector3{});
     for (const Wheel &wheel : wheels)
       wheel.hub->balance_suspension();
     if (contact)

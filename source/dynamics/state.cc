@@ -71,8 +71,8 @@ namespace tread
             archive.miss();
             continue;
           }
-        x_damped[i] = Row{node->x_damped[0], node->x_damped[1], node->x_damped[2], 0.};
-        v[i]        = Row{node->v[0], node->v[1], node->v[2], 0.};
+        x_damped[i] = Vector3{node->x_damped[0], node->x_damped[1], node->x_damped[2], 0.};
+        v[i]        = Vector3{node->v[0], node->v[1], node->v[2], 0.};
       }
   }
 } // namespace tread

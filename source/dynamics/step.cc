@@ -60,10 +60,10 @@ namespace tread
   {
     if (!has_loads)
       {
-        loop([](const unsigned int) { return Row{}; });
+        loop([](const unsigned int) { return Vector3{}; });
         return;
       }
-    Row          squares{};
+    Vector3      squares{};
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
     if (run.wheel >= 0)
       {
@@ -71,15 +71,15 @@ namespace tread
         const auto        &hub_motion = wheel.hub->motion;
         BodyLoads::OfWheel of_run;
         const double       omega = hub_motion.angular_velocity;
-        const Row          axle{hub_motion.x, 0., hub_motion.z, 0.},
+        const Vector3      axle{hub_motion.x, 0., hub_motion.z, 0.},
           velocity{hub_motion.velocity_x, 0., hub_motion.velocity_z, 0.}, spin{omega, 0., -omega, 0.},
-          inward = -compensation(wheel) * Row{1., 0., 1., 0.};
+          inward = -compensation(wheel) * Vector3{1., 0., 1., 0.};
         loop([&](const unsigned int i) {
-          const double mass     = free_mass(i, scaled);
-          const Row    arm      = position(i) - axle;
-          const Row    swapped  = __builtin_shufflevector(arm, arm, 2, 1, 0, 3);
-          const Row    relative = v[i] - velocity - spin * swapped;
-          const Row    momentum = mass * relative;
+          const double  mass     = free_mass(i, scaled);
+          const Vector3 arm      = position(i) - axle;
+          const Vector3 swapped  = __builtin_shufflevector(arm, arm, 2, 1, 0, 3);
+          const Vector3 relative = v[i] - velocity - spin * swapped;
+          const Vector3 momentum = mass * relative;
           of_run.arms += mass * arm;
           of_run.momentum += momentum;
           of_run.moments += swapped * momentum;
@@ -91,7 +91,7 @@ namespace tread
       }
     else
       loop([&](const unsigned int i) {
-        const Row momentum = free_mass(i, scaled) * v[i];
+        const Vector3 momentum = free_mass(i, scaled) * v[i];
         squares += v[i] * momentum;
         return -damping * momentum;
       });
@@ -106,7 +106,7 @@ namespace tread
       if (shared.level <= due)
         {
           shared.load        = force[shared.node];
-          force[shared.node] = Row{};
+          force[shared.node] = Vector3{};
         }
   }
 
@@ -116,7 +116,7 @@ namespace tread
     set_damping_time(parameters.damping_steps * time_step);
     mesh.distribute_hanging_nodes(x_damped.data());
     next_loads = BodyLoads(wheels.size());
-    std::fill(force.begin(), force.end(), Row{});
+    std::fill(force.begin(), force.end(), Vector3{});
     for (unsigned int level = 0; level <= max_level(); ++level)
       for (const Run &run : levels.runs[level])
         {
@@ -140,8 +140,8 @@ namespace tread
         for (const unsigned int i : wheel.nodes)
           if (mesh.shared_nodes.is_owned(i))
             {
-              const Row    x  = position(i);
-              const double rx = x[0] - motion.x, rz = x[2] - motion.z;
+              const Vector3 x  = position(i);
+              const double  rx = x[0] - motion.x, rz = x[2] - motion.z;
               for (unsigned int d = 0; d < 3; ++d)
                 of_wheel[d] += force[i][d];
               of_wheel[3] += rz * force[i][0] - rx * force[i][2];
@@ -157,7 +157,7 @@ namespace tread
       for (unsigned int k = 0; k < wheel.nodes.size(); ++k)
         {
           const unsigned int i = wheel.nodes[k];
-          const Row          x = wheel.hub->position_of(wheel.reference[k]);
+          const Vector3      x = wheel.hub->position_of(wheel.reference[k]);
           v[i]                 = wheel.hub->velocity_at(x);
           set_position(i, x);
         }
@@ -189,7 +189,7 @@ namespace tread
             for (unsigned int i = run.begin; i < run.end; ++i)
               force[i] += load(i);
           });
-    totals.damping += time_step * parameters.mass_damping * dot(loads.squares, Row{1., 1., 1., 0.});
+    totals.damping += time_step * parameters.mass_damping * dot(loads.squares, Vector3{1., 1., 1., 0.});
     add_local_damping(due);
     hold_guided_nodes(force);
     return loads;
@@ -241,7 +241,7 @@ namespace tread
       {
         const WheelHub::Motion &motion = wheel.hub->motion;
         const WheelHub::Motion  before = motion;
-        wheel.hub->advance(Row{sums[0], sums[1], sums[2], 0.}, sums[3], time_step);
+        wheel.hub->advance(Vector3{sums[0], sums[1], sums[2], 0.}, sums[3], time_step);
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
         const double work = -0.5 * time_step * compensation(wheel) *
@@ -268,7 +268,7 @@ namespace tread
         for (const Run &run : levels.runs[level])
           {
             const auto advance = [&](const unsigned int i) {
-              const Row velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
+              const Vector3 velocity = v[i] + (time_step * inverse_mass[i]) * force[i];
               if (loaded && run.is_owned)
                 {
                   const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);

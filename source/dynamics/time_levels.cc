@@ -76,7 +76,7 @@ namespace tread
     // result by less than the margin.
     NodalField reference(v.size());
     for (unsigned int i = 0; i < v.size(); ++i)
-      reference[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+      reference[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     critical_step = critical_time_step_of(highest_of_levels(reference, solid.virgin()));
     return critical_step;
   }
@@ -106,7 +106,7 @@ namespace tread
     if (supports)
       {
         const std::vector<double> inverse = free_inverse_masses();
-        NodalField                rows(v.size(), Row{});
+        NodalField                rows(v.size(), Vector3{});
         supports->add_row_sums(rows.data());
         mesh.shared_nodes.sum(rows.data());
         double of_springs, of_dampers;
@@ -150,8 +150,8 @@ namespace tread
           of_rank += dot(a[i], b[i]) / inverse[i];
       return sum(of_rank, mesh.comm);
     };
-    NodalField mode(v.size(), Row{}), mode_before(v.size(), Row{}), moved(v.size()), at_rest(v.size(), Row{}),
-      f(v.size()), forces_at_x(v.size(), Row{});
+    NodalField mode(v.size(), Vector3{}), mode_before(v.size(), Vector3{}), moved(v.size()),
+      at_rest(v.size(), Vector3{}), f(v.size()), forces_at_x(v.size(), Vector3{});
     const auto add_forces = [&](const NodalField &at, NodalField &forces) {
       solid.add_internal_forces(at.data(), at_rest.data(), forces.data(), memory, Levels{first_level});
       mesh.condense_hanging_nodes(forces.data());
@@ -166,17 +166,17 @@ namespace tread
     tridiagonal = 0.;
     for (unsigned int k = 0; k < lanczos_steps && size > 0.; ++k)
       {
-        for (Row &row : mode)
+        for (Vector3 &row : mode)
           row *= 1. / size;
         mesh.distribute_hanging_nodes(mode.data());
         double largest = 0.;
-        for (const Row &row : mode)
+        for (const Vector3 &row : mode)
           largest = std::max(largest, dot(row, row));
         const double scale = probing_displacement / std::sqrt(max(largest, mesh.comm));
         for (unsigned int i = 0; i < v.size(); ++i)
           {
             moved[i] = x[i] + scale * mode[i];
-            f[i]     = Row{};
+            f[i]     = Vector3{};
           }
         add_forces(moved, f);
         for (unsigned int i = 0; i < v.size(); ++i)
@@ -219,9 +219,9 @@ namespace tread
         Mesh::condense(levels.hanging[level].loaded, force.data());
         const double factor = std::ldexp(1., level);
         shares.for_nodes_up_to(level - 1, [&](const std::size_t k, const double own) {
-          Row      &here   = force[shares.nodes[k]];
-          const Row now    = (1. / factor) * (here - force_before[k]);
-          const Row change = levels.slow_shares_known ? follow * (now - shares.steady[k]) : now;
+          Vector3      &here   = force[shares.nodes[k]];
+          const Vector3 now    = (1. / factor) * (here - force_before[k]);
+          const Vector3 change = levels.slow_shares_known ? follow * (now - shares.steady[k]) : now;
           shares.steady[k] += change;
           // The steady part acts on average half of (factor - own) steps late: what that takes from a
           // force that changes is given at once, or motion would be fed with energy.
@@ -246,7 +246,7 @@ namespace tread
   {
     if (synchronised())
       {
-        for (Row *field : {v.data(), x_damped.data()})
+        for (Vector3 *field : {v.data(), x_damped.data()})
           mesh.distribute_hanging_nodes(field);
         return;
       }

@@ -374,7 +374,7 @@ namespace tread
   std::vector<unsigned int> Mesh::boundary_nodes(const unsigned int body, const Boundary boundary) const
   {
     // A rank may hold a node of the boundary without holding a face of it: ask all through the sum.
-    NodalField marks(nodes.size(), Row{});
+    NodalField marks(nodes.size(), Vector3{});
     for (const Mesh::Face &face : faces)
       if (face.body == body && face.boundary == boundary)
         for (const unsigned int i : face.nodes)

@@ -56,7 +56,7 @@ namespace tread
           if (mesh.shared_nodes.is_owned(i) && std::abs(mesh.nodes[i][1]) <= depth)
             {
               const dealii::Point<3> &p = mesh.nodes[i];
-              const Row               u = dynamics.position(i) - Row{p[0], p[1], p[2], 0.};
+              const Vector3           u = dynamics.position(i) - Vector3{p[0], p[1], p[2], 0.};
               own[mesh.node_key(i)]     = {{p[0], p[1], p[2], u[0], u[1], u[2]}};
             }
     std::vector<std::array<double, 6>> nodes;

@@ -50,7 +50,7 @@ namespace tread
     void set_vector(typename ArrayOutput<dim>::Patch &patch,
                     const unsigned int                first,
                     const unsigned int                vertex,
-                    const Row                         value)
+                    const Vector3                     value)
     {
       for (unsigned int d = 0; d < 3; ++d)
         patch.data(first + d, vertex) = value[d];
@@ -58,8 +58,8 @@ namespace tread
 
     struct SurfaceValues
     {
-      double pressure = 0., state = 0.; // MPa; 0 apart, 1 adhesion, 2 slip
-      Row    shear{}, slip{};           // MPa, m/s
+      double  pressure = 0., state = 0.; // MPa; 0 apart, 1 adhesion, 2 slip
+      Vector3 shear{}, slip{};           // MPa, m/s
     };
 
     ArrayOutput<2> surface_output()
@@ -74,7 +74,7 @@ namespace tread
 
     /// Vertices in deal.II's order.
     void add_face(ArrayOutput<2>                     &output,
-                  const std::array<Row, 4>           &vertices,
+                  const std::array<Vector3, 4>       &vertices,
                   const std::array<SurfaceValues, 4> &values)
     {
       ArrayOutput<2>::Patch patch;
@@ -152,12 +152,12 @@ namespace tread
         for (unsigned int v = 0; v < 8; ++v)
           {
             const unsigned int i = mesh.cells[c].nodes[v];
-            const Row          x = dynamics.position(i);
-            Row                rigid{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+            const Vector3      x = dynamics.position(i);
+            Vector3            rigid{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
             if (wheel != hubs.end())
               {
                 const WheelHub &hub = *wheel->second;
-                rigid               = hub.position_of(rigid - Row{hub.start_x(), 0., hub.start_z(), 0.});
+                rigid               = hub.position_of(rigid - Vector3{hub.start_x(), 0., hub.start_z(), 0.});
               }
             patch.vertices[v] = dealii::Point<3>(x[0], x[1], x[2]);
             set_vector<3>(patch, 0, v, 1e6 * (x - rigid));
@@ -182,7 +182,7 @@ namespace tread
                                 const Contact          &contact,
                                 const unsigned int      body)
   {
-    std::vector<Row> positions;
+    std::vector<Vector3> positions;
     contact.surfaces.replicate(dynamics.positions().data(), positions);
     const std::vector<ContactNodeState> states = contact.active_nodes();
     if (!writes_tables) // all ranks know all of the surface
@@ -200,7 +200,7 @@ namespace tread
       if (face.body == body)
         {
           constexpr unsigned int       around[4] = {0, 1, 3, 2}; // from the counter-clockwise order
-          std::array<Row, 4>           vertices;
+          std::array<Vector3, 4>       vertices;
           std::array<SurfaceValues, 4> at;
           for (unsigned int v = 0; v < 4; ++v)
             {
@@ -229,10 +229,10 @@ namespace tread
             values.shear[d] = 1e-6 * element.shear[d];
             values.slip[d]  = element.slip[d];
           }
-        std::array<Row, 4> vertices;
+        std::array<Vector3, 4> vertices;
         for (unsigned int v = 0; v < 4; ++v)
           vertices[v] =
-            element.position + Row{(v % 2 - 0.5) * element_size, (v / 2 - 0.5) * element_size, 0., 0.};
+            element.position + Vector3{(v % 2 - 0.5) * element_size, (v / 2 - 0.5) * element_size, 0., 0.};
         add_face(output, vertices, {values, values, values, values});
       }
     add_picture("surface", output.piece(), 0., surface_files);

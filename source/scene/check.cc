@@ -284,7 +284,7 @@ namespace tread
       }
     catch (const std::invalid_argument &error)
       {
-        throw SceneError(error.what());
+        throw InputError(error.what());
       }
   }
 

@@ -85,7 +85,7 @@ namespace tread
     std::vector<PatchNode> nodes;
     for (std::size_t i = 0; i < half_space.x.size(); ++i)
       if (half_space.state[i] != reference::ElementState::exterior)
-        nodes.push_back({Row{half_space.x[i], half_space.y[i] + y_first_contact, 0., 0.},
+        nodes.push_back({Vector3{half_space.x[i], half_space.y[i] + y_first_contact, 0., 0.},
                          half_space.element_size * half_space.element_size,
                          half_space.pressure[i],
                          {half_space.shear_x[i], half_space.shear_y[i]},
@@ -95,7 +95,7 @@ namespace tread
   }
 
 
-  Row traction_over_pressure(const reference::RollingResult &half_space, const double x, const double y)
+  Vector3 traction_over_pressure(const reference::RollingResult &half_space, const double x, const double y)
   {
     const double       size    = half_space.element_size;
     const unsigned int n_steps = std::ceil(std::max(std::abs(x), std::abs(y)) / size);
@@ -108,9 +108,10 @@ namespace tread
           continue;
         const std::size_t i = half_space.n_x * std::size_t(row) + std::size_t(column);
         if (half_space.pressure[i] > 0.)
-          return Row{half_space.shear_x[i], half_space.shear_y[i], 0., 0.} * (1. / half_space.pressure[i]);
+          return Vector3{half_space.shear_x[i], half_space.shear_y[i], 0., 0.} *
+                 (1. / half_space.pressure[i]);
       }
-    return Row{};
+    return Vector3{};
   }
 
 
@@ -119,7 +120,7 @@ namespace tread
     const reference::RollingResult &fields = half_space.fields;
     ContactAnswer                   answer;
     answer.force =
-      Row{half_space.longitudinal_force.value, half_space.lateral_force.value, fields.normal_force, 0.};
+      Vector3{half_space.longitudinal_force.value, half_space.lateral_force.value, fields.normal_force, 0.};
     answer.creepage               = 0. - half_space.creepage.value;
     answer.patch                  = measure(patch_nodes(fields, 0.));
     answer.patch.max_pressure     = half_space.max_pressure.value;

@@ -59,6 +59,29 @@ namespace tread
       return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }
 
+    /// A parameter file: what it says itself, and the files that it includes.
+    struct ParameterFile
+    {
+      std::string text; ///< lines "include NAME" are left empty, so that others keep their numbers
+      std::vector<std::string> included; ///< as named, in their order
+    };
+
+    ParameterFile read_parameter_file(const std::string &file)
+    {
+      std::ifstream input(file);
+      if (!input)
+        throw InputError("cannot read parameter file '" + file + "'");
+      const std::regex include("\\s*include\\s+(.*\\S)\\s*");
+      ParameterFile    content;
+      std::string      line;
+      for (std::smatch match; std::getline(input, line); content.text += '\n')
+        if (std::regex_match(line, match, include))
+          content.included.push_back(match[1]);
+        else
+          content.text += line;
+      return content;
+    }
+
     struct Entry
     {
       std::string path, section, name, value, pattern;
@@ -126,24 +149,29 @@ namespace tread
   } // namespace
 
 
-  void Scene::parse(const std::string &file)
+  void Scene::parse(const std::string &file, const unsigned int depth)
   {
+    constexpr unsigned int deepest = 10;
+    if (depth > deepest)
+      throw InputError("parameter file '" + file + "' is included by itself");
     if (std::filesystem::is_directory(file))
-      throw SceneError("parameter file '" + file + "' is a folder");
-    if (!std::ifstream(file))
-      throw SceneError("cannot read parameter file '" + file + "'");
+      throw InputError("parameter file '" + file + "' is a folder");
+    const ParameterFile content = read_parameter_file(file);
+    for (const std::string &name : content.included)
+      parse((std::filesystem::path(file).parent_path() / name).string(), depth + 1);
     try
       {
-        handler.parse_input(file, "", false, true);
+        std::istringstream text(content.text);
+        handler.parse_input(text, file);
       }
     catch (const dealii::ParameterHandler::ExcEntryUndeclared &error)
       {
-        throw SceneError(file + ": " + one_line(error));
+        throw InputError(file + ": " + one_line(error));
       }
     catch (const dealii::ExceptionBase &error)
       {
         const std::string text = readable(one_line(error));
-        throw SceneError(text.find(file) == std::string::npos ? file + ": " + text : text);
+        throw InputError(text.find(file) == std::string::npos ? file + ": " + text : text);
       }
   }
 
@@ -169,7 +197,7 @@ namespace tread
     };
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
-      throw SceneError("-s \"" + setting + "\": expected Section/Name=value");
+      throw InputError("-s \"" + setting + "\": expected Section/Name=value");
     const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
     for (const Entry &entry : all_entries(handler))
       if (entry.path == path)
@@ -182,13 +210,13 @@ namespace tread
           catch (const dealii::ExceptionBase &)
             {
               handler.leave_subsection();
-              throw SceneError("'" + path + "' cannot be '" + value +
+              throw InputError("'" + path + "' cannot be '" + value +
                                "'; allowed: " + readable(entry.pattern));
             }
           handler.leave_subsection();
           return;
         }
-    throw SceneError("no parameter '" + path + "'; " + did_you_mean(handler, path));
+    throw InputError("no parameter '" + path + "'; " + did_you_mean(handler, path));
   }
 
 

@@ -90,13 +90,6 @@ namespace tread
   } // namespace
 
 
-  void require(const bool holds, const std::string &line)
-  {
-    if (!holds)
-      throw SceneError(line);
-  }
-
-
   Section::Section(dealii::ParameterHandler &handler, const std::string &name)
     : handler(handler)
   {

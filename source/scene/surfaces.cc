@@ -63,7 +63,7 @@ namespace tread
       }
     catch (const std::runtime_error &error)
       {
-        throw SceneError("'Wheel/Tread profile': " + std::string(error.what()) +
+        throw InputError("'Wheel/Tread profile': " + std::string(error.what()) +
                          "; allowed: cylinder, cone 1:40, cone 1:20, S1002 or a file");
       }
   }
@@ -102,7 +102,7 @@ namespace tread
             }
           catch (const std::runtime_error &error)
             {
-              throw SceneError("'Rail/Measured head': " + std::string(error.what()));
+              throw InputError("'Rail/Measured head': " + std::string(error.what()));
             }
         const auto own = [nominal, height](const double y) {
           return nominal(y) + (height ? height(y) : 0.);

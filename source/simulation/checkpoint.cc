@@ -101,11 +101,11 @@ namespace tread
       }
     found_layout = dealii::Utilities::MPI::broadcast(comm, found_layout, 0);
     if (found_layout.empty())
-      throw SceneError("--resume: cannot read '" + path + "'");
+      throw InputError("--resume: cannot read '" + path + "'");
     if (found_layout != layout)
-      throw SceneError("--resume: '" + path + "' was not written by this version of tread");
+      throw InputError("--resume: '" + path + "' was not written by this version of tread");
     if (!dealii::Utilities::MPI::broadcast(comm, is_whole, 0))
-      throw SceneError("--resume: '" + path + "' is damaged");
+      throw InputError("--resume: '" + path + "' is damaged");
     return dealii::Utilities::MPI::broadcast(comm, content, 0);
   }
 
@@ -122,7 +122,7 @@ namespace tread
     const auto trimmed = [](const std::string &line) {
       return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
     };
-    throw SceneError("--resume: the checkpoint was made with other parameters: '" + trimmed(old_line) +
+    throw InputError("--resume: the checkpoint was made with other parameters: '" + trimmed(old_line) +
                      "', now '" + trimmed(new_line) + "'");
   }
 
@@ -134,7 +134,7 @@ namespace tread
       std::ifstream(folder.path("checkpoint.last")) >> name;
     name = dealii::Utilities::MPI::broadcast(comm, name, 0);
     if (name.empty())
-      throw SceneError("--resume: no checkpoint in '" + folder.path("") + "'");
+      throw InputError("--resume: no checkpoint in '" + folder.path("") + "'");
     next_slot = name.back() == '0' ? 1 : 0;
 
     const std::string content = content_of(name);
@@ -146,11 +146,11 @@ namespace tread
         Archive archive(comm, content.substr(sizeof size + size));
         simulation.serialize(archive);
         if (!archive.found_all())
-          throw SceneError("--resume: '" + folder.path(name) + "' belongs to another mesh");
+          throw InputError("--resume: '" + folder.path(name) + "' belongs to another mesh");
       }
     catch (const Archive::OtherLayout &)
       {
-        throw SceneError("--resume: '" + folder.path(name) + "' was not written by this version of tread");
+        throw InputError("--resume: '" + folder.path(name) + "' was not written by this version of tread");
       }
   }
 } // namespace tread

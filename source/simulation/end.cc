@@ -40,7 +40,7 @@ namespace tread
           residual = std::max(residual, von_mises(stress[c]));
         }
     n_nodes                   = std::max(1., sum(n_nodes, comm));
-    const Row          force  = last_force_on(wheels.front());
+    const Vector3      force  = last_force_on(wheels.front());
     const EnergyLedger energy = dynamics.ledger();
     passages.push_back({passages.size() + 1., sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes,
                         max(strain, comm), max(residual, comm), energy.plastic, energy.friction,
@@ -103,7 +103,7 @@ namespace tread
         if (wheel.number == 0)
           continue;
         const std::string   prefix   = "wheel_" + std::to_string(wheel.number + 1) + "_";
-        const Row           force    = last_force_on(wheel);
+        const Vector3       force    = last_force_on(wheel);
         const PatchMeasures patch    = wheel.averaged_measures(patches[wheel.number]);
         const double        traction = force[2] > 0. ? force[0] / force[2] : 0.;
         for (const auto &[name, value] :
@@ -180,7 +180,7 @@ namespace tread
     const RollingWheel &wheel     = wheels.front();
     const auto          patches   = solution_patches();
     const bool          averaged  = wheel.average.n_steps() > 0;
-    const Row           force     = last_force_on(wheel);
+    const Vector3       force     = last_force_on(wheel);
     const double        normal    = force[2]; // 0 while the wheel is in the air
     const double        ripple    = last_steps > 0 ? wheel.ripple(normal) : 0.;
     const double        traction  = normal > 0. ? force[0] / normal : 0.;

@@ -16,7 +16,7 @@ namespace tread
     const double        step  = scene.time_stepping.courant_number * dynamics.critical_time_step();
     const std::uint64_t steps = remaining_steps();
     // A few force evaluations tell this machine's pace.
-    NodalField       force(mesh.nodes.size(), Row{});
+    NodalField       force(mesh.nodes.size(), Vector3{});
     const NodalField x     = dynamics.positions();
     const auto       start = MPI_Wtime();
     unsigned int     n     = 0;

@@ -21,7 +21,7 @@ namespace tread
     hub.place(scene.path_begin(number), scene.axle_height());
     hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
     average                     = PatchAverage();
-    last_force_sum              = Row{};
+    last_force_sum              = Vector3{};
     last_force_low              = 1e300;
     last_force_high             = -1e300;
     solution_patch.clear();
@@ -34,7 +34,7 @@ namespace tread
   }
 
 
-  void RollingWheel::add_to_last_force(const Row force)
+  void RollingWheel::add_to_last_force(const Vector3 force)
   {
     last_force_sum += force;
     last_force_low  = std::min(last_force_low, force[2]);
@@ -55,7 +55,7 @@ namespace tread
   {
     const WheelRecord record{(1. / n_steps) * interval_force, creepage(scene), measure(now),
                              (hub.motion.velocity_z - interval_start_speed) / seconds};
-    interval_force       = Row{};
+    interval_force       = Vector3{};
     interval_start_speed = hub.motion.velocity_z;
     return record;
   }

@@ -88,7 +88,7 @@ namespace tread
         }
       catch (const std::out_of_range &number)
         {
-          throw SceneError("'Output/Cells': entry " + std::string(number.what()) + " lies outside the rail");
+          throw InputError("'Output/Cells': entry " + std::string(number.what()) + " lies outside the rail");
         }
   }
 
@@ -160,7 +160,7 @@ namespace tread
     const bool is_last = position() <= scene.path_end() && position() >= scene.path_end() - last_way;
     for (RollingWheel &wheel : wheels)
       {
-        const Row force = force_on(wheel);
+        const Vector3 force = force_on(wheel);
         wheel.interval_force += force;
         if (is_last)
           wheel.add_to_last_force(force);
@@ -176,7 +176,7 @@ namespace tread
   }
 
 
-  Row Simulation::last_force_on(const RollingWheel &wheel) const
+  Vector3 Simulation::last_force_on(const RollingWheel &wheel) const
   {
     return last_steps > 0 ? wheel.mean_last_force(last_steps) : force_on(wheel);
   }
@@ -461,8 +461,8 @@ namespace tread
 
   void Simulation::show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const
   {
-    const Row    force = force_on(wheels.front());
-    const double spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step;
+    const Vector3 force = force_on(wheels.front());
+    const double  spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step;
     progress.show(
       format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),
              1e-3 * force[2], force[0] / force[2],

@@ -46,17 +46,17 @@ namespace tread
           free_rolling_known = true;
           // On a track those to the side, of spin, are left to build up: an iteration takes long to bend the
           // rail that way.
-          contact.give_tractions([half_space, to_the_side = !supports, this](const Row place) {
+          contact.give_tractions([half_space, to_the_side = !supports, this](const Vector3 place) {
             const auto distance = [&](const RollingWheel &wheel) {
               return std::abs(place[0] - wheel.hub.motion.x);
             };
             const RollingWheel &nearest = *std::min_element(
               wheels.begin(), wheels.end(),
               [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
-            const Row ratio =
+            const Vector3 ratio =
               traction_over_pressure(*half_space[nearest.number], place[0] - nearest.hub.motion.x,
                                      place[1] - scene.first_contact().y);
-            return Row{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
+            return Vector3{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
           });
         }
       if (progress.due())
@@ -131,7 +131,7 @@ namespace tread
       {
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
           if (mesh.node_bodies[i] == wheel.body)
-            dynamics.set_position(i, Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
+            dynamics.set_position(i, Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
         solid.plastic().forget(wheel.body, dynamics.history);
         wheel.place(scene);
       }

@@ -154,7 +154,10 @@ namespace tread
     PlasticPoint<n> point;
 
     /// @param memory of the batch.
-    void evaluate(const YieldConstants<n> &material, const Batch &batch, const Row *x, const Lanes *memory)
+    void evaluate(const YieldConstants<n> &material,
+                  const Batch             &batch,
+                  const Vector3           *x,
+                  const Lanes             *memory)
     {
       deform(batch, x, F, amplitude);
       Lanes G[6];
@@ -232,7 +235,10 @@ namespace tread
 
 
   template <unsigned int n, bool updates, typename History>
-  double PlasticCells::add_forces(const Range &range, const Row *x, Row *force, History &history) const
+  double PlasticCells::add_forces(const Range   &range,
+                                  const Vector3 *x,
+                                  Vector3       *force,
+                                  History       &history) const
   {
     const YieldConstants<n> material(range.elastic, range.plastic);
     Lanes                   work{};
@@ -287,13 +293,13 @@ namespace tread
   }
 
 
-  void PlasticCells::add_forces(const Row *x, Row *force, const PlasticHistory &history) const
+  void PlasticCells::add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const
   {
     for_ranges([&](const Range &range, const auto n) { add_forces<n(), false>(range, x, force, history); });
   }
 
 
-  double PlasticCells::update(const Row *x, Row *force, PlasticHistory &history) const
+  double PlasticCells::update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const
   {
     double work = 0.;
     for_ranges(
@@ -302,7 +308,7 @@ namespace tread
   }
 
 
-  std::array<double, 2> PlasticCells::energies(const Row *x, const PlasticHistory &history) const
+  std::array<double, 2> PlasticCells::energies(const Vector3 *x, const PlasticHistory &history) const
   {
     Lanes strain{}, hourglass{};
     for_ranges([&](const Range &range, const auto n) {
@@ -326,7 +332,7 @@ namespace tread
   }
 
 
-  void PlasticCells::cauchy_stress(const Row                          *x,
+  void PlasticCells::cauchy_stress(const Vector3                      *x,
                                    const PlasticHistory               &history,
                                    std::vector<std::array<double, 6>> &stress,
                                    const std::vector<char>            &wanted) const

@@ -217,11 +217,11 @@ namespace tread
 
 
   template <bool viscous, bool affine>
-  void Solid::add_one_point_forces(const Range &range,
-                                   const Row   *x,
-                                   const Row   *v,
-                                   Row         *force,
-                                   const double factor) const
+  void Solid::add_one_point_forces(const Range   &range,
+                                   const Vector3 *x,
+                                   const Vector3 *v,
+                                   Vector3       *force,
+                                   const double   factor) const
   {
     const auto  &batches = one_point_batches<affine>();
     const double density = parameters.density_scale * range.density;
@@ -264,10 +264,10 @@ namespace tread
   }
 
 
-  void Solid::add_fully_integrated_forces(const Range &range,
-                                          const Row   *x,
-                                          Row         *force,
-                                          const double factor) const
+  void Solid::add_fully_integrated_forces(const Range   &range,
+                                          const Vector3 *x,
+                                          Vector3       *force,
+                                          const double   factor) const
   {
     for (std::size_t b = range.begin; b < range.end; ++b)
       {
@@ -294,7 +294,10 @@ namespace tread
   }
 
 
-  void Solid::add_elastic_forces(const Row *x, const Row *v, Row *force, const Levels levels) const
+  void Solid::add_elastic_forces(const Vector3 *x,
+                                 const Vector3 *v,
+                                 Vector3       *force,
+                                 const Levels   levels) const
   {
     const auto one_point = [&](const Range &range, const double factor, const auto affine) {
       if (needs_velocity())
@@ -316,7 +319,7 @@ namespace tread
   }
 
 
-  StrainEnergy Solid::strain_energy(const Row *x, const PlasticHistory &history) const
+  StrainEnergy Solid::strain_energy(const Vector3 *x, const PlasticHistory &history) const
   {
     Lanes strain_sum{}, hourglass_sum{};
     for_batches([&](const Range &range, const auto &batch, const auto &) {
@@ -358,7 +361,7 @@ namespace tread
   }
 
 
-  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Row               *x,
+  std::vector<std::array<double, 6>> Solid::cauchy_stress(const Vector3           *x,
                                                           const PlasticHistory    &history,
                                                           const std::vector<char> &wanted) const
   {

@@ -30,19 +30,19 @@ namespace tread
     ForceHistory read_forces(const std::string &folder)
     {
       if (!std::filesystem::is_directory(folder))
-        throw SceneError("no folder '" + folder + "'");
+        throw InputError("no folder '" + folder + "'");
       ForceHistory history;
       history.name = folder + "/history.csv";
       std::ifstream file(history.name);
       std::string   line;
       if (!std::getline(file, line))
-        throw SceneError("cannot read '" + history.name + "': is '" + folder + "' the folder of a run?");
+        throw InputError("cannot read '" + history.name + "': is '" + folder + "' the folder of a run?");
       const std::vector<std::string> names = split(line);
       std::vector<std::size_t>       place; // of the forces
       const auto                     find = [&](const std::string &name) {
         const auto at = std::find(names.begin(), names.end(), name);
         if (at == names.end())
-          throw SceneError(history.name + " has no column '" + name + "'");
+          throw InputError(history.name + " has no column '" + name + "'");
         return static_cast<std::size_t>(at - names.begin());
       };
       const std::size_t time = find("time_s"), position = find("position_m");
@@ -53,14 +53,14 @@ namespace tread
             history.columns.push_back(names[i]);
           }
       if (place.empty())
-        throw SceneError(history.name + " has no column of a force, whose name ends with _N");
+        throw InputError(history.name + " has no column of a force, whose name ends with _N");
       history.force.resize(place.size());
       for (std::size_t row = 1; std::getline(file, line); ++row)
         {
           const std::string where = history.name + ", row " + std::to_string(row) + ": ";
           const auto        parts = split(line);
           if (parts.size() != names.size())
-            throw SceneError(where + std::to_string(parts.size()) + " entries for " +
+            throw InputError(where + std::to_string(parts.size()) + " entries for " +
                              std::to_string(names.size()) + " columns");
           const auto number = [&](const std::size_t i) {
             try
@@ -69,7 +69,7 @@ namespace tread
               }
             catch (const dealii::ExceptionBase &)
               {
-                throw SceneError(where + "'" + parts[i] + "' is no number");
+                throw InputError(where + "'" + parts[i] + "' is no number");
               }
           };
           history.time.push_back(number(time));
@@ -103,7 +103,7 @@ namespace tread
           const bool         may_be_unlike =
             path.compare(0, 7, "Defect/") == 0 || path.compare(0, 7, "Output/") == 0 || path == "Scene/Title";
           if (!may_be_unlike && !same(of_run[i].value, of_twin[i].value))
-            throw SceneError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
+            throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
                              " and '" + of_twin[i].value + "' in " + twin);
         }
     }
@@ -121,7 +121,7 @@ namespace tread
         {
         }
       if (!std::isfinite(value))
-        throw SceneError(option + " cannot be '" + text + "'; allowed: a position of the wheel in mm");
+        throw InputError(option + " cannot be '" + text + "'; allowed: a position of the wheel in mm");
       return value;
     }
 
@@ -231,7 +231,7 @@ namespace tread
     const double  from     = millimetres(request.from_mm, "--from", -infinity),
                  to        = millimetres(request.to_mm, "--to", infinity);
     if (from > to)
-      throw SceneError("--from " + request.from_mm + " must not be above --to " + request.to_mm);
+      throw InputError("--from " + request.from_mm + " must not be above --to " + request.to_mm);
     const ForceHistory run = read_forces(request.run), smooth_twin = read_forces(request.smooth_twin);
     compare_parameters(request.run, request.smooth_twin);
     try
@@ -240,7 +240,7 @@ namespace tread
       }
     catch (const std::invalid_argument &error)
       {
-        throw SceneError(error.what());
+        throw InputError(error.what());
       }
     const RunFolder folder(request.output.empty() ? request.run : request.output, comm);
     folder.write("dynamic.csv", forces_text(dynamic));

@@ -166,7 +166,7 @@ namespace tread
       }
     catch (const std::exception &error)
       {
-        throw SceneError(std::string("no half-space answer: ") + error.what());
+        throw InputError(std::string("no half-space answer: ") + error.what());
       }
 
     Summary summary;

@@ -240,7 +240,7 @@ namespace tread
   }
 
 
-  std::vector<double> Supports::of_nodes(const Row *field, const bool from_reference) const
+  std::vector<double> Supports::of_nodes(const Vector3 *field, const bool from_reference) const
   {
     std::vector<double> values(ends.size(), 0.);
     for (unsigned int e = 0; e < ends.size(); ++e)
@@ -251,7 +251,7 @@ namespace tread
   }
 
 
-  void Supports::set_at_rest(const Row *x)
+  void Supports::set_at_rest(const Vector3 *x)
   {
     const std::vector<double> u = of_nodes(x, true);
     std::copy(u.begin(), u.end(), displacement.begin() + n_sleepers);
@@ -270,7 +270,7 @@ namespace tread
   }
 
 
-  void Supports::give(const int point, const double value, Row *force) const
+  void Supports::give(const int point, const double value, Vector3 *force) const
   {
     if (point >= static_cast<int>(n_sleepers))
       for (const auto &[node, share] : ends[point - n_sleepers].nodes)
@@ -278,7 +278,7 @@ namespace tread
   }
 
 
-  void Supports::add_forces(Row *force)
+  void Supports::add_forces(Vector3 *force)
   {
     for (double &f : sleeper_force)
       f = -parameters.sleeper_mass * gravity;
@@ -298,7 +298,7 @@ namespace tread
   }
 
 
-  void Supports::add_spring_forces(Row *force) const
+  void Supports::add_spring_forces(Vector3 *force) const
   {
     for (const Spring &spring : springs)
       {
@@ -309,7 +309,7 @@ namespace tread
   }
 
 
-  void Supports::add_row_sums(Row *field) const
+  void Supports::add_row_sums(Vector3 *field) const
   {
     for (const Spring &spring : springs)
       for (const int point : {spring.a, spring.b})
@@ -338,8 +338,8 @@ namespace tread
   }
 
 
-  void Supports::predict(const Row                 *v,
-                         const Row                 *force,
+  void Supports::predict(const Vector3             *v,
+                         const Vector3             *force,
                          const std::vector<double> &inverse_masses,
                          const double               time_step,
                          double                    *velocities) const
@@ -367,7 +367,7 @@ namespace tread
   }
 
 
-  void Supports::set_velocities(const Row *v, const std::vector<double> &sleeper_velocities)
+  void Supports::set_velocities(const Vector3 *v, const std::vector<double> &sleeper_velocities)
   {
     const std::vector<double> of_ends = of_nodes(v, false);
     std::copy(of_ends.begin(), of_ends.end(), velocity.begin() + n_sleepers);
@@ -487,7 +487,7 @@ namespace tread
             chosen.push_back(node);
       }
     // A node is held on all ranks or on none.
-    NodalField marks(mesh.nodes.size(), Row{});
+    NodalField marks(mesh.nodes.size(), Vector3{});
     for (const unsigned int node : chosen)
       marks[node][0] = 1.;
     mesh.shared_nodes.sum(marks.data());

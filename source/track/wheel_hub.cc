@@ -49,7 +49,7 @@ namespace tread
   }
 
 
-  void WheelHub::advance(const Row force, const double moment, const double time_step)
+  void WheelHub::advance(const Vector3 force, const double moment, const double time_step)
   {
     const Motion before     = motion;
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
@@ -94,18 +94,18 @@ namespace tread
   }
 
 
-  Row WheelHub::position_of(const Row reference) const
+  Vector3 WheelHub::position_of(const Vector3 reference) const
   {
     const double c = std::cos(motion.angle), s = std::sin(motion.angle);
-    return Row{motion.x + c * reference[0] + s * reference[2], reference[1],
-               motion.z - s * reference[0] + c * reference[2], 0.};
+    return Vector3{motion.x + c * reference[0] + s * reference[2], reference[1],
+                   motion.z - s * reference[0] + c * reference[2], 0.};
   }
 
 
-  Row WheelHub::velocity_at(const Row x) const
+  Vector3 WheelHub::velocity_at(const Vector3 x) const
   {
-    return Row{motion.velocity_x + motion.angular_velocity * (x[2] - motion.z), 0.,
-               motion.velocity_z - motion.angular_velocity * (x[0] - motion.x), 0.};
+    return Vector3{motion.velocity_x + motion.angular_velocity * (x[2] - motion.z), 0.,
+                   motion.velocity_z - motion.angular_velocity * (x[0] - motion.x), 0.};
   }
 
 

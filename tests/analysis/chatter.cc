@@ -35,15 +35,15 @@ namespace
               continue;
             ContactNodeState state{};
             state.node     = i + 100;
-            state.position = Row{i * cell, 0., 0., 0.};
-            state.normal   = Row{0., 0., 1., 0.};
-            state.impulse  = Row{0., 0., 1., 0.};
+            state.position = Vector3{i * cell, 0., 0., 0.};
+            state.normal   = Vector3{0., 0., 1., 0.};
+            state.impulse  = Vector3{0., 0., 1., 0.};
             state.area     = cell * cell;
             if (i < 0)
               state.slip =
-                Row{largest * std::pow(-x / half, power) + deviation(random), deviation(random), 0., 0.};
+                Vector3{largest * std::pow(-x / half, power) + deviation(random), deviation(random), 0., 0.};
             else
-              state.slip = Row{deviation(random), deviation(random), 0., 0.};
+              state.slip = Vector3{deviation(random), deviation(random), 0., 0.};
             states.push_back(state);
           }
         average.add(states, centre, 1e-7);

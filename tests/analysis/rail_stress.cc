@@ -65,8 +65,8 @@ namespace
   {
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
       {
-        Row x = dynamics.position(i);
-        x[0]  = dynamics.mesh.nodes[i][0] + field.displacement(dynamics.mesh.nodes[i]);
+        Vector3 x = dynamics.position(i);
+        x[0]      = dynamics.mesh.nodes[i][0] + field.displacement(dynamics.mesh.nodes[i]);
         dynamics.set_position(i, x);
       }
     dynamics.time = time;

@@ -47,7 +47,7 @@ namespace
 
     const std::vector<unsigned int> &body_of = mesh.node_bodies;
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-      dynamics.v[i] = Row{(body_of[i] == 0 ? 0.5 : -0.5) * relative_speed, 0., 0., 0.};
+      dynamics.v[i] = Vector3{(body_of[i] == 0 ? 0.5 : -0.5) * relative_speed, 0., 0., 0.};
     dynamics.start();
 
     // Between a tenth and nine tenths of the shorter bar's round trip the stress is uniform.
@@ -69,8 +69,8 @@ namespace
       }
     const double steps =
       std::floor(0.9 * round_trip / dynamics.time_step) - std::floor(0.1 * round_trip / dynamics.time_step);
-    Row    momentum[2] = {};
-    double mass[2]     = {};
+    Vector3 momentum[2] = {};
+    double  mass[2]     = {};
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
       {
         momentum[body_of[i]] += dynamics.true_masses()[i] * dynamics.v[i];

@@ -49,8 +49,8 @@ void run_test(Check &check, const tests::Arguments &)
     {
       hub.motion.velocity_x = 2. * shift / total * std::pow(std::sin(dealii::numbers::PI * n / steps), 2);
       dynamics.step();
-      const Row    p          = contact.total_impulse();
-      const double normal     = std::abs(p[2]) / dynamics.time_step,
+      const Vector3 p         = contact.total_impulse();
+      const double  normal    = std::abs(p[2]) / dynamics.time_step,
                    tangential = std::abs(p[0]) / dynamics.time_step;
       const double share      = tangential / (friction * normal);
       if (share < shares.front())

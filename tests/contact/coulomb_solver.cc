@@ -19,9 +19,9 @@ namespace
 {
   struct RandomProblem
   {
-    ContactProblem      problem;
-    std::vector<double> gap_rate;
-    std::vector<Row>    velocity;
+    ContactProblem       problem;
+    std::vector<double>  gap_rate;
+    std::vector<Vector3> velocity;
   };
 
   /// n constraints, each between one slave node and four of n master nodes in a row, as a mortar coupling has
@@ -39,7 +39,7 @@ namespace
       m = std::pow(10., between(-4., -3.)); // kg
     for (unsigned int j = 0; j < n; ++j)
       {
-        const Row                  direction{between(-0.3, 0.3), between(-0.3, 0.3), 1., 0.};
+        const Vector3              direction{between(-0.3, 0.3), between(-0.3, 0.3), 1., 0.};
         ContactProblem::Constraint c{direction * (1. / size(direction)),     1e-6, 0.,
                                      (unsigned int)r.problem.entries.size(), 0,    j};
         double                     weight[4], total = 0.;
@@ -58,7 +58,8 @@ namespace
     for (unsigned int i = 0; i < 2 * n; ++i)
       {
         const double closing = i < n ? 1. : -1.;
-        r.velocity.push_back(Row{between(-1., 1.), between(-1., 1.), closing * between(-0.2, 1.), 0.}); // m/s
+        r.velocity.push_back(
+          Vector3{between(-1., 1.), between(-1., 1.), closing * between(-0.2, 1.), 0.}); // m/s
       }
     return r;
   }
@@ -76,10 +77,12 @@ namespace
   };
 
   /// Everything is computed anew from the impulses.
-  Violation violation(const RandomProblem &r, const std::vector<Row> &impulse, const FrictionLaw &friction)
+  Violation violation(const RandomProblem        &r,
+                      const std::vector<Vector3> &impulse,
+                      const FrictionLaw          &friction)
   {
-    std::vector<Row> velocity = r.velocity;
-    double           largest  = 0.;
+    std::vector<Vector3> velocity = r.velocity;
+    double               largest  = 0.;
     for (unsigned int j = 0; j < impulse.size(); ++j)
       {
         r.problem.apply(r.problem.constraints[j], impulse[j], velocity);
@@ -88,13 +91,13 @@ namespace
     Violation violation;
     for (unsigned int j = 0; j < impulse.size(); ++j)
       {
-        const auto  &c            = r.problem.constraints[j];
-        const Row    u            = r.problem.combine(c, velocity);
-        const double rate         = dot(u, c.normal) + r.gap_rate[j];
-        const Row    slip         = u - dot(u, c.normal) * c.normal;
-        const double normal       = dot(impulse[j], c.normal);
-        const Row    tangential   = impulse[j] - normal * c.normal;
-        const double limit        = friction.coefficient(size(slip)) * normal;
+        const auto   &c           = r.problem.constraints[j];
+        const Vector3 u           = r.problem.combine(c, velocity);
+        const double  rate        = dot(u, c.normal) + r.gap_rate[j];
+        const Vector3 slip        = u - dot(u, c.normal) * c.normal;
+        const double  normal      = dot(impulse[j], c.normal);
+        const Vector3 tangential  = impulse[j] - normal * c.normal;
+        const double  limit       = friction.coefficient(size(slip)) * normal;
         violation.penetration     = std::max(violation.penetration, -rate);
         violation.tension         = std::max(violation.tension, -normal / largest);
         violation.complementarity = std::max(violation.complementarity, std::abs(rate) * normal / largest);
@@ -132,11 +135,11 @@ void run_test(Check &check, const tests::Arguments &)
 
   {
     // Tangential impulses that are given: no more and no less, on normal ones that still close the gaps.
-    const RandomProblem r = make_problem(200, random);
-    Strips              whole(r.problem);
-    std::vector<Row>    velocity = r.velocity, impulse(200, Row{}), given;
+    const RandomProblem  r = make_problem(200, random);
+    Strips               whole(r.problem);
+    std::vector<Vector3> velocity = r.velocity, impulse(200, Vector3{}), given;
     for (unsigned int j = 0; j < 200; ++j)
-      given.push_back(Row{0.2 * std::cos(j), 0.2 * std::sin(j), 0., 0.});
+      given.push_back(Vector3{0.2 * std::cos(j), 0.2 * std::sin(j), 0., 0.});
     solve_coulomb(r.problem, CoulombFriction(0.1), parameters, whole, r.gap_rate, velocity, impulse, slips,
                   given);
     double       apart = 0., gap = 0., largest = 0.;
@@ -144,7 +147,7 @@ void run_test(Check &check, const tests::Arguments &)
     for (unsigned int j = 0; j < 200; ++j)
       {
         const ContactProblem::Constraint &constraint = r.problem.constraints[j];
-        const Row                         n          = constraint.normal;
+        const Vector3                     n          = constraint.normal;
         const double                      normal     = dot(impulse[j], n);
         const double rate = dot(r.problem.combine(constraint, velocity), n) + r.gap_rate[j];
         apart   = std::max(apart, size(impulse[j] - normal * (n + given[j] - dot(given[j], n) * n)));
@@ -165,10 +168,10 @@ void run_test(Check &check, const tests::Arguments &)
       double                impulses_apart = 0., moved_apart = 0.;
       for (unsigned int k = 0; k < 20; ++k)
         {
-          const RandomProblem r = make_problem(200, random);
-          Strips              whole(r.problem);
-          std::vector<Row>    velocity = r.velocity, impulse(200, Row{});
-          const auto          first =
+          const RandomProblem  r = make_problem(200, random);
+          Strips               whole(r.problem);
+          std::vector<Vector3> velocity = r.velocity, impulse(200, Vector3{});
+          const auto           first =
             solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse, slips);
           const Violation now   = violation(r, impulse, friction);
           worst.penetration     = std::max(worst.penetration, now.penetration);
@@ -184,8 +187,8 @@ void run_test(Check &check, const tests::Arguments &)
           most = std::max(most, first.sweeps);
 
           // Shared among the ranks.
-          std::vector<Row> shared_velocity = r.velocity, shared_impulse(200, Row{});
-          Strips           strips(r.problem, shared_impulse, shared_velocity.size(), MPI_COMM_WORLD);
+          std::vector<Vector3> shared_velocity = r.velocity, shared_impulse(200, Vector3{});
+          Strips               strips(r.problem, shared_impulse, shared_velocity.size(), MPI_COMM_WORLD);
           solve_coulomb(r.problem, friction, parameters, strips, r.gap_rate, shared_velocity, shared_impulse,
                         slips);
           strips.gather(shared_impulse);
@@ -203,7 +206,7 @@ void run_test(Check &check, const tests::Arguments &)
           fewest         = std::min(fewest, strips.end - strips.begin);
 
           // The velocities that came back hold the impulses' effect.
-          std::vector<Row> expected = r.velocity;
+          std::vector<Vector3> expected = r.velocity;
           for (unsigned int j = 0; j < impulse.size(); ++j)
             r.problem.apply(r.problem.constraints[j], impulse[j], expected);
           double difference = 0.;
@@ -213,7 +216,7 @@ void run_test(Check &check, const tests::Arguments &)
 
           // The next step's problem is nearly the same.
           RandomProblem next = r;
-          for (Row &v : next.velocity)
+          for (Vector3 &v : next.velocity)
             v *= 1.001;
           velocity = next.velocity;
           warm +=
@@ -223,11 +226,11 @@ void run_test(Check &check, const tests::Arguments &)
           if (k == 0)
             {
               velocity = r.velocity;
-              impulse.assign(200, Row{});
+              impulse.assign(200, Vector3{});
               solve_coulomb(r.problem, friction, parameters, whole, r.gap_rate, velocity, impulse, slips);
               const unsigned int active =
                 std::max_element(impulse.begin(), impulse.end(),
-                                 [](const Row a, const Row b) { return size(a) < size(b); }) -
+                                 [](const Vector3 a, const Vector3 b) { return size(a) < size(b); }) -
                 impulse.begin();
               impulse[active] *= 1.0001;
               check.that("friction " + std::to_string(mu) + ": an impulse wrong by 1e-4 is noticed",
@@ -253,7 +256,7 @@ void run_test(Check &check, const tests::Arguments &)
     }
   // So few that each of two strips would have a node of the other at both its ends.
   const RandomProblem few = make_problem(6, random);
-  const Strips        one(few.problem, std::vector<Row>(6, Row{}), 12, MPI_COMM_WORLD);
+  const Strips        one(few.problem, std::vector<Vector3>(6, Vector3{}), 12, MPI_COMM_WORLD);
   const unsigned int  own = one.end - one.begin;
   check.that("a few constraints are one rank's", dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD) == 6 &&
                                                    dealii::Utilities::MPI::max(own, MPI_COMM_WORLD) >= 3);

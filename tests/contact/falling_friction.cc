@@ -41,11 +41,11 @@ namespace
   OneNode solve(const FrictionLaw &law, const double free_slip, const double approach, const double start)
   {
     ContactProblem problem;
-    problem.constraints = {{Row{0., 0., 1., 0.}, 1e-6, 1., 0, 2, 0}};
+    problem.constraints = {{Vector3{0., 0., 1., 0.}, 1e-6, 1., 0, 2, 0}};
     problem.entries     = {{0, -1., 0.}, {1, 1., 1.}};
     Strips                  strips(problem);
-    std::vector<Row>        velocity{Row{}, Row{free_slip, 0., -approach, 0.}};
-    std::vector<Row>        impulse{Row{-start, 0., start > 0. ? approach : 0., 0.}};
+    std::vector<Vector3>    velocity{Vector3{}, Vector3{free_slip, 0., -approach, 0.}};
+    std::vector<Vector3>    impulse{Vector3{-start, 0., start > 0. ? approach : 0., 0.}};
     std::vector<char>       slips;
     CoulombSolverParameters parameters;
     parameters.tolerance = 1e-15;
@@ -139,13 +139,13 @@ namespace
                 {{20, 2, 1}},
                 {{tests::Side::bottom, Boundary::support}, {tests::Side::top, Boundary::contact}})})
       , contact(mesh, ContactParameters(), std::shared_ptr<const FrictionLaw>(&law, [](auto *) {}))
-      , x(mesh.nodes.size(), Row{})
-      , v(mesh.nodes.size(), Row{})
+      , x(mesh.nodes.size(), Vector3{})
+      , v(mesh.nodes.size(), Vector3{})
       , inverse_mass(mesh.nodes.size(), 0.)
     {
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         {
-          x[i] = Row{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+          x[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
           if (mesh.node_bodies[i] == 0 && mesh.nodes[i][2] < 0.5 * edge)
             {
               nodes.push_back(i);
@@ -159,7 +159,7 @@ namespace
     void set_speed(const double speed)
     {
       for (const unsigned int i : nodes)
-        v[i] = Row{speed, 0., 0., 0.};
+        v[i] = Vector3{speed, 0., 0., 0.};
     }
 
     double speed() const
@@ -180,10 +180,10 @@ namespace
     {
       if (contact.refresh_due())
         contact.refresh(x.data(), v.data(), time_step);
-      NodalField          force(mesh.nodes.size(), Row{});
+      NodalField          force(mesh.nodes.size(), Vector3{});
       std::vector<double> nothing;
       for (const unsigned int i : nodes)
-        force[i] = Row{push / 4., 0., -gravity / inverse_mass[i], 0.};
+        force[i] = Vector3{push / 4., 0., -gravity / inverse_mass[i], 0.};
       contact.predict(v.data(), force.data(), time_step, nothing);
       contact.solve(time_step, force.data());
       for (const unsigned int i : nodes)
@@ -209,10 +209,10 @@ namespace
     const std::vector<ContactNodeState> states = block.contact.active_nodes();
     return states.size() == 4 &&
            std::all_of(states.begin(), states.end(), [&](const ContactNodeState &state) {
-             const double normal     = dot(state.impulse, state.normal);
-             const Row    tangential = state.impulse - normal * state.normal;
-             const double bound      = coefficient(std::sqrt(dot(state.slip, state.slip))) * normal;
-             const double size       = std::sqrt(dot(tangential, tangential));
+             const double  normal     = dot(state.impulse, state.normal);
+             const Vector3 tangential = state.impulse - normal * state.normal;
+             const double  bound      = coefficient(std::sqrt(dot(state.slip, state.slip))) * normal;
+             const double  size       = std::sqrt(dot(tangential, tangential));
              return state.adhesion == adhesion &&
                     (adhesion ? size < bound : std::abs(size / bound - 1.) < 1e-9);
            });

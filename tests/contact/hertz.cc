@@ -32,7 +32,7 @@ namespace
   void fit(const std::vector<ContactNodeState> &states, Contacts &result)
   {
     std::vector<double> pressure;
-    Row                 center{};
+    Vector3             center{};
     double              total = 0.;
     for (const ContactNodeState &s : states)
       {

@@ -134,7 +134,7 @@ namespace
         of_plane.push_back(i);
       else
         {
-          dynamics.v[i] = Row{0., 0., -speed, 0.};
+          dynamics.v[i] = Vector3{0., 0., -speed, 0.};
           if (mesh.nodes[i][0] < 1e-9)
             on_x.push_back(i);
           if (mesh.nodes[i][1] < 1e-9)

@@ -68,9 +68,9 @@ namespace
     dynamics.attach_contact(contact);
     dynamics.start();
 
-    const Row  down{std::cos(slope), 0., -std::sin(slope), 0.};
-    Result     result{0., 0., 0., 0., 0., 0., 0., 0};
-    const auto mean = [&](const NodalField &field) {
+    const Vector3 down{std::cos(slope), 0., -std::sin(slope), 0.};
+    Result        result{0., 0., 0., 0., 0., 0., 0., 0};
+    const auto    mean = [&](const NodalField &field) {
       double sum  = 0.;
       result.mass = 0.;
       for (unsigned int i = 0; i < field.size(); ++i)
@@ -95,7 +95,7 @@ namespace
     for (unsigned int n = 0; n < test.steps; ++n)
       {
         dynamics.step();
-        const Row p = contact.total_impulse();
+        const Vector3 p = contact.total_impulse();
         result.normal_impulse += std::abs(p[2] * std::cos(slope) + p[0] * std::sin(slope));
       }
     result.seconds       = dynamics.time - t0;

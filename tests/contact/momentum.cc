@@ -24,20 +24,20 @@ namespace
 
   struct Momentum
   {
-    Row    linear{}, angular{}; ///< of both bodies, N s and N m s
-    Row    of_body[2] = {};     ///< linear
-    double kinetic    = 0.;     ///< J
+    Vector3 linear{}, angular{}; ///< of both bodies, N s and N m s
+    Vector3 of_body[2] = {};     ///< linear
+    double  kinetic    = 0.;     ///< J
   };
 
   struct Result
   {
     Momentum     before, after;
     EnergyLedger energy;
-    Row          impulse{};           ///< total on the master
+    Vector3      impulse{};           ///< total on the master
     double       largest_energy = 0.; ///< kinetic and strain energy over that at the start
     unsigned int n_touching     = 0;  ///< steps with contact
     bool         touches_at_end = true;
-    std::map<std::array<long long, 4>, Row> velocities; ///< of owned nodes, by Mesh::node_key()
+    std::map<std::array<long long, 4>, Vector3> velocities; ///< of owned nodes, by Mesh::node_key()
   };
 
   Momentum momentum(const ExplicitDynamics &dynamics)
@@ -52,7 +52,7 @@ namespace
           m.kinetic += 0.5 * mass * dot(dynamics.v[i], dynamics.v[i]);
         }
     const MPI_Comm comm = dynamics.mesh.comm;
-    for (Row &of_body : m.of_body)
+    for (Vector3 &of_body : m.of_body)
       of_body = tests::sum_over_ranks(of_body, comm);
     m.angular = tests::sum_over_ranks(m.angular, comm);
     m.linear  = m.of_body[0] + m.of_body[1];
@@ -88,7 +88,7 @@ namespace
     dynamics.attach_contact(contact);
 
     for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-      dynamics.v[i] = mesh.node_bodies[i] == 0 ? Row{-1., 0., 2., 0.} : Row{3., 1., -5., 0.};
+      dynamics.v[i] = mesh.node_bodies[i] == 0 ? Vector3{-1., 0., 2., 0.} : Vector3{3., 1., -5., 0.};
     dynamics.start();
 
     Result result;
@@ -97,7 +97,7 @@ namespace
     for (unsigned int n = 0; n < n_steps; ++n)
       {
         dynamics.step();
-        const Row impulse = contact.total_impulse();
+        const Vector3 impulse = contact.total_impulse();
         result.impulse += impulse;
         result.touches_at_end = size(impulse) > 0.;
         result.n_touching += result.touches_at_end;

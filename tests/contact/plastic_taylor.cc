@@ -109,10 +109,10 @@ namespace
       if (mesh.node_bodies[i] == 1)
         held.push_back(i);
       else
-        dynamics.v[i] = Row{0., 0., -227., 0.};
+        dynamics.v[i] = Vector3{0., 0., -227., 0.};
     dynamics.fix_nodes(held);
     ContactParameters contact_parameters;
-    contact_parameters.slave_body  = 0;
+    contact_parameters.slave_body = 0;
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));
     dynamics.attach_contact(contact);
     dynamics.start();
@@ -127,9 +127,9 @@ namespace
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 0)
         {
-          const Row x = dynamics.position(i);
-          low         = std::min(low, x[2]);
-          high        = std::max(high, x[2]);
+          const Vector3 x = dynamics.position(i);
+          low             = std::min(low, x[2]);
+          high            = std::max(high, x[2]);
           if (std::hypot(mesh.nodes[i][0], mesh.nodes[i][1]) > 0.99 * radius && mesh.nodes[i][2] < 1e-6)
             {
               result.foot += std::hypot(x[0], x[1]);

@@ -70,10 +70,10 @@ namespace
       for (unsigned int i = 0; i < dynamics.v.size(); ++i)
         if (mesh.node_bodies[i] == 1)
           dynamics.external_force[i] =
-            Row{factor * share * friction * gravity * dynamics.true_masses()[i], 0., 0., 0.};
+            Vector3{factor * share * friction * gravity * dynamics.true_masses()[i], 0., 0., 0.};
     };
 
-    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     dynamics.start();
     for (unsigned int n = 0; n < 4000; ++n)
       dynamics.step();

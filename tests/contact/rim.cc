@@ -20,8 +20,8 @@ namespace
   /// Whether anything was touched, and where at the rim.
   struct Result
   {
-    bool               touched = false;
-    std::optional<Row> at_rim;
+    bool                   touched = false;
+    std::optional<Vector3> at_rim;
   };
 
   std::vector<Body> bodies(const double y)
@@ -51,7 +51,7 @@ namespace
     dynamics.attach_contact(contact);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 1)
-        dynamics.v[i] = Row{0., 0., -1., 0.};
+        dynamics.v[i] = Vector3{0., 0., -1., 0.};
     dynamics.start();
     Result result;
     for (unsigned int step = 0; step < 60; ++step)

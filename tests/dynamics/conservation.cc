@@ -32,9 +32,9 @@ namespace
     NodalField middle(dynamics.v.size());
     for (unsigned int i = 0; i < middle.size(); ++i)
       {
-        const Row    x = dynamics.position(i), v = dynamics.v[i];
-        const double m = dynamics.true_masses()[i];
-        middle[i]      = x - 0.5 * dynamics.time_step * v;
+        const Vector3 x = dynamics.position(i), v = dynamics.v[i];
+        const double  m = dynamics.true_masses()[i];
+        middle[i]       = x - 0.5 * dynamics.time_step * v;
         if (!mesh.shared_nodes.is_owned(i))
           continue;
         for (unsigned int d = 0; d < 3; ++d)
@@ -57,9 +57,9 @@ namespace
   }
 
   /// Random numbers in [-1, 1] that depend on the place only, so that all ranks agree on them.
-  Row random_at(const Point<3> &p)
+  Vector3 random_at(const Point<3> &p)
   {
-    Row value{};
+    Vector3 value{};
     for (unsigned int d = 0; d < 3; ++d)
       {
         std::uint64_t state = std::llround(p[0] * 1e7) * 73856093ll + std::llround(p[1] * 1e7) * 19349663ll +
@@ -129,10 +129,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
           {
             // A turn of 300 rad/s about a skew axis, a translation and 2 m/s of noise.
-            const Row r = dynamics.position(i) - Row{.02, .015, .015, 0.};
+            const Vector3 r = dynamics.position(i) - Vector3{.02, .015, .015, 0.};
             dynamics.v[i] =
-              2. * random_at(mesh.nodes[i]) + Row{5., -3., 2., 0.} +
-              300. * Row{-.6 * r[1] + .5 * r[2], .6 * r[0] - .6 * r[2], -.5 * r[0] + .6 * r[1], 0.};
+              2. * random_at(mesh.nodes[i]) + Vector3{5., -3., 2., 0.} +
+              300. * Vector3{-.6 * r[1] + .5 * r[2], .6 * r[0] - .6 * r[2], -.5 * r[0] + .6 * r[1], 0.};
           }
         mesh.distribute_hanging_nodes(dynamics.v.data());
         // Random velocities excite every mode up to omega dt = 1.8, where energy swings by (omega dt)^2/8 of
@@ -149,7 +149,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
     const Solid      solid(mesh, {steel}, SolidParameters());
     ExplicitDynamics dynamics(mesh, solid, parameters);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      dynamics.v[i] = 400. * Row{dynamics.position(i)[2], 0., -dynamics.position(i)[0], 0.};
+      dynamics.v[i] = 400. * Vector3{dynamics.position(i)[2], 0., -dynamics.position(i)[0], 0.};
     dynamics.start();
     const unsigned int n_steps = std::ceil(2. * 3.14159 / 400. / dynamics.time_step);
     // Mostly the breathing mode is excited, omega dt = 0.04: energy swings by some 1e-4 of the strain energy,

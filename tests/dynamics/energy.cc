@@ -49,10 +49,10 @@ namespace
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       dynamics.v[i] = hub.velocity_at(dynamics.position(i));
     const std::vector<char> hanging = tests::which_hang(mesh);
-    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (!hanging[i] && mesh.nodes[i][2] < -.46 + 1e-3)
-        dynamics.external_force[i] = Row{-500., 200., 5000., 0.};
+        dynamics.external_force[i] = Vector3{-500., 200., 5000., 0.};
     dynamics.start();
     double       worst = 0., worst_of_damping = 0.;
     EnergyLedger ledger;
@@ -120,7 +120,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const Solid      solid(mesh, {steel}, solid_parameters);
       ExplicitDynamics dynamics(mesh, solid, parameters);
       dynamics.fix_nodes(dynamics.support_nodes(0));
-      dynamics.external_force.assign(mesh.nodes.size(), Row{});
+      dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
       dynamics.start();
 
       // A push that starts and ends smoothly within half a period of the first bending mode, then free
@@ -135,7 +135,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
           const double f = s < 1. ? 0.5 * (1. - std::cos(2. * dealii::numbers::PI * s)) * force : 0.;
           for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
             if (!hanging[i] && mesh.nodes[i][0] > .06 - 1e-9)
-              dynamics.external_force[i] = Row{.5 * f, 0., f, 0.};
+              dynamics.external_force[i] = Vector3{.5 * f, 0., f, 0.};
           dynamics.step();
           // Not a multiple of the steps between the ledger's own samples of damping, and rarer than these.
           if (dynamics.n_steps % 130 == 0)

@@ -57,7 +57,7 @@ namespace
     }
 
     /// Share the force (N) among the nodes of the free end that do not hang.
-    void load_end(const Row force)
+    void load_end(const Vector3 force)
     {
       const std::vector<char>   hanging = tests::which_hang(mesh);
       double                    n       = 0.;
@@ -69,7 +69,7 @@ namespace
             n += mesh.shared_nodes.is_owned(i);
           }
       n = dealii::Utilities::MPI::sum(n, mesh.comm);
-      dynamics->external_force.assign(mesh.nodes.size(), Row{});
+      dynamics->external_force.assign(mesh.nodes.size(), Vector3{});
       for (const unsigned int i : end)
         dynamics->external_force[i] = (1. / n) * force;
     }
@@ -97,16 +97,16 @@ namespace
       {
         const auto key = block.mesh.node_key(i); // the same on all ranks
         random.seed(key[1] + 1000003 * key[2] + 998244353 * key[3]);
-        dynamics.v[i] = Row{component(random), component(random), component(random), 0.};
+        dynamics.v[i] = Vector3{component(random), component(random), component(random), 0.};
       }
     block.mesh.distribute_hanging_nodes(dynamics.v.data());
     for (const unsigned int i : dynamics.support_nodes(0))
-      dynamics.v[i] = Row{};
+      dynamics.v[i] = Vector3{};
   }
 
-  Row momentum(const Block &block)
+  Vector3 momentum(const Block &block)
   {
-    Row sum{};
+    Vector3 sum{};
     for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
       if (block.mesh.shared_nodes.is_owned(i))
         sum += block.dynamics->true_masses()[i] * block.dynamics->v[i];
@@ -162,12 +162,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
     Block block(Boundary::free, 2, .9, .1);
     set_random_velocities(block, 1.);
     block.dynamics->start();
-    const Row before = momentum(block);
-    double    scale  = 0.;
+    const Vector3 before = momentum(block);
+    double        scale  = 0.;
     for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
       scale += block.dynamics->true_masses()[i] * std::sqrt(dot(block.dynamics->v[i], block.dynamics->v[i]));
     const auto change = [&] {
-      const Row difference = momentum(block) - before;
+      const Vector3 difference = momentum(block) - before;
       return std::sqrt(dot(difference, difference)) / scale;
     };
     double largest = 0.;
@@ -183,7 +183,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   // Loaded and at rest: without the steady shares the border between levels would rattle.
   {
     Block block(Boundary::support, 2, .9, .1);
-    block.load_end(Row{0., 0., 2e4, 0.});
+    block.load_end(Vector3{0., 0., 2e4, 0.});
     block.dynamics->relax(1e-10, 100000, {});
     block.dynamics->start();
     const double at_rest = block.deflection();
@@ -191,7 +191,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       block.advance();
     check.relative("loaded and at rest: deflection stays", block.deflection() / at_rest, 1., 1e-7);
     double fastest = 0.;
-    for (const Row &v : block.dynamics->v)
+    for (const Vector3 &v : block.dynamics->v)
       fastest = std::max(fastest, std::sqrt(dot(v, v)));
     fastest = dealii::Utilities::MPI::max(fastest, block.mesh.comm);
     std::printf("loaded and at rest: deflection %.4g um, fastest node %.2g m/s\n", 1e6 * at_rest, fastest);
@@ -210,7 +210,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
       do
         {
           const double s = block.dynamics->time / duration;
-          block.load_end(Row{0., 0., s < 1. ? 250. * (1. - std::cos(2. * dealii::numbers::PI * s)) : 0., 0.});
+          block.load_end(
+            Vector3{0., 0., s < 1. ? 250. * (1. - std::cos(2. * dealii::numbers::PI * s)) : 0., 0.});
           block.dynamics->step();
         }
       while (!block.dynamics->synchronised());
@@ -230,7 +231,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
         largest_deflection = std::max(largest_deflection, std::abs(then));
         worst_deflection   = std::max(worst_deflection, std::abs(levels.deflection() - then));
       }
-    levels.load_end(Row{});
+    levels.load_end(Vector3{});
     while (levels.dynamics->n_steps < 100000)
       {
         levels.advance();

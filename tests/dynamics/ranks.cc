@@ -76,11 +76,11 @@ namespace
       dynamics.fix_nodes(dynamics.support_nodes(0));
 
     const std::vector<char> hanging = tests::which_hang(mesh);
-    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     const double extreme = with_hub ? -.46 + 1e-3 : .03 - 1e-9;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (!hanging[i] && (with_hub ? mesh.nodes[i][2] < extreme : mesh.nodes[i][2] > extreme))
-        dynamics.external_force[i] = Row{300., -200., 1000., 0.};
+        dynamics.external_force[i] = Vector3{300., -200., 1000., 0.};
 
     dynamics.start();
     History history;

@@ -36,11 +36,11 @@ namespace
   {
     std::mt19937                     random(17);
     std::uniform_real_distribution<> component(-speed, speed);
-    for (Row &v : dynamics.v)
-      v = Row{component(random), component(random), component(random), 0.};
+    for (Vector3 &v : dynamics.v)
+      v = Vector3{component(random), component(random), component(random), 0.};
     dynamics.mesh.distribute_hanging_nodes(dynamics.v.data());
     for (const unsigned int i : dynamics.support_nodes(0))
-      dynamics.v[i] = Row{};
+      dynamics.v[i] = Vector3{};
   }
 
   /// Kinetic and strain energy (J) at the instant of the velocities.
@@ -64,8 +64,8 @@ namespace
     NodalField                       mode(x.size()), f(x.size());
     std::mt19937                     random(23);
     std::uniform_real_distribution<> component(-1., 1.);
-    for (Row &row : mode)
-      row = Row{component(random), component(random), component(random), 0.};
+    for (Vector3 &row : mode)
+      row = Vector3{component(random), component(random), component(random), 0.};
     double square = 0.;
     // Amplitude 1e-8 m in cells of 5 mm: strain 1e-6, the share of non-linearity.
     const double amplitude = 1e-8;
@@ -78,7 +78,7 @@ namespace
           {
             mode[i] = (amplitude / norm) * mode[i];
             y[i] += mode[i];
-            f[i] = Row{};
+            f[i] = Vector3{};
           }
         solid.add_internal_forces(y.data(), x.data(), f.data());
         mesh.condense_hanging_nodes(f.data());
@@ -90,7 +90,7 @@ namespace
           }
         square = stiffness / inertia;
         for (unsigned int i = 0; i < x.size(); ++i)
-          mode[i] = masses[i] > 0. ? -f[i] / masses[i] : Row{};
+          mode[i] = masses[i] > 0. ? -f[i] / masses[i] : Vector3{};
       }
     return std::sqrt(square);
   }
@@ -221,7 +221,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
     check.that("Courant number 1.3 ends with a message", message.find("Courant number") != std::string::npos);
     check.that("and not before the first step", dynamics.n_steps > 0);
     // A velocity that is not a number must not pass as slow.
-    std::fill(dynamics.v.begin(), dynamics.v.end(), Row{});
+    std::fill(dynamics.v.begin(), dynamics.v.end(), Vector3{});
     dynamics.v.back()[1] = std::nan("");
     message              = tests::complaint<std::runtime_error>([&] { dynamics.check_stability(); });
     check.that("no number (NaN) is found too", !message.empty());

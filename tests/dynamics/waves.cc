@@ -42,7 +42,7 @@ namespace
       parameters.damping_steps = 0.;
       dynamics                 = std::make_unique<ExplicitDynamics>(*mesh, *solid, parameters);
       dynamics->fix_nodes(dynamics->support_nodes(0));
-      dynamics->external_force.assign(mesh->nodes.size(), Row{});
+      dynamics->external_force.assign(mesh->nodes.size(), Vector3{});
     }
 
     /// Nodes whose reference x (or another coordinate) is that given.
@@ -64,7 +64,7 @@ namespace
 
     void evaluate_internal_forces()
     {
-      internal.assign(mesh->nodes.size(), Row{});
+      internal.assign(mesh->nodes.size(), Vector3{});
       solid->add_internal_forces(dynamics->positions().data(), dynamics->v.data(), internal.data());
     }
 
@@ -227,8 +227,8 @@ namespace
         std::vector<unsigned int> all(column.mesh->nodes.size());
         for (unsigned int i = 0; i < all.size(); ++i)
           {
-            all[i] = i;
-            Row x  = dynamics.position(i);
+            all[i]    = i;
+            Vector3 x = dynamics.position(i);
             x[direction] += 1e-6 / k * std::cos(k * column.mesh->nodes[i][0]);
             dynamics.set_position(i, x);
           }
@@ -280,8 +280,8 @@ namespace
     for (unsigned int i = 0; i < shape.size(); ++i)
       {
         const double x = block.mesh->nodes[i][0], depth = top - block.mesh->nodes[i][2];
-        shape[i] = Row{(-k * std::exp(-q * depth) + s * b * std::exp(-s * depth)) * std::sin(k * x), 0.,
-                       (q * std::exp(-q * depth) - k * b * std::exp(-s * depth)) * std::cos(k * x), 0.} /
+        shape[i] = Vector3{(-k * std::exp(-q * depth) + s * b * std::exp(-s * depth)) * std::sin(k * x), 0.,
+                           (q * std::exp(-q * depth) - k * b * std::exp(-s * depth)) * std::cos(k * x), 0.} /
                    k;
         dynamics.set_position(i, dynamics.position(i) + amplitude * shape[i]);
       }
@@ -302,9 +302,10 @@ namespace
         dynamics.step();
         double now = 0.;
         for (unsigned int i = 0; i < all.size(); ++i)
-          now += dynamics.true_masses()[i] *
-                 dot(shape[i], dynamics.position(i) - Row{block.mesh->nodes[i][0], block.mesh->nodes[i][1],
-                                                          block.mesh->nodes[i][2], 0.});
+          now +=
+            dynamics.true_masses()[i] *
+            dot(shape[i], dynamics.position(i) - Vector3{block.mesh->nodes[i][0], block.mesh->nodes[i][1],
+                                                         block.mesh->nodes[i][2], 0.});
         if (dynamics.n_steps > 1 && now * last < 0.)
           crossings.push_back(last_time + last / (last - now) * (dynamics.time - last_time));
         last      = now;

@@ -84,12 +84,12 @@ namespace
   NodalField forces(const Mesh &mesh, const std::vector<PlasticZone> &zones)
   {
     const Solid solid(mesh, {steel}, SolidParameters(), zones);
-    NodalField  x(mesh.nodes.size()), f(mesh.nodes.size(), Row{});
+    NodalField  x(mesh.nodes.size()), f(mesh.nodes.size(), Vector3{});
     for (unsigned int i = 0; i < x.size(); ++i)
       {
         const auto &X = mesh.nodes[i];
         x[i] =
-          Row{X[0] * (1. + 2e-3 + 0.02 * X[2]), X[1] * (1. + 1e-3), X[2] * (1. - 5e-3 - 0.02 * X[0]), 0.};
+          Vector3{X[0] * (1. + 2e-3 + 0.02 * X[2]), X[1] * (1. + 1e-3), X[2] * (1. - 5e-3 - 0.02 * X[0]), 0.};
       }
     solid.add_internal_forces(x.data(), x.data(), f.data());
     return f;

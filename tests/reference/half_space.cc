@@ -21,15 +21,15 @@ using tread::tests::thesis_case;
 
 namespace
 {
-  using Row = std::map<std::string, std::string>;
+  using Vector3 = std::map<std::string, std::string>;
 
-  std::vector<Row> read(const std::string &name)
+  std::vector<Vector3> read(const std::string &name)
   {
     std::ifstream file(std::string(TREAD_TEST_DATA) + "/" + name);
     if (!file)
       throw std::runtime_error("cannot read " + name);
     std::vector<std::string> header;
-    std::vector<Row>         rows;
+    std::vector<Vector3>     rows;
     for (std::string line; std::getline(file, line);)
       {
         if (line.empty() || line[0] == '#')
@@ -43,7 +43,7 @@ namespace
             header = cells;
             continue;
           }
-        Row row;
+        Vector3 row;
         for (std::size_t i = 0; i < header.size(); ++i)
           row[header[i]] = cells.at(i);
         rows.push_back(row);
@@ -51,7 +51,7 @@ namespace
     return rows;
   }
 
-  double number(const Row &row, const std::string &name)
+  double number(const Vector3 &row, const std::string &name)
   {
     return std::stod(row.at(name));
   }
@@ -80,7 +80,7 @@ namespace
   void totals(tread::tests::Check &check)
   {
     std::printf("\n--- totals on five grids; and the time of a solve, for information\n");
-    for (const Row &row : read("contact_summary.csv"))
+    for (const Vector3 &row : read("contact_summary.csv"))
       {
         const double         dx = number(row, "dx_mm"), mu = number(row, "mu");
         const RollingResult &r    = solved(mu, dx);
@@ -118,7 +118,7 @@ namespace
   void fields(tread::tests::Check &check)
   {
     std::printf("\n--- fields at 0.33 mm, in percent of their maxima\n");
-    const std::vector<Row> rows = read("contact_surface_dx033.csv");
+    const std::vector<Vector3> rows = read("contact_surface_dx033.csv");
     for (const double mu : {0.10, 0.15, 0.30})
       {
         const RollingResult &r = solved(mu, 0.33);
@@ -128,7 +128,7 @@ namespace
 
         double       pressure = 0., shear = 0., slip = 0., slip_worst = 0.;
         unsigned int states = 0, found = 0;
-        for (const Row &row : rows)
+        for (const Vector3 &row : rows)
           {
             const int i =
               static_cast<int>(std::lround((number(row, "x_mm") * 1e-3 - r.x[0]) / r.element_size));
@@ -231,7 +231,7 @@ namespace
   void subsurface(tread::tests::Check &check)
   {
     std::printf("\n--- stresses below the surface, von Mises [MPa]\n");
-    const std::vector<Row> rows = read("contact_subsurface.csv");
+    const std::vector<Vector3> rows = read("contact_subsurface.csv");
     for (const std::string name : {"mu000", "mu030", "full_slip"})
       {
         RollingCase sliding     = thesis_case(0., 0.1);
@@ -245,8 +245,8 @@ namespace
         for (const Body body : {Body::wheel, Body::rail})
           {
             std::vector<std::array<double, 3>> points;
-            std::vector<const Row *>           here;
-            for (const Row &row : rows)
+            std::vector<const Vector3 *>       here;
+            for (const Vector3 &row : rows)
               if (row.at("case") == name && (row.at("body") == "wheel") == (body == Body::wheel))
                 {
                   points.push_back({number(row, "x_mm") * 1e-3, 0., number(row, "depth_mm") * 1e-3});

@@ -82,13 +82,13 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
   }
   // Wheel R = 460 mm on a rail head of 300 mm
   {
-    struct Row
+    struct Vector3
     {
       double force, a, b, p0, approach;
     };
-    for (const Row &row :
-         {Row{100e3, 7.162, 5.387, 1237.6, 104.1}, Row{116.8e3, 7.542, 5.673, 1303.3, 115.5},
-          Row{127.1e3, 7.758, 5.835, 1340.5, 122.2}, Row{140e3, 8.012, 6.027, 1384.4, 130.3}})
+    for (const Vector3 &row :
+         {Vector3{100e3, 7.162, 5.387, 1237.6, 104.1}, Vector3{116.8e3, 7.542, 5.673, 1303.3, 115.5},
+          Vector3{127.1e3, 7.758, 5.835, 1340.5, 122.2}, Vector3{140e3, 8.012, 6.027, 1384.4, 130.3}})
       {
         const HertzEllipse h = hertz_ellipse(1. / 0.92, 1. / 0.6, modulus, row.force);
         const std::string  name =

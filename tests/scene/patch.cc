@@ -25,7 +25,7 @@ namespace
 
   std::string complaint(const std::vector<std::string> &settings)
   {
-    return tests::complaint<SceneError>([&] { Scene().read("", settings); });
+    return tests::complaint<InputError>([&] { Scene().read("", settings); });
   }
 } // namespace
 

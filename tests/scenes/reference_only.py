@@ -15,7 +15,7 @@ from tread_runner import Check, rows_of, run, script
 program = sys.argv[1]
 check = Check()
 SCENE = "smooth-rolling.prm"
-CONTACT = os.path.join(ROOT, "contrib", "reference")
+CONTACT = os.path.join(ROOT, "contrib", "contact-data")
 
 
 def printed(name, *arguments):

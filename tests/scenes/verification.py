@@ -23,7 +23,7 @@ check = Check()
 with tempfile.TemporaryDirectory() as folder:
     summary = run(program, f"verification/{scene}.prm", folder, ["Output/Write volume=false"], 2)
     measures = os.path.join(folder, "measures.json")
-    compared = script("plot/compare-contact.py", folder, os.path.join(ROOT, "contrib", "reference", contact), "--scale", str(scale),
+    compared = script("plot/compare-contact.py", folder, os.path.join(ROOT, "contrib", "contact-data", contact), "--scale", str(scale),
                       "--json", measures)
     print(compared.stdout, compared.stderr)
     compared.check_returncode()

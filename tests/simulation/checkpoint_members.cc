@@ -248,7 +248,8 @@ namespace
     std::vector<double> list;
     for (const ContactNodeState &state : states)
       {
-        for (const Row &row : {state.position, state.normal, state.impulse, with_slip ? state.slip : Row{}})
+        for (const Vector3 &row :
+             {state.position, state.normal, state.impulse, with_slip ? state.slip : Vector3{}})
           list.insert(list.end(), {row[0], row[1], row[2]});
         list.insert(list.end(), {double(state.node), state.area, state.gap, double(state.adhesion)});
       }

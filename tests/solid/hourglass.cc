@@ -29,7 +29,7 @@ namespace
     const NodalField                 x = reference_positions(mesh);
     for (unsigned int j = 0; j < n; ++j)
       {
-        NodalField ahead = x, behind = x, f(x.size(), Row{}), g(x.size(), Row{});
+        NodalField ahead = x, behind = x, f(x.size(), Vector3{}), g(x.size(), Vector3{});
         ahead[j / 3][j % 3] += step;
         behind[j / 3][j % 3] -= step;
         solid.add_internal_forces(ahead.data(), x.data(), f.data());
@@ -93,7 +93,8 @@ namespace
                              : m == 1 ? s[2] * s[0]
                              : m == 2 ? s[0] * s[1]
                                       : s[0] * s[1] * s[2];
-            y[mesh.cells[0].nodes[v]] += Row{0.6e-4 * h * edge, -0.3e-4 * h * edge, 0.5e-4 * h * edge, 0.};
+            y[mesh.cells[0].nodes[v]] +=
+              Vector3{0.6e-4 * h * edge, -0.3e-4 * h * edge, 0.5e-4 * h * edge, 0.};
           }
         const StrainEnergy energy = solid.strain_energy(y.data());
         std::printf("  mode %s: strain %.4g J, hourglass %.4g J\n", names[m], energy.strain,
@@ -115,11 +116,11 @@ namespace
         const Solid                      solid(mesh, {material}, parameters);
         std::mt19937                     random(3);
         std::uniform_real_distribution<> offset(-1e-3, 1e-3);
-        NodalField x = reference_positions(mesh), direction(x.size()), f(x.size(), Row{});
+        NodalField x = reference_positions(mesh), direction(x.size()), f(x.size(), Vector3{});
         for (unsigned int i = 0; i < x.size(); ++i)
           {
-            x[i] += Row{offset(random), offset(random), offset(random), 0.};
-            direction[i] = Row{offset(random), offset(random), offset(random), 0.};
+            x[i] += Vector3{offset(random), offset(random), offset(random), 0.};
+            direction[i] = Vector3{offset(random), offset(random), offset(random), 0.};
           }
         solid.add_internal_forces(x.data(), x.data(), f.data());
         double       power = 0.;
@@ -163,7 +164,7 @@ namespace
     dynamics_parameters.gravity = 0.;
     ExplicitDynamics dynamics(mesh, solid, dynamics_parameters);
     dynamics.fix_nodes(dynamics.support_nodes(0));
-    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     for (const Mesh::Face &face : mesh.faces)
       {
         bool at_tip = true;

@@ -69,9 +69,9 @@ namespace
     v.resize(mesh.nodes.size());
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        x[i] = Row{mesh.nodes[i][0] + offset(random), mesh.nodes[i][1] + offset(random),
-                   mesh.nodes[i][2] + offset(random), 0.};
-        v[i] = Row{speed(random), speed(random), speed(random), 0.};
+        x[i] = Vector3{mesh.nodes[i][0] + offset(random), mesh.nodes[i][1] + offset(random),
+                       mesh.nodes[i][2] + offset(random), 0.};
+        v[i] = Vector3{speed(random), speed(random), speed(random), 0.};
       }
   }
 
@@ -82,7 +82,7 @@ namespace
                     const NodalField                   &v)
   {
     const Solid solid(mesh, materials, parameters);
-    NodalField  f(x.size(), Row{});
+    NodalField  f(x.size(), Vector3{});
     solid.add_internal_forces(x.data(), v.data(), f.data());
     return f;
   }
@@ -136,7 +136,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       Mesh                          loose(MPI_COMM_SELF, {make_loose_cells(3 * n_lanes + 1)});
       const std::vector<Mesh::Cell> all_cells = loose.cells;
       random_motion(loose, x, v);
-      NodalField alone(x.size(), Row{});
+      NodalField alone(x.size(), Vector3{});
       for (const Mesh::Cell &cell : all_cells)
         {
           loose.cells        = {cell};
@@ -148,7 +148,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       for (unsigned int n = 1; n <= all_cells.size(); ++n)
         {
           loose.cells.assign(all_cells.begin(), all_cells.begin() + n);
-          NodalField wanted(x.size(), Row{});
+          NodalField wanted(x.size(), Vector3{});
           for (const Mesh::Cell &cell : loose.cells)
             for (const unsigned int i : cell.nodes)
               wanted[i] = alone[i];
@@ -162,7 +162,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       two[1].young_modulus = 70e9;
       two[1].density       = 2700.;
       loose.cells          = all_cells;
-      NodalField wanted(x.size(), Row{});
+      NodalField wanted(x.size(), Vector3{});
       for (unsigned int c = 0; c < loose.cells.size(); ++c)
         loose.cells[c].body = (c / 3) % 2;
       const std::vector<Mesh::Cell> mixed = loose.cells;
@@ -181,8 +181,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const unsigned int bad_cell = 1;
       loose.cells                 = all_cells;
       for (const unsigned int i : loose.cells[bad_cell].nodes)
-        wild[i] =
-          Row{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300, 0.};
+        wild[i] = Vector3{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                          1e300, 0.};
       const NodalField f      = forces(loose, steel, parameters, wild, v);
       unsigned int     n_hurt = 0;
       for (unsigned int c = 0; c < loose.cells.size(); ++c)

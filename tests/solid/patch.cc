@@ -60,12 +60,12 @@ namespace
         nearest = std::max(nearest, -mesh.nodes[i].distance(Point<3>(.4 * edge, .3 * edge, .3 * edge)));
     nearest = -max(nearest, mesh.comm);
 
-    NodalField x(mesh.nodes.size()), force(mesh.nodes.size(), Row{});
+    NodalField x(mesh.nodes.size()), force(mesh.nodes.size(), Vector3{});
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       {
         // Hanging nodes start at a wrong place: only distribute_hanging_nodes() can put them right.
         const Tensor<1, 3> p = hanging[i] ? Tensor<1, 3>() : F * Tensor<1, 3>(mesh.nodes[i]);
-        x[i]                 = Row{p[0] + 0.3, p[1] - 0.2, p[2] + 0.1, 0.};
+        x[i]                 = Vector3{p[0] + 0.3, p[1] - 0.2, p[2] + 0.1, 0.};
         if (!hanging[i] && mesh.nodes[i].distance(Point<3>(.4 * edge, .3 * edge, .3 * edge)) < nearest + 1e-9)
           x[i][0] += perturbation;
       }

@@ -58,8 +58,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   std::mt19937                     random(3);
   std::uniform_real_distribution<> number(-1., 1.);
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-    direction[i] = Row{number(random), number(random), number(random), 0.};
-  const NodalField at_rest(reference.size(), Row{});
+    direction[i] = Vector3{number(random), number(random), number(random), 0.};
+  const NodalField at_rest(reference.size(), Vector3{});
   const auto       moved = [&](const double size) {
     NodalField x(reference);
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -81,7 +81,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
         {
           const double angle = 2. * dealii::numbers::PI * step / n;
           const auto   x     = moved(0.03 * std::sin(angle));
-          NodalField   f(x.size(), Row{}), g(x.size(), Row{});
+          NodalField   f(x.size(), Vector3{}), g(x.size(), Vector3{});
           solid.update_internal_forces(x.data(), at_rest.data(), f.data(), straight);
           solid.update_internal_forces(turned(x, angle).data(), at_rest.data(), g.data(), turning);
           difference = std::max(difference, distance(turned(f, angle), g));
@@ -100,7 +100,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.below(name + "history after that", change, 1e-12);
 
       // Only turning: nothing flows, the residual stress turns along.
-      NodalField     x     = moved(0.), f_0(x.size(), Row{});
+      NodalField     x     = moved(0.), f_0(x.size(), Vector3{});
       PlasticHistory rigid = straight;
       solid.update_internal_forces(x.data(), at_rest.data(), f_0.data(), rigid);
       const PlasticHistory kept       = rigid;
@@ -108,7 +108,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       for (unsigned int degrees = 1; degrees <= 360; ++degrees)
         {
           const double angle = degrees * dealii::numbers::PI / 180.;
-          NodalField   f(x.size(), Row{});
+          NodalField   f(x.size(), Vector3{});
           work += solid.update_internal_forces(turned(x, angle).data(), at_rest.data(), f.data(), rigid);
           turn_error = std::max(turn_error, distance(turned(f_0, angle), f));
         }
@@ -117,7 +117,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
                   largest_strain(solid, rigid) - largest_strain(solid, kept), 1e-12);
 
       // Trial evaluations leave no trace, and agree with the update.
-      NodalField       f(x.size(), Row{}), g(x.size(), Row{});
+      NodalField       f(x.size(), Vector3{}), g(x.size(), Vector3{});
       const NodalField beyond  = moved(5e-4);
       PlasticHistory   history = kept;
       solid.add_internal_forces(beyond.data(), at_rest.data(), f.data(), history);
@@ -129,7 +129,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       // The update keeps the plastic volume to the cube of the elastic strain, 1e-2 here.
       check.relative(name + "elastic energy, before and after the update, J", trial.strain, updated.strain,
                      1e-5);
-      NodalField again(x.size(), Row{});
+      NodalField again(x.size(), Vector3{});
       solid.add_internal_forces(beyond.data(), at_rest.data(), again.data(), history);
       check.below(name + "forces from the updated history", distance(again, g) / scale, 1e-5);
 
@@ -141,11 +141,11 @@ void run_test(tests::Check &check, const tests::Arguments &)
           PlasticHistory     path     = solid.virgin();
           const unsigned int steps    = refined ? 4000 : 2000;
           double             external = 0., plastic = 0.;
-          NodalField         last_x = moved(0.), last_f(x.size(), Row{});
+          NodalField         last_x = moved(0.), last_f(x.size(), Vector3{});
           for (unsigned int step = 1; step <= steps; ++step)
             {
               const NodalField next = moved(0.03 * std::sin(2. * dealii::numbers::PI * step / steps));
-              NodalField       force(x.size(), Row{});
+              NodalField       force(x.size(), Vector3{});
               plastic += solid.update_internal_forces(next.data(), at_rest.data(), force.data(), path);
               for (unsigned int i = 0; i < next.size(); ++i)
                 external -= 0.5 * dot(force[i] + last_f[i], next[i] - last_x[i]);
@@ -166,7 +166,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
     const Solid plain(mesh, {elastic}, SolidParameters()),
       plastic(mesh, {elastic}, SolidParameters(), {{0, steel_that_yields(false), everywhere}});
     const NodalField x = moved(1e-5);
-    NodalField       f(x.size(), Row{}), g(x.size(), Row{});
+    NodalField       f(x.size(), Vector3{}), g(x.size(), Vector3{});
     plain.add_internal_forces(x.data(), at_rest.data(), f.data());
     plastic.add_internal_forces(x.data(), at_rest.data(), g.data());
     check.below("elastic and not yielding, strain 5e-5", distance(f, g) / largest(f), 5e-4);
@@ -194,7 +194,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
                n_upper > 0 && solid.plastic().n_cells() == mesh.cells.size() - n_upper);
     PlasticHistory   history = weld.virgin();
     const NodalField x       = moved(1e-4);
-    NodalField       f(x.size(), Row{});
+    NodalField       f(x.size(), Vector3{});
     weld.update_internal_forces(x.data(), at_rest.data(), f.data(), history);
     const std::vector<double> strain    = weld.plastic().equivalent_plastic_strain(history);
     unsigned int              n_yielded = 0;

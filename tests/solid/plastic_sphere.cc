@@ -83,7 +83,7 @@ namespace
                   return true;
                 }}})
       , dynamics(mesh, solid, still())
-      , unit(mesh.nodes.size(), Row{})
+      , unit(mesh.nodes.size(), Vector3{})
     {
       for (const Mesh::Face &face : mesh.faces)
         if (face.boundary == Boundary::support)
@@ -93,7 +93,7 @@ namespace
               0.5 * dealii::cross_product_3d(p[face.nodes[2]] - p[face.nodes[0]],
                                              p[face.nodes[3]] - p[face.nodes[1]]);
             for (const unsigned int i : face.nodes)
-              unit[i] += 0.25 * Row{-area[0], -area[1], -area[2], 0.};
+              unit[i] += 0.25 * Vector3{-area[0], -area[1], -area[2], 0.};
           }
 
       // Flat faces have less area than the sphere: the load is that of the sphere.
@@ -102,7 +102,7 @@ namespace
         total +=
           (unit[i][0] * mesh.nodes[i][0] + unit[i][1] * mesh.nodes[i][1] + unit[i][2] * mesh.nodes[i][2]) /
           mesh.nodes[i].norm();
-      for (Row &f : unit)
+      for (Vector3 &f : unit)
         f *= 4. * dealii::numbers::PI * inner * inner / total;
     }
 
@@ -116,7 +116,7 @@ namespace
     void load(const double pressure)
     {
       dynamics.external_force = unit;
-      for (Row &f : dynamics.external_force)
+      for (Vector3 &f : dynamics.external_force)
         f *= pressure;
       dynamics.relax(1e-5, 20000, nullptr);
     }

@@ -21,7 +21,7 @@ namespace
 {
   NodalField forces(const Mesh &mesh, const Solid &solid, const NodalField &x)
   {
-    NodalField f(x.size(), Row{});
+    NodalField f(x.size(), Vector3{});
     solid.add_internal_forces(x.data(), x.data(), f.data());
     mesh.condense_hanging_nodes(f.data());
     return f;
@@ -41,8 +41,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   NodalField                       deformed = reference;
   std::mt19937                     random(1);
   std::uniform_real_distribution<> offset(-0.02 * edge, 0.02 * edge);
-  for (Row &row : deformed)
-    row += Row{offset(random), offset(random), offset(random), 0.};
+  for (Vector3 &row : deformed)
+    row += Vector3{offset(random), offset(random), offset(random), 0.};
   mesh.distribute_hanging_nodes(deformed.data());
 
   for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
@@ -61,7 +61,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       for (unsigned int degrees = 0; degrees <= 360; degrees += 15)
         {
           const double       angle = degrees * dealii::numbers::PI / 180.;
-          const NodalField   rigid = turned(reference, angle, Row{30., -20., 10., 0.});
+          const NodalField   rigid = turned(reference, angle, Vector3{30., -20., 10., 0.});
           const StrainEnergy e     = solid.strain_energy(rigid.data());
           rigid_energy             = std::max(rigid_energy, (e.strain + e.hourglass) / energy_scale);
           rigid_force              = std::max(rigid_force, largest(forces(mesh, solid, rigid)) / force_scale);
@@ -79,7 +79,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
               force_change = std::max(
                 force_change,
                 std::abs(std::sqrt(dot(f[i], f[i])) - std::sqrt(dot(force_0[i], force_0[i]))) / scale);
-              const Row d      = f[i] - expected[i];
+              const Vector3 d  = f[i] - expected[i];
               direction_change = std::max(direction_change, std::sqrt(dot(d, d)) / scale);
             }
         }
@@ -93,8 +93,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.below(name + "deformed and turned, force turns with it", direction_change, 1e-12);
 
       // The comparison must notice a stretch of 1e-9 that comes with the rotation.
-      NodalField stretched = turned(reference, 1., Row{30., -20., 10., 0.});
-      for (Row &row : stretched)
+      NodalField stretched = turned(reference, 1., Vector3{30., -20., 10., 0.});
+      for (Vector3 &row : stretched)
         row[0] *= 1. + 1e-9;
       const StrainEnergy e = solid.strain_energy(stretched.data());
       std::printf("stretched by 1e-9: energy/(E V) %.1e\n", (e.strain + e.hourglass) / energy_scale);

@@ -67,7 +67,7 @@ namespace
         const double s = rail.dynamics->time / duration, phase = 2. * dealii::numbers::PI * s;
         const double f = s < 1. ? .5 * (1. - std::cos(phase)) * std::sin(4. * phase) * blow : 0.;
         for (const auto &[node, share] : struck)
-          rail.dynamics->external_force[node] = Row{f * share, 0., 0., 0.};
+          rail.dynamics->external_force[node] = Vector3{f * share, 0., 0., 0.};
         rail.dynamics->step();
         if (s > 1. && before == 0.)
           before = energy(rail);

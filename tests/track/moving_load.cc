@@ -68,18 +68,18 @@ namespace
           for (auto &node : of_section)
             node.second /= mass;
         }
-      dynamics.external_force.assign(mesh.nodes.size(), Row{});
+      dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     }
 
     /// Put a downward force at x, which the two nearest sections share.
     void load(const double x, const double f)
     {
-      std::fill(dynamics.external_force.begin(), dynamics.external_force.end(), Row{});
+      std::fill(dynamics.external_force.begin(), dynamics.external_force.end(), Vector3{});
       const double       s = x / cell + .5 * n;
       const unsigned int k = std::clamp<int>(std::floor(s), 0, n - 1);
       for (const unsigned int side : {0u, 1u})
         for (const auto &[node, share] : nodes[k + side])
-          dynamics.external_force[node] = Row{0., 0., -f * share * (side ? s - k : 1. - s + k), 0.};
+          dynamics.external_force[node] = Vector3{0., 0., -f * share * (side ? s - k : 1. - s + k), 0.};
     }
 
     /// Mean downward displacement of the section at x.

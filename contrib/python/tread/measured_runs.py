@@ -80,7 +80,7 @@ def dry_run(scene, settings, ranks=1):
 def contact_measures(run, traction, scale=1.0):
     """The measures of comparison.py against CONTACT at a traction coefficient, as doc/ states them; scale: of
     CONTACT's load."""
-    contact = os.path.join(ROOT, f"contrib/reference/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")
+    contact = os.path.join(ROOT, f"contrib/contact-data/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")
     found = compare(run, contact, scale)
     with open(os.path.join(run, "contact.json"), "w", encoding="utf-8") as stream:
         json.dump(found, stream, indent=2)

@@ -13,9 +13,9 @@ namespace tread
   /// Tractions on the wheel and slip of its surface over the rail's at one rail node, SI units.
   struct PatchNode
   {
-    Row    position; ///< x from the patch centre in rolling direction, y, z
-    double area, pressure, shear[2], slip[2];
-    bool   adhesion;
+    Vector3 position; ///< x from the patch centre in rolling direction, y, z
+    double  area, pressure, shear[2], slip[2];
+    bool    adhesion;
 
     double shear_size() const;
     double slip_speed() const;

@@ -22,7 +22,7 @@ namespace tread
     SharedNodes(const MPI_Comm comm, const std::vector<std::uint64_t> &global_ids);
 
     /// Replace the rows of shared nodes by their sums over all ranks. Collective among neighbours.
-    void sum(Row *field) const;
+    void sum(Vector3 *field) const;
 
     /// The lowest rank that holds the node counts it in global sums.
     bool is_owned(const unsigned int node) const

@@ -24,9 +24,9 @@ namespace tread
   typedef double Lanes __attribute__((vector_size(8 * n_lanes)));
 
   /// The quantities of one node: three components and one that pads to 32 bytes.
-  typedef double Row __attribute__((vector_size(32)));
+  typedef double Vector3 __attribute__((vector_size(32)));
 
-  /// Nodal fields are arrays of Row, aligned to cache lines.
+  /// Nodal fields are arrays of Vector3, aligned to cache lines.
   template <typename T>
   struct AlignedAllocator
   {
@@ -53,17 +53,17 @@ namespace tread
 
   template <typename T>
   using AlignedVector = std::vector<T, AlignedAllocator<T>>;
-  using NodalField    = AlignedVector<Row>;
+  using NodalField    = AlignedVector<Vector3>;
 
-  inline double dot(const Row a, const Row b)
+  inline double dot(const Vector3 a, const Vector3 b)
   {
-    const Row c = a * b;
+    const Vector3 c = a * b;
     return c[0] + c[1] + c[2];
   }
 
-  inline Row cross(const Row a, const Row b)
+  inline Vector3 cross(const Vector3 a, const Vector3 b)
   {
-    return Row{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
+    return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
   }
 
   inline Lanes broadcast(const double value)
@@ -73,7 +73,7 @@ namespace tread
 
   /// Read the rows of n_lanes nodes and transpose them: lane i of (x, y, z) belongs to node[i].
   template <typename L>
-  inline void gather(const Row *rows, const unsigned int *node, L &x, L &y, L &z)
+  inline void gather(const Vector3 *rows, const unsigned int *node, L &x, L &y, L &z)
   {
     if constexpr (sizeof(L) == 64)
       {
@@ -91,14 +91,14 @@ namespace tread
       }
     else if constexpr (sizeof(L) == 32)
       {
-        const Row  a = rows[node[0]], b = rows[node[1]], c = rows[node[2]], d = rows[node[3]];
-        const auto ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-        const auto ab_odd  = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-        const auto cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-        const auto cd_odd  = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-        x                  = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
-        y                  = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
-        z                  = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+        const Vector3 a = rows[node[0]], b = rows[node[1]], c = rows[node[2]], d = rows[node[3]];
+        const auto    ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        const auto    ab_odd  = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        const auto    cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+        const auto    cd_odd  = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        x                     = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+        y                     = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+        z                     = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
       }
     else
       for (unsigned int i = 0; i < n_lanes; ++i)
@@ -112,7 +112,7 @@ namespace tread
   /// Inverse of gather(): add lane i of (x, y, z) to the row of node[i]. Lanes are added one
   /// after the other, so that cells of one batch may share nodes.
   template <typename L>
-  inline void scatter_add(Row *rows, const unsigned int *node, const L x, const L y, const L z)
+  inline void scatter_add(Vector3 *rows, const unsigned int *node, const L x, const L y, const L z)
   {
     if constexpr (sizeof(L) == 64)
       {

@@ -33,11 +33,11 @@ namespace tread
   /// Result of the last step at one slave node.
   struct ContactNodeState
   {
-    unsigned int node;                      ///< surface node
-    unsigned int master_body;               ///< that it touches
-    Row    position, normal, impulse, slip; ///< m, -, N s (on the master surface), m/s (master over slave)
-    double area, gap;                       ///< m^2, m
-    bool   adhesion;
+    unsigned int node;                       ///< surface node
+    unsigned int master_body;                ///< that it touches
+    Vector3 position, normal, impulse, slip; ///< m, -, N s (on the master surface), m/s (master over slave)
+    double  area, gap;                       ///< m^2, m
+    bool    adhesion;
   };
 
   /// Work of one step's impulses, J. The first three are computed from the pairs, with the mean of their
@@ -79,7 +79,7 @@ namespace tread
     /// this call. The function gives the traction on the master surface over the pressure at the position of
     /// a slave node in the mesh (m), which does not move from one element of a table to the next. An empty
     /// function restores the friction law.
-    void give_tractions(std::function<Row(const Row)> over_pressure)
+    void give_tractions(std::function<Vector3(const Vector3)> over_pressure)
     {
       given_tractions = std::move(over_pressure);
       time_to_refresh = 0.;
@@ -94,7 +94,7 @@ namespace tread
     /// Find the pairs that may touch and integrate their coupling. Collective. To be called when
     /// refresh_due() says so and whenever positions were set from outside.
     /// @param x, v positions and velocities of this rank's nodes; @param time_step s.
-    void refresh(const Row *x, const Row *v, const double time_step);
+    void refresh(const Vector3 *x, const Vector3 *v, const double time_step);
 
     bool refresh_due() const
     {
@@ -103,17 +103,17 @@ namespace tread
 
     /// Sum extra (n numbers) over the ranks in their order, and give each rank the predicted velocities of
     /// its strip's nodes: v + time_step * force / m. Collective.
-    void predict(const Row *v, const Row *force, const double time_step, std::vector<double> &extra);
+    void predict(const Vector3 *v, const Vector3 *force, const double time_step, std::vector<double> &extra);
 
     /// Solve for the impulses and add them, divided by time_step, to the forces on this rank's nodes.
     /// Nodes with inverse mass 0 keep their velocity. Collective.
-    CoulombSolverResult solve(const double time_step, Row *force);
+    CoulombSolverResult solve(const double time_step, Vector3 *force);
 
     /// Total impulse on the master surfaces in the last step, N s.
-    Row total_impulse() const;
+    Vector3 total_impulse() const;
 
     /// Total impulse on the given body in the last step, N s.
-    Row total_impulse_on(const unsigned int body) const;
+    Vector3 total_impulse_on(const unsigned int body) const;
 
     /// This rank's share.
     ContactWork last_work() const
@@ -124,7 +124,7 @@ namespace tread
     /// Creepage omega R / V - 1 at which the loaded surfaces roll without mean slip: the difference of their
     /// stretch along x, weighted with the load. In half-space theory it is zero for like bodies; for wheels
     /// and rails of finite size it is about 1e-5. Collective; x: nodal positions of this rank.
-    double free_rolling_creepage(const Row *x, const unsigned int master_body) const;
+    double free_rolling_creepage(const Vector3 *x, const unsigned int master_body) const;
 
     /// Slave nodes that carry an impulse after the last step, ordered by number. Collective.
     std::vector<ContactNodeState> active_nodes() const;
@@ -142,7 +142,7 @@ namespace tread
 
     /// Position of a node at the rim of the contact faces of either body that was loaded in the last step
     /// (m): beyond the rim contact would be missed.
-    std::optional<Row> contact_at_rim() const;
+    std::optional<Vector3> contact_at_rim() const;
 
     /// Store or restore the state, after set_inverse_masses(): all but friction law and given tractions, and
     /// what a step finds of velocities. Collective.
@@ -154,24 +154,24 @@ namespace tread
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
     /// Largest speeds of this rank's own slave and master nodes, m/s.
-    std::array<double, 2> largest_speeds(const Row *v) const;
+    std::array<double, 2> largest_speeds(const Vector3 *v) const;
     /// Rotate the normals with the slave faces between two refreshes.
     void update_normals();
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
-                 const std::vector<Row>          &impulse_of_node,
-                 const std::vector<Row>          &x);
+                 const std::vector<Vector3>      &impulse_of_node,
+                 const std::vector<Vector3>      &x);
     /// Allocate the arrays used in each step for the present pairs and involved nodes.
     /// @param begin_of_strip division into strips, for the same pairs and number of ranks; if empty, new
     /// strips are made.
     void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
-    MPI_Comm                           comm;
-    ContactParameters                  parameters;
-    std::shared_ptr<const FrictionLaw> friction;
-    std::function<Row(const Row)>      given_tractions;
-    std::vector<double>                inverse_mass; ///< by surface node
-    double                             face_size;
+    MPI_Comm                              comm;
+    ContactParameters                     parameters;
+    std::shared_ptr<const FrictionLaw>    friction;
+    std::function<Vector3(const Vector3)> given_tractions;
+    std::vector<double>                   inverse_mass; ///< by surface node
+    double                                face_size;
 
     ContactProblem                         problem;
     Strips                                 strips;
@@ -189,12 +189,12 @@ namespace tread
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
     /// By compact number. At the end of a step positions and velocities are known for the nodes of this
     /// rank's strip, for those that its normals follow, and for the rank's own nodes.
-    std::vector<Row>          position, predicted, velocity, velocity_before;
-    std::vector<Row>          mean_velocity;    ///< of before and after the step, by compact number
-    std::vector<Row>          impulse;          ///< by constraint
+    std::vector<Vector3>      position, predicted, velocity, velocity_before;
+    std::vector<Vector3>      mean_velocity;    ///< of before and after the step, by compact number
+    std::vector<Vector3>      impulse;          ///< by constraint
     std::vector<unsigned int> master_of;        ///< by constraint: the body of its master surface
-    std::vector<Row>          previous_impulse; ///< by constraint, those that act on the strip
-    std::vector<Row>          given_ratio;      ///< by constraint: of impulses, tangential over normal
+    std::vector<Vector3>      previous_impulse; ///< by constraint, those that act on the strip
+    std::vector<Vector3>      given_ratio;      ///< by constraint: of impulses, tangential over normal
     std::vector<double>       gap_rate;         ///< by constraint of the strip
     std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m

@@ -14,7 +14,7 @@ namespace tread
   {
     struct Constraint
     {
-      Row          normal;
+      Vector3      normal;
       double       area;       ///< m^2
       double       compliance; ///< sum c^2 / m, 1/kg
       unsigned int begin, end; ///< range of entries
@@ -31,9 +31,9 @@ namespace tread
 
     /// Sum of c times the field, computed as four independent sums because each addition waits for the
     /// previous one.
-    Row combine(const Constraint &constraint, const std::vector<Row> &field) const
+    Vector3 combine(const Constraint &constraint, const std::vector<Vector3> &field) const
     {
-      Row          sum[4] = {};
+      Vector3      sum[4] = {};
       unsigned int i      = constraint.begin;
       for (; i + 4 <= constraint.end; i += 4)
         for (unsigned int k = 0; k < 4; ++k)
@@ -43,7 +43,7 @@ namespace tread
       return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 
-    void apply(const Constraint &constraint, const Row impulse, std::vector<Row> &velocity) const
+    void apply(const Constraint &constraint, const Vector3 impulse, std::vector<Vector3> &velocity) const
     {
       for (unsigned int i = constraint.begin; i < constraint.end; ++i)
         velocity[entries[i].node] += entries[i].over_mass * impulse;

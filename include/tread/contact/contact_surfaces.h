@@ -23,7 +23,7 @@ namespace tread
       bool         at_rim;    ///< at the lateral border of the faces, or of a face that was left out
       int          owner;     ///< rank
       int          local;     ///< node number on this rank, -1 if it has no copy
-      Row          reference; ///< position, m
+      Vector3      reference; ///< position, m
     };
 
     struct Face
@@ -48,7 +48,7 @@ namespace tread
 
     /// Copy the rows of the surface nodes from their owners to every rank. Collective.
     /// @param field nodal field of this rank; @param rows one a surface node.
-    void replicate(const Row *field, std::vector<Row> &rows) const;
+    void replicate(const Vector3 *field, std::vector<Vector3> &rows) const;
 
   private:
     std::vector<std::vector<unsigned int>> nodes_of_rank;

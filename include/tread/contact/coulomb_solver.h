@@ -40,10 +40,10 @@ namespace tread
                                     const CoulombSolverParameters &parameters,
                                     Strips                        &strips,
                                     const std::vector<double>     &gap_rate,
-                                    std::vector<Row>              &velocity,
-                                    std::vector<Row>              &impulse,
+                                    std::vector<Vector3>          &velocity,
+                                    std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
-                                    const std::vector<Row>        &given = {});
+                                    const std::vector<Vector3>    &given = {});
 } // namespace tread
 
 #endif

@@ -12,7 +12,7 @@ namespace tread
   struct MortarRow
   {
     unsigned int slave;      ///< surface node that carries the multiplier
-    Row          normal;     ///< outward from the slave surface, unit length
+    Vector3      normal;     ///< outward from the slave surface, unit length
     double       area;       ///< integral of the dual function, m^2
     std::size_t  begin, end; ///< its range of MortarCoupling::entries
   };
@@ -41,18 +41,18 @@ namespace tread
     double time_to_touch; ///< shortest gap over closing speed of faces beyond that share of the reach, s
   };
 
-  /// Couple slave_body's surface to those of all other bodies. Collective: each rank integrates a share of the
-  /// faces and gets all rows.
+  /// Couple slave_body's surface to those of all other bodies. Collective: each rank integrates a share of
+  /// the faces and gets all rows.
   /// @param x, v positions and velocities of all surface nodes.
   /// @param search_reach faces further apart than this (m) are not looked at.
   /// @param reach slave nodes get a row if a face around them is nearer than this (m) to the master surface,
   /// and at least half of their faces is covered by it.
-  MortarCoupling couple(const ContactSurfaces  &surfaces,
-                        const std::vector<Row> &x,
-                        const std::vector<Row> &v,
-                        const unsigned int      slave_body,
-                        const double            search_reach,
-                        const double            reach);
+  MortarCoupling couple(const ContactSurfaces      &surfaces,
+                        const std::vector<Vector3> &x,
+                        const std::vector<Vector3> &v,
+                        const unsigned int          slave_body,
+                        const double                search_reach,
+                        const double                reach);
 } // namespace tread
 
 #endif

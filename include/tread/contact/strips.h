@@ -28,10 +28,10 @@ namespace tread
     /// One strip for each rank. The problem is the same on all ranks.
     /// @param impulse one for each constraint: loaded constraints require more work. @param n_nodes compact
     /// nodes.
-    Strips(const ContactProblem   &problem,
-           const std::vector<Row> &impulse,
-           const unsigned int      n_nodes,
-           const MPI_Comm          comm);
+    Strips(const ContactProblem       &problem,
+           const std::vector<Vector3> &impulse,
+           const unsigned int          n_nodes,
+           const MPI_Comm              comm);
 
     /// Restore strips that were made for the same number of ranks.
     Strips(const ContactProblem            &problem,
@@ -60,8 +60,8 @@ namespace tread
     };
     Neighbour lower, upper;
 
-    void send(Neighbour &to, const std::vector<Row> &velocity);
-    void receive(Neighbour &from, std::vector<Row> &velocity);
+    void send(Neighbour &to, const std::vector<Vector3> &velocity);
+    void receive(Neighbour &from, std::vector<Vector3> &velocity);
     void wait(Neighbour &to);
 
     /// The largest of each of two numbers over all ranks. Collective.
@@ -69,7 +69,7 @@ namespace tread
 
     /// Distribute to all ranks the values that each has found for its own constraints. Collective.
     /// @param values one for each constraint. @return the largest of the ranks' own numbers.
-    double gather(std::vector<Row> &values, const double own = 0.);
+    double gather(std::vector<Vector3> &values, const double own = 0.);
 
   private:
     /// Whether these strips can be swept at the same time; if so, their borders are determined.

@@ -163,12 +163,12 @@ namespace tread
     void check_stability() const;
 
     /// Position of a node, m.
-    Row position(const unsigned int node) const
+    Vector3 position(const unsigned int node) const
     {
       return x_damped[node] - damping_time * v[node];
     }
     NodalField positions() const;
-    void       set_position(const unsigned int node, const Row place)
+    void       set_position(const unsigned int node, const Vector3 place)
     {
       x_damped[node] = place + damping_time * v[node];
     }
@@ -186,8 +186,8 @@ namespace tread
     /// Memory of this rank's nodes in this object, bytes.
     std::size_t memory_consumption() const
     {
-      return v.size() * (3 * sizeof(Row) + 2 * sizeof(double) + 3) + levels.memory_consumption() +
-             force_before.size() * sizeof(Row) + loads_of_shared.size() * sizeof(LoadOfShared);
+      return v.size() * (3 * sizeof(Vector3) + 2 * sizeof(double) + 3) + levels.memory_consumption() +
+             force_before.size() * sizeof(Vector3) + loads_of_shared.size() * sizeof(LoadOfShared);
     }
 
     const std::vector<double> &inverse_masses() const
@@ -269,7 +269,7 @@ namespace tread
     struct LoadOfShared
     {
       unsigned int node, level;
-      Row          load; ///< N, times 2^level
+      Vector3      load; ///< N, times 2^level
     };
 
     /// A body on a rigid hub.
@@ -279,7 +279,7 @@ namespace tread
       unsigned int              body;
       double                    nominal_angular_velocity; ///< rad/s
       std::vector<unsigned int> nodes{};                  ///< that the hub carries
-      std::vector<Row>          reference{};              ///< of these nodes, relative to the axle
+      std::vector<Vector3>      reference{};              ///< of these nodes, relative to the axle
     };
 
     /// The wheel that a node is on; -1: none.
@@ -293,7 +293,7 @@ namespace tread
     {
       unsigned int node;
       double       rate; ///< 1/s
-      Row          load; ///< the force on it in the present step, times 2^level, N
+      Vector3      load; ///< the force on it in the present step, times 2^level, N
     };
 
     /// Add to the forces on damped nodes that move in this step.
@@ -307,9 +307,9 @@ namespace tread
     {
       struct OfWheel
       {
-        Row arms{};     ///< from the axle to the wheel's nodes, kg m
-        Row momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
-        Row moments{};  ///< z v_x and x v_z of that momentum about the axle, kg m^2/s
+        Vector3 arms{};     ///< from the axle to the wheel's nodes, kg m
+        Vector3 momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
+        Vector3 moments{};  ///< z v_x and x v_z of that momentum about the axle, kg m^2/s
 
         void operator+=(const OfWheel &other)
         {
@@ -325,7 +325,7 @@ namespace tread
       }
 
       std::vector<OfWheel> wheels;
-      Row                  squares{}; ///< squares of all velocities on top of the rigid motion, kg m^2/s^2
+      Vector3              squares{}; ///< squares of all velocities on top of the rigid motion, kg m^2/s^2
     };
 
     /// Mass of a node that is free to move, times factor, kg.
@@ -334,9 +334,9 @@ namespace tread
       return inverse_mass[i] > 0. ? factor * true_mass[i] : 0.;
     }
 
-    Row weight(const unsigned int i, const double factor) const ///< times factor, N
+    Vector3 weight(const unsigned int i, const double factor) const ///< times factor, N
     {
-      return Row{0., 0., -parameters.gravity * free_mass(i, factor), 0.};
+      return Vector3{0., 0., -parameters.gravity * free_mass(i, factor), 0.};
     }
 
     /// Call loop(load) for a run, where load(i) is the present body load on a node, times factor (N), which

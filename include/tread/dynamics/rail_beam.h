@@ -30,11 +30,11 @@ namespace tread
 
     /// The displacement field that balances loads on the rail, and nodal forces (N, of this rank). The
     /// first is collective.
-    Field balance(const Row *force, std::vector<reference::SupportedBeam::Load> loads) const;
+    Field balance(const Vector3 *force, std::vector<reference::SupportedBeam::Load> loads) const;
     Field balance(const std::vector<reference::SupportedBeam::Load> &loads) const;
 
     /// Add factor times the field to the values of rail and solid sleepers.
-    void add(const Field &field, const double factor, Row *values) const;
+    void add(const Field &field, const double factor, Vector3 *values) const;
 
     reference::BeamSection section() const
     {

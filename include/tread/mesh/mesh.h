@@ -113,29 +113,29 @@ namespace tread
          const CellCost          &cost      = {});
 
     /// Parents receive the forces (or masses) of their hanging nodes.
-    void condense_hanging_nodes(Row *field) const
+    void condense_hanging_nodes(Vector3 *field) const
     {
       condense(hanging_nodes, field);
     }
 
-    static void condense(const std::vector<HangingNode> &nodes, Row *field)
+    static void condense(const std::vector<HangingNode> &nodes, Vector3 *field)
     {
       for (const HangingNode &h : nodes)
         {
-          const Row share = HangingNode::weight * field[h.node];
+          const Vector3 share = HangingNode::weight * field[h.node];
           for (const unsigned int parent : h.parents)
             field[parent] += share;
-          field[h.node] = Row{};
+          field[h.node] = Vector3{};
         }
     }
 
     /// Hanging nodes follow their parents.
-    void distribute_hanging_nodes(Row *field) const
+    void distribute_hanging_nodes(Vector3 *field) const
     {
       distribute(hanging_nodes, field);
     }
 
-    static void distribute(const std::vector<HangingNode> &nodes, Row *field)
+    static void distribute(const std::vector<HangingNode> &nodes, Vector3 *field)
     {
       for (const HangingNode &h : nodes)
         field[h.node] = HangingNode::weight * ((field[h.parents[0]] + field[h.parents[1]]) +

@@ -14,39 +14,39 @@
 namespace tread
 {
   /// A column of a table: what its heading says and what its rows have, in one place.
-  template <typename Row>
+  template <typename Record>
   struct Column
   {
     std::string name; ///< of the quantity
     std::string unit; ///< as in the heading; empty: a pure number
     /// In SI units; the factor to the column's unit follows from its name.
-    std::function<double(const Row &)> value;
+    std::function<double(const Record &)> value;
     /// A word instead of a number, if it is given.
-    std::function<std::string(const Row &)> word = {};
+    std::function<std::string(const Record &)> word = {};
   };
 
-  template <typename Row>
-  using Columns = std::vector<Column<Row>>;
+  template <typename Record>
+  using Columns = std::vector<Column<Record>>;
 
   /// What a value in SI units is multiplied by to have a column's unit, 1 for SI units themselves.
   double factor_of(const std::string &unit);
 
   /// Names with their units, separated by commas, without an end of line.
-  template <typename Row>
-  std::string heading(const Columns<Row> &columns)
+  template <typename Record>
+  std::string heading(const Columns<Record> &columns)
   {
     std::string line;
-    for (const Column<Row> &column : columns)
+    for (const Column<Record> &column : columns)
       line += (line.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : "_" + column.unit);
     return line;
   }
 
   /// A row with its end of line.
-  template <typename Row>
-  void write_row(std::ostream &out, const Columns<Row> &columns, const Row &row)
+  template <typename Record>
+  void write_row(std::ostream &out, const Columns<Record> &columns, const Record &row)
   {
     const char *separator = "";
-    for (const Column<Row> &column : columns)
+    for (const Column<Record> &column : columns)
       {
         out << separator;
         separator = ",";

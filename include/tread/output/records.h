@@ -23,7 +23,7 @@ namespace tread
   /// One wheel in a row of history.csv, SI units.
   struct WheelRecord
   {
-    Row           force; ///< on the wheel, mean over the interval
+    Vector3       force; ///< on the wheel, mean over the interval
     double        creepage;
     PatchMeasures patch;
     double        axle_box_acceleration; ///< vertical, mean over the interval

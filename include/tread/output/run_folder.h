@@ -50,12 +50,14 @@ namespace tread
     std::string gather(const std::string &bytes) const;
 
     /// A table with its heading, nine digits a number.
-    template <typename Row>
-    void write_table(const std::string &name, const Columns<Row> &columns, const std::vector<Row> &rows) const
+    template <typename Record>
+    void write_table(const std::string         &name,
+                     const Columns<Record>     &columns,
+                     const std::vector<Record> &rows) const
     {
       std::ostringstream text;
       text << heading(columns) << '\n' << std::setprecision(9);
-      for (const Row &row : rows)
+      for (const Record &row : rows)
         write_row(text, columns, row);
       write(name, text.str());
     }

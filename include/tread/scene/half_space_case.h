@@ -42,13 +42,13 @@ namespace tread
   /// Tangential traction on the wheel over the pressure in a half-space solution [-], at a position relative
   /// to the centre of contact (m). Outside the patch the value of the nearest element on the way to the
   /// centre is taken.
-  Row traction_over_pressure(const reference::RollingResult &half_space, double x, double y);
+  Vector3 traction_over_pressure(const reference::RollingResult &half_space, double x, double y);
 
   /// Quantities acting in the contact: forces on the wheel (N), creepage as in the scene (positive when
   /// driving), and the measures of the patch.
   struct ContactAnswer
   {
-    Row           force;
+    Vector3       force;
     double        creepage;
     PatchMeasures patch;
   };

@@ -46,8 +46,9 @@ namespace tread
     StartSection         start;
     OutputSection        output;
 
-    /// Read a parameter file (none: all defaults), then "Section/Name=value" settings in their order, and
-    /// check that they make sense together. @throws SceneError
+    /// Read a parameter file (none: all defaults) with those that its lines "include NAME" name, relative to
+    /// its folder, then "Section/Name=value" settings in their order, and
+    /// check that they make sense together. @throws InputError
     void read(const std::string &file, const std::vector<std::string> &settings);
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
@@ -58,7 +59,7 @@ namespace tread
       std::string path, value; ///< Section/Name
     };
     /// All parameters of a scene with this parameter file, in the order of declaration. Only names and ranges
-    /// are checked. @throws SceneError
+    /// are checked. @throws InputError
     static std::vector<Parameter> parameters_in(const std::string &file);
 
     /// Weight that rests on the contact of each wheel, N.
@@ -74,7 +75,7 @@ namespace tread
     /// predicted start), one line each.
     std::vector<std::string> assumptions() const;
 
-    /// The law that the scene names, with its parameters. @throws SceneError
+    /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;
 
     TrackParameters track_parameters() const;
@@ -90,7 +91,7 @@ namespace tread
     /// wheel.
     std::vector<int> recorded_supports() const;
     /// Positions in the rail (reference configuration, m) whose cells are written to cells.csv. @throws
-    /// SceneError
+    /// InputError
     std::vector<dealii::Point<3>> recorded_cells() const;
 
     unsigned int n_wheels() const
@@ -185,7 +186,9 @@ namespace tread
       return n_wheels() - 1;
     }
 
-    void parse(const std::string &file);
+    /// Read the files that it includes, then its own lines, which therefore have the last word.
+    /// @param depth of files that include each other. @throws InputError
+    void parse(const std::string &file, const unsigned int depth = 0);
     void set(const std::string &setting);
     void check() const;
     void check_motion() const;
@@ -200,7 +203,7 @@ namespace tread
     void check_numerics() const;
     /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
     std::string located(const std::string &file) const;
-    /// @throws SceneError
+    /// @throws InputError
     void        make_shapes();
     void        shape_wheel(RunningSurfaces &surfaces) const;
     void        shape_rail(Shapes &made) const;

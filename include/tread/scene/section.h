@@ -3,6 +3,7 @@
 #define tread_scene_section_h
 
 #include <tread/base/format.h>
+#include <tread/base/input_error.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -14,17 +15,6 @@
 
 namespace tread
 {
-  /// A parameter or file that cannot be used; what() is one line for the user.
-  class SceneError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
-
-  /// @throws SceneError with this line unless the condition holds.
-  void require(bool holds, const std::string &line);
-
-
   /// A value of an enumeration, its name in a parameter file and what it means.
   template <typename Enum>
   struct Choice

@@ -28,7 +28,7 @@ namespace tread
     /// Collective. @throws std::runtime_error with one line, on all ranks, if it cannot be written.
     void write(Simulation &simulation);
 
-    /// Collective. @throws SceneError with one line, on all ranks, if there is no checkpoint, if it is
+    /// Collective. @throws InputError with one line, on all ranks, if there is no checkpoint, if it is
     /// damaged or was written by another version, or if it belongs to other parameters.
     void read(Simulation &simulation);
 
@@ -37,7 +37,7 @@ namespace tread
     std::string content_of(const std::string &name) const;
     /// All parameters but those of the output, of which only the columns of tables that grow must stay.
     std::string parameters() const;
-    /// @throws SceneError with the first line that differs.
+    /// @throws InputError with the first line that differs.
     void require_same_parameters(const std::string &of_checkpoint) const;
 
     const RunFolder &folder;

@@ -29,10 +29,10 @@ namespace tread
     double creepage(const Scene &scene) const;
 
     /// Add the force of a step (N) to the mean over the end of the way.
-    void add_to_last_force(const Row force);
+    void add_to_last_force(const Vector3 force);
 
     /// Mean force over the end of the way, N. @param n_steps so many were added
-    Row mean_last_force(const std::uint64_t n_steps) const
+    Vector3 mean_last_force(const std::uint64_t n_steps) const
     {
       return (1. / n_steps) * last_force_sum;
     }
@@ -61,15 +61,15 @@ namespace tread
     WheelHub     hub;
     double       target_creepage = 0., free_creepage = 0.;
 
-    Row    interval_force{};          ///< sum since the last row of the history, N
-    double interval_start_speed = 0.; ///< of the hub, vertical, m/s
+    Vector3 interval_force{};          ///< sum since the last row of the history, N
+    double  interval_start_speed = 0.; ///< of the hub, vertical, m/s
 
     PatchAverage           average; ///< while the wheel rolls over one cell around the solution instant
     std::vector<PatchNode> solution_patch;
 
   private:
-    Row    last_force_sum{};
-    double last_force_low = 1e300, last_force_high = -1e300;
+    Vector3 last_force_sum{};
+    double  last_force_low = 1e300, last_force_high = -1e300;
   };
 } // namespace tread
 

@@ -59,16 +59,16 @@ namespace tread
     /// Nodes in contact with each wheel. Collective.
     std::vector<std::vector<ContactNodeState>> contact_states() const;
     /// Force on a wheel in the last step, N.
-    Row force_on(const RollingWheel &wheel) const
+    Vector3 force_on(const RollingWheel &wheel) const
     {
       return (1. / dynamics.time_step) * contact.total_impulse_on(wheel.body);
     }
     /// Mean force on a wheel over the end of the way, or the present one if that has not begun, N.
-    Row  last_force_on(const RollingWheel &wheel) const;
-    void take_solution(RunFolder &folder);
-    void write_volume(RunFolder &folder) const;
-    void end_passage(RunFolder &folder);
-    void next_passage(Progress &progress);
+    Vector3 last_force_on(const RollingWheel &wheel) const;
+    void    take_solution(RunFolder &folder);
+    void    write_volume(RunFolder &folder) const;
+    void    end_passage(RunFolder &folder);
+    void    next_passage(Progress &progress);
     /// How a run ends.
     enum class End
     {

@@ -15,7 +15,7 @@ namespace tread
     Lanes hourglass[4][3]; ///< eta zeta, zeta xi, xi eta, xi eta zeta
 
     /// Sums of nodal vectors times the patterns, by differences along xi, eta and zeta.
-    void read(const Row *rows, const unsigned int (&node)[8][n_lanes])
+    void read(const Vector3 *rows, const unsigned int (&node)[8][n_lanes])
     {
       Lanes both[2][3], slope_eta[2][3], slope_xi[2][3], twist[2][3]; // by zeta
       for (unsigned int zeta = 0; zeta < 2; ++zeta)
@@ -54,7 +54,7 @@ namespace tread
     }
 
     /// Add to the nodes the sum of the patterns times these vectors: the transpose of read().
-    void add_to(Row *rows, const unsigned int (&node)[8][n_lanes]) const
+    void add_to(Vector3 *rows, const unsigned int (&node)[8][n_lanes]) const
     {
       for (unsigned int zeta = 0; zeta < 2; ++zeta)
         {
@@ -118,7 +118,7 @@ namespace tread
   /// Mean deformation gradient F = sum_a x_a (x) B_a, and the hourglass amplitudes sum_a gamma_m(a) x_a (m).
   template <bool affine>
   inline void deform(const OnePointBatch<affine> &batch,
-                     const Row                   *x,
+                     const Vector3               *x,
                      Lanes (&F)[3][3],
                      Lanes (&amplitude)[4][3])
   {
@@ -147,7 +147,7 @@ namespace tread
   /// N.
   template <bool affine>
   inline void add_forces_of(const OnePointBatch<affine> &batch,
-                            Row                         *force,
+                            Vector3                     *force,
                             Lanes (&P)[3][3],
                             const Lanes (&Q)[4][3])
   {

@@ -73,17 +73,17 @@ namespace tread
 
     /// Add the forces (N) that the cells exert when their nodes move to x (m) from the state of the last
     /// update of the history. The history remains unchanged.
-    void add_forces(const Row *x, Row *force, const PlasticHistory &history) const;
+    void add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const;
 
     /// The same with an update of the history. @returns the plastic work done in it on this rank, J.
-    double update(const Row *x, Row *force, PlasticHistory &history) const;
+    double update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const;
 
     /// Elastic energies of deformation and of the hourglass modes at x, J.
-    std::array<double, 2> energies(const Row *x, const PlasticHistory &history) const;
+    std::array<double, 2> energies(const Vector3 *x, const PlasticHistory &history) const;
 
     /// Write the Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) of the cells at x into a list of all cells.
     /// @param wanted by cell: batches without any wanted cell are omitted; empty: all cells.
-    void cauchy_stress(const Row                          *x,
+    void cauchy_stress(const Vector3                      *x,
                        const PlasticHistory               &history,
                        std::vector<std::array<double, 6>> &stress,
                        const std::vector<char>            &wanted) const;
@@ -128,7 +128,7 @@ namespace tread
     struct State;
 
     template <unsigned int n, bool updates, typename History>
-    double add_forces(const Range &range, const Row *x, Row *force, History &history) const;
+    double add_forces(const Range &range, const Vector3 *x, Vector3 *force, History &history) const;
 
     /// Call work(range, n) for each range, with the number n of its backstresses as a constant.
     template <typename Work>

@@ -59,13 +59,16 @@ namespace tread
 
     /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and, for bulk
     /// viscosity, move at v (m/s). The caller treats hanging nodes. Cells of plastic zones are not included.
-    void add_elastic_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const;
+    void add_elastic_forces(const Vector3 *x,
+                            const Vector3 *v,
+                            Vector3       *force,
+                            const Levels   levels = {}) const;
 
     /// Forces of all cells. Those of plastic zones, which are on level 0, move to x from the state of the
     /// last update of the history, which remains unchanged.
-    void add_internal_forces(const Row            *x,
-                             const Row            *v,
-                             Row                  *force,
+    void add_internal_forces(const Vector3        *x,
+                             const Vector3        *v,
+                             Vector3              *force,
                              const PlasticHistory &history,
                              const Levels          levels = {}) const
     {
@@ -75,16 +78,19 @@ namespace tread
     }
 
     /// The same for cells that have never been loaded.
-    void add_internal_forces(const Row *x, const Row *v, Row *force, const Levels levels = {}) const
+    void add_internal_forces(const Vector3 *x,
+                             const Vector3 *v,
+                             Vector3       *force,
+                             const Levels   levels = {}) const
     {
       add_internal_forces(x, v, force, virgin_history, levels);
     }
 
     /// Forces of all cells with an update of the history to x: once per step, with the cells of level 0.
     /// @returns the plastic work done on this rank, J.
-    double update_internal_forces(const Row      *x,
-                                  const Row      *v,
-                                  Row            *force,
+    double update_internal_forces(const Vector3  *x,
+                                  const Vector3  *v,
+                                  Vector3        *force,
                                   PlasticHistory &history,
                                   const Levels    levels = {}) const
     {
@@ -93,18 +99,18 @@ namespace tread
     }
 
     /// Energies stored in the cells of this rank at x.
-    StrainEnergy strain_energy(const Row *x, const PlasticHistory &history) const;
-    StrainEnergy strain_energy(const Row *x) const
+    StrainEnergy strain_energy(const Vector3 *x, const PlasticHistory &history) const;
+    StrainEnergy strain_energy(const Vector3 *x) const
     {
       return strain_energy(x, virgin_history);
     }
 
     /// Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centre of each cell of this rank at x. @param wanted
     /// by cell: the stress remains 0 in batches without any wanted cell; empty: all cells.
-    std::vector<std::array<double, 6>> cauchy_stress(const Row               *x,
+    std::vector<std::array<double, 6>> cauchy_stress(const Vector3           *x,
                                                      const PlasticHistory    &history,
                                                      const std::vector<char> &wanted = {}) const;
-    std::vector<std::array<double, 6>> cauchy_stress(const Row *x) const
+    std::vector<std::array<double, 6>> cauchy_stress(const Vector3 *x) const
     {
       return cauchy_stress(x, virgin_history);
     }
@@ -179,9 +185,15 @@ namespace tread
     };
 
     template <bool viscous, bool affine>
-    void add_one_point_forces(const Range &range, const Row *x, const Row *v, Row *force, const double factor)
-      const;
-    void add_fully_integrated_forces(const Range &range, const Row *x, Row *force, const double factor) const;
+    void add_one_point_forces(const Range   &range,
+                              const Vector3 *x,
+                              const Vector3 *v,
+                              Vector3       *force,
+                              const double   factor) const;
+    void add_fully_integrated_forces(const Range   &range,
+                                     const Vector3 *x,
+                                     Vector3       *force,
+                                     const double   factor) const;
 
     /// Call work(range, batch, cells of its lanes) for each batch, whatever its kind.
     template <typename Work>

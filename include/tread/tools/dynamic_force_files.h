@@ -18,7 +18,7 @@ namespace tread
   };
 
   /// Write dynamic.csv, spectrum.csv and dynamic.json, and print peaks and vibrations. Collective.
-  /// @throws SceneError with one line for errors that the user can correct
+  /// @throws InputError with one line for errors that the user can correct
   void write_dynamic_force(const DynamicForceRequest &request, const MPI_Comm comm);
 } // namespace tread
 

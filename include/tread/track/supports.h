@@ -75,22 +75,22 @@ namespace tread
 
     /// Initialise the displacements from nodal positions: everything is at rest, and rigid sleepers are
     /// placed where forces balance. Collective.
-    void set_at_rest(const Row *x);
+    void set_at_rest(const Vector3 *x);
 
     /// Add the forces at the present state to the nodes of this rank.
-    void add_forces(Row *force);
+    void add_forces(Vector3 *force);
     /// Add the forces of the springs alone.
-    void add_spring_forces(Row *force) const;
+    void add_spring_forces(Vector3 *force) const;
 
-    /// Row sums of stiffness (in [0], N/m) and damping (in [1], N s/m) on the nodes of this rank, and those
-    /// of a rigid sleeper over its mass: bounds of eigenvalues.
-    void add_row_sums(Row *field) const;
+    /// Vector3 sums of stiffness (in [0], N/m) and damping (in [1], N s/m) on the nodes of this rank, and
+    /// those of a rigid sleeper over its mass: bounds of eigenvalues.
+    void add_row_sums(Vector3 *field) const;
     void sleeper_row_sums(double &stiffness_over_mass, double &damping_over_mass) const;
 
     /// Velocities that this rank's points will have: v + time_step * force / m; zero for those of other
     /// ranks. Their sums over the ranks are passed to advance().
-    void        predict(const Row                 *v,
-                        const Row                 *force,
+    void        predict(const Vector3             *v,
+                        const Vector3             *force,
                         const std::vector<double> &inverse_masses,
                         const double               time_step,
                         double                    *velocities) const;
@@ -104,7 +104,7 @@ namespace tread
 
     /// Initialise the velocities: points get those of the nodes, half a step back, and rigid sleepers those
     /// given. Collective.
-    void set_velocities(const Row *v, const std::vector<double> &sleeper_velocities);
+    void set_velocities(const Vector3 *v, const std::vector<double> &sleeper_velocities);
 
     /// Compressive force in a layer of a support in the last step, N.
     double force(const unsigned int support, const Layer layer) const;
@@ -168,8 +168,8 @@ namespace tread
     {
       return values[spring.a] - (spring.b < 0 ? 0. : values[spring.b]);
     }
-    void                give(const int point, const double value, Row *force) const;
-    std::vector<double> of_nodes(const Row *field, const bool displacement) const;
+    void                give(const int point, const double value, Vector3 *force) const;
+    std::vector<double> of_nodes(const Vector3 *field, const bool displacement) const;
 
     const Mesh                            &mesh;
     std::vector<End>                       ends;

@@ -64,16 +64,16 @@ namespace tread
 
     /// One central-difference step under the force (N) and the moment about the axle (N m) that
     /// the flexible cells exert.
-    void advance(const Row force, const double moment, const double time_step);
+    void advance(const Vector3 force, const double moment, const double time_step);
 
     /// Vertical force of everything but the cells, at rest and in steady rotation, N (negative: down).
     double static_force() const;
 
     /// Position of a point that is fixed to the hub, from its reference position relative to the axle.
-    Row position_of(const Row reference) const;
+    Vector3 position_of(const Vector3 reference) const;
 
     /// Velocity of a point of the hub that is at x at present.
-    Row velocity_at(const Row x) const;
+    Vector3 velocity_at(const Vector3 x) const;
 
     /// Kinetic energy with the angle that the hub had this many seconds ago, because velocities are those of
     /// half a step back, J.

@@ -89,7 +89,7 @@ namespace tread
           }
         catch (const std::runtime_error &error)
           {
-            throw SceneError("'Defect/Profile file': " + std::string(error.what()));
+            throw InputError("'Defect/Profile file': " + std::string(error.what()));
           }
         const bool uniform = lateral_law == LateralLaw::uniform;
         require(uniform || width > 0.,

@@ -41,7 +41,7 @@ namespace tread
     bool        reversed    = false;
 
     void declare(dealii::ParameterHandler &handler);
-    /// Null: none. @param file where the profile file was found. @throws SceneError
+    /// Null: none. @param file where the profile file was found. @throws InputError
     std::shared_ptr<const Defect> make(const std::string &file) const;
   };
 } // namespace tread

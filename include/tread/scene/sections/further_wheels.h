@@ -15,7 +15,7 @@ namespace tread
     std::vector<double> traction_coefficients; ///< none: as the first wheel's
 
     void declare(dealii::ParameterHandler &handler);
-    /// @param least_distance between two axles, m. @throws SceneError
+    /// @param least_distance between two axles, m. @throws InputError
     void check(double least_distance) const;
   };
 } // namespace tread

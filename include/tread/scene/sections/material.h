@@ -36,7 +36,7 @@ namespace tread
     {
       double begin, end, depth, yield_stress, tangent_modulus;
     };
-    /// @throws SceneError
+    /// @throws InputError
     std::vector<Zone> zones() const;
 
     ElasticMaterial elastic() const
@@ -52,7 +52,7 @@ namespace tread
     {
       double thickness, half_width, begin, end;
     };
-    /// @param section that it is part of, for messages. @throws SceneError
+    /// @param section that it is part of, for messages. @throws InputError
     void check(const std::string &section, const Meshed &meshed) const;
   };
 } // namespace tread

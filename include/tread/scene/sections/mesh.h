@@ -18,7 +18,7 @@ namespace tread
     double       path_cell = 0., longest_row = 40e-3;
 
     void declare(dealii::ParameterHandler &handler);
-    /// @throws SceneError
+    /// @throws InputError
     void check() const;
   };
 } // namespace tread

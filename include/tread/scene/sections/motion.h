@@ -23,7 +23,7 @@ namespace tread
     unsigned int          passages      = 1;
 
     void declare(dealii::ParameterHandler &handler);
-    /// @throws SceneError
+    /// @throws InputError
     void check() const;
   };
 } // namespace tread

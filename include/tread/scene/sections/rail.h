@@ -75,7 +75,7 @@ namespace tread
     double height() const;
 
     void declare(dealii::ParameterHandler &handler);
-    /// @throws SceneError
+    /// @throws InputError
     void check() const;
   };
 } // namespace tread

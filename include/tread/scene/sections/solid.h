@@ -25,7 +25,7 @@ namespace tread
     }
 
     void declare(dealii::ParameterHandler &handler);
-    /// @throws SceneError
+    /// @throws InputError
     void check() const;
   };
 } // namespace tread

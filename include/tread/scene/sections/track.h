@@ -51,7 +51,7 @@ namespace tread
     double solid_sleeper_height() const;
 
     void declare(dealii::ParameterHandler &handler);
-    /// What concerns the track alone, if it has supports. @throws SceneError
+    /// What concerns the track alone, if it has supports. @throws InputError
     void check() const;
   };
 } // namespace tread

@@ -45,7 +45,7 @@ namespace tread
     }
 
     void declare(dealii::ParameterHandler &handler);
-    /// @throws SceneError
+    /// @throws InputError
     void check() const;
   };
 } // namespace tread

@@ -78,8 +78,8 @@ namespace
     dynamics.attach_contact(contact);
 
     const Point<3> up_point = tests::turn(Point<3>(0., 0., 1.), axis, test.tilt);
-    const Row      up{up_point[0], up_point[1], up_point[2], 0.};
-    dynamics.external_force.assign(mesh.nodes.size(), Row{});
+    const Vector3  up{up_point[0], up_point[1], up_point[2], 0.};
+    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     for (const Mesh::Face &face : mesh.faces)
       if (face.body == 1 && face.boundary == Boundary::end)
         for (const unsigned int i : face.nodes) // all faces of the top are equal squares
@@ -90,8 +90,8 @@ namespace
     const unsigned int iterations = dynamics.relax(balance, 20000, nullptr);
 
     // The forces that contact exerts in equilibrium, by difference.
-    NodalField       without(mesh.nodes.size(), Row{});
-    const NodalField at_rest(mesh.nodes.size(), Row{});
+    NodalField       without(mesh.nodes.size(), Vector3{});
+    const NodalField at_rest(mesh.nodes.size(), Vector3{});
     solid.add_internal_forces(dynamics.positions().data(), at_rest.data(), without.data());
     mesh.condense_hanging_nodes(without.data());
     mesh.shared_nodes.sum(without.data());
@@ -103,7 +103,7 @@ namespace
     contact.predict(at_rest.data(), without.data(), 1., nothing);
     contact.solve(1., with.data());
 
-    Row force[2] = {}, moment[2] = {};
+    Vector3 force[2] = {}, moment[2] = {};
     for (unsigned int i = 0; i < with.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
         {
