@@ -12,8 +12,8 @@ import glob
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import available_ranks, run_scene, shipped
-from tread.runs import ROOT, DataError, Error, read_summary
+from tread.measured_runs import available_ranks, run_scene
+from tread.runs import ROOT, DataError, Error, parameters_of, read_summary
 from tread.tables import fill, markdown, number, provenance
 
 # (heading, key, factor, what is large: include/tread/output/quality.h)
@@ -31,26 +31,15 @@ def scenes(pattern):
     return [path for path in paths if fnmatch.fnmatch(path, pattern)]
 
 
-def parameter(scene, name):
-    """The number behind 'set NAME = ' in a scene of prm/, None if it is not set."""
-    with open(shipped(scene), encoding="utf-8") as stream:
-        for line in stream:
-            left, _, right = line.partition("=")
-            if left.split() == ["set"] + name.split():
-                return float(right)
-    return None
-
-
 def settings_of(scene, rolled):
     settings = {"Output/Write volume": "false"}
     if rolled is None:
         return settings
-    own = parameter(scene, "Rolled distance (mm)")
-    if own is None or own > rolled:
+    parameters = parameters_of(scene)
+    if float(parameters["Motion/Rolled distance (mm)"]) > rolled:
         settings["Motion/Rolled distance (mm)"] = f"{rolled:g}"
-        hold = parameter(scene, "Hold distance (mm)")
         # The torque must set in on the way.
-        if (15. if hold is None else hold) >= rolled:
+        if float(parameters["Motion/Hold distance (mm)"]) >= rolled:
             settings["Motion/Hold distance (mm)"] = f"{0.5 * rolled:g}"
     return settings
 

@@ -107,8 +107,8 @@ def run(scene, settings=None, *, ranks=1, output=None, options=(), program=PROGR
     if shutil.which(program) is None:
         raise Error(f"{program}: no such program; build it or name it with program=")
     if output is None:
-        asked = must_end_well(execute([*arguments_of(scene, settings or {}), "--print-parameters"], program=program)).stdout
-        output = parameters_in(asked.splitlines())["Output/Directory"] + ("-reference" if "--reference-only" in options else "")
+        own = parameters_of(scene, settings or {}, program)["Output/Directory"]
+        output = own + ("-reference" if "--reference-only" in options else "")
     line = command([*arguments_of(scene, settings or {}, os.fspath(output)), *options], ranks, program)
     # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
     with subprocess.Popen(line, env=environment(), stdout=None if show else subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -228,6 +228,12 @@ def is_complete(folder):
         return read_summary(folder).get("completed") is True
     except DataError:
         return False
+
+
+def parameters_of(scene, settings=(), program=PROGRAM):
+    """{"Section/Name": text} of all parameters of a scene, as the program understands it."""
+    asked = must_end_well(execute([*arguments_of(scene, settings), "--print-parameters"], program=program))
+    return parameters_in(asked.stdout.splitlines())
 
 
 def parameters_in(lines):

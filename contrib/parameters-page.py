@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""doc/parameters.md: every parameter with its default and meaning, as `tread --print-parameters` says them.
+
+With --check the page is only compared; the exit code is 1 if it is not current.
+"""
+
+import os
+import sys
+
+from tread.commands import command_parser, run_command
+from tread.runs import PROGRAM, ROOT, execute, must_end_well
+
+PAGE = os.path.join(ROOT, "doc", "parameters.md")
+HEAD = """# Parameters
+
+A parameter file has sections with one parameter a line:
+
+    subsection Wheel
+      set Radius (mm) = 460
+    end
+
+On the command line the same is `-s "Wheel/Radius (mm)=460"`, which has the last word. A line `include NAME` reads another file first, relative to the
+folder of the file it stands in; what the file itself sets overrides it. What is not set has the default given here.
+
+This page is written by `contrib/parameters-page.py`.
+"""
+
+
+def sections(listing):
+    """[(section, [(name, default, meaning)])] of the program's listing."""
+    found, meaning = [], []
+    for line in listing.splitlines():
+        line = line.strip()
+        if line.startswith("subsection "):
+            found.append((line[len("subsection "):], []))
+        elif found and line.startswith("#"):
+            meaning.append(line.lstrip("# "))
+        elif line.startswith("set "):
+            name, _, default = line[len("set "):].partition("=")
+            found[-1][1].append((name.strip(), default.strip(), " ".join(meaning)))
+            meaning = []
+    return found
+
+
+def page(listing):
+    text = HEAD
+    for section, parameters in sections(listing):
+        text += f"\n## {section}\n\n| parameter | default | meaning |\n|---|---|---|\n"
+        for parameter in parameters:
+            name, default, meaning = (part.replace("|", "\\|") for part in parameter)
+            text += f"| {name} | {f'`{default}`' if default else ''} | {meaning} |\n"
+    return text
+
+
+def main():
+    parser = command_parser(__doc__)
+    parser.add_argument("--program", default=PROGRAM, help="the program to ask")
+    parser.add_argument("--check", action="store_true", help="write nothing")
+    arguments = parser.parse_args()
+    current = page(must_end_well(execute(["--print-parameters"], program=arguments.program)).stdout)
+    if not arguments.check:
+        with open(PAGE, "w", encoding="utf-8") as stream:
+            stream.write(current)
+        return 0
+    with open(PAGE, encoding="utf-8") as stream:
+        kept = stream.read()
+    if kept == current:
+        return 0
+    old, new = kept.splitlines(), current.splitlines()
+    differs = next((i for i, pair in enumerate(zip(old, new)) if pair[0] != pair[1]), min(len(old), len(new)))
+    sys.exit(f"doc/parameters.md is not current from line {differs + 1} on: run contrib/parameters-page.py")
+
+
+if __name__ == "__main__":
+    run_command(main)
