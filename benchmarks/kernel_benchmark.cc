@@ -3,6 +3,8 @@
 /// bandwidth of a triad of the same size in memory. Prints a table in Markdown.
 /// Arguments: cells along the edge of the cubes, if not the usual ones.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -72,12 +74,12 @@ int main(int argc, char **argv)
   struct Kind
   {
     const char  *element, *shape;
-    ElementType  type;
+    std::string  type;
     unsigned int most; ///< cells along an edge of the largest cube
   };
-  for (const Kind &kind : {Kind{"one-point", "box", ElementType::one_point, 126},
-                           Kind{"one-point", "general", ElementType::one_point, 126},
-                           Kind{"fully integrated", "general", ElementType::fully_integrated, 59}})
+  for (const Kind &kind :
+       {Kind{"one-point", "box", OnePoint::name, 126}, Kind{"one-point", "general", OnePoint::name, 126},
+        Kind{"fully integrated", "general", FullyIntegrated::name, 59}})
     for (const unsigned int n : edges)
       {
         if (n > kind.most)
@@ -91,7 +93,7 @@ int main(int argc, char **argv)
             }
         const Mesh      mesh(MPI_COMM_SELF, {body});
         SolidParameters parameters;
-        parameters.element_type = kind.type;
+        parameters.element = kind.type;
         const Solid      solid(mesh, {ElasticMaterial()}, parameters);
         ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
         NodalField       force(mesh.nodes.size(), Vector3{});

@@ -53,24 +53,6 @@ namespace tread
   }
 
 
-  dealii::Patterns::Selection friction_law_pattern()
-  {
-    std::string names;
-    for (const FrictionLawEntry &law : friction_laws())
-      names += (names.empty() ? "" : "|") + law.name;
-    return dealii::Patterns::Selection(names);
-  }
-
-
-  std::string friction_law_help()
-  {
-    std::string help = "How the friction coefficient depends on the slip speed of each node.";
-    for (const FrictionLawEntry &law : friction_laws())
-      help += " " + law.name + ": " + law.description + ".";
-    return help;
-  }
-
-
   void declare_friction_laws(dealii::ParameterHandler &section)
   {
     for (const FrictionLawEntry &law : friction_laws())

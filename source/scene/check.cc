@@ -236,7 +236,7 @@ namespace tread
         const std::string      section  = of_wheel ? "Wheel" : "Rail";
         const MaterialSection &material = of_wheel ? wheel.material : rail.material;
         require((material.plastic_zones.empty() && material.yield_stress == 0.) ||
-                  (solid.element == ElementType::one_point && !solid.has_bulk_viscosity()),
+                  (element_named(solid.element).can_yield && !solid.has_bulk_viscosity()),
                 "'" + section + "/Yield stress (MPa)' needs 'Solid/Element' one-point and no bulk viscosity");
         material.check(section, of_wheel
                                   ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside,

@@ -34,7 +34,7 @@ namespace tread
   SolidParameters solid_parameters(const Scene &scene)
   {
     SolidParameters p;
-    p.element_type             = scene.solid.element;
+    p.element                  = scene.solid.element;
     p.hourglass_coefficient    = scene.solid.hourglass_coefficient;
     p.linear_bulk_viscosity    = scene.solid.linear_bulk_viscosity;
     p.quadratic_bulk_viscosity = scene.solid.quadratic_bulk_viscosity;
@@ -96,15 +96,17 @@ namespace tread
     constexpr double steps_over_travel_time = 1.2;
     const double     steps = steps_over_travel_time * scene.motion.rolled_distance / scene.motion.speed *
                          wave_speed / scene.mesh.finest_cell;
-    return [steps, type = solid_parameters(scene).element_type, zones = plastic_zones(scene)](
-             const unsigned int body, const auto &corners, const unsigned int level) {
-      dealii::Point<3> centre;
-      for (const dealii::Point<3> &corner : corners)
-        centre += corner / 8.;
-      const bool   is_plastic = zone_at(zones, body, centre) >= 0;
-      const double of_a_step  = Solid::relative_cost(corners, type, is_plastic);
-      return steps * std::ldexp(of_a_step, is_plastic ? 0 : -static_cast<int>(level));
-    };
+    const SolidParameters parameters = solid_parameters(scene);
+    return
+      [steps, element = element_named(parameters.element).make(parameters),
+       zones = plastic_zones(scene)](const unsigned int body, const auto &corners, const unsigned int level) {
+        dealii::Point<3> centre;
+        for (const dealii::Point<3> &corner : corners)
+          centre += corner / 8.;
+        const bool   is_plastic = zone_at(zones, body, centre) >= 0;
+        const double of_a_step  = is_plastic ? PlasticCells::relative_cost : element->relative_cost(corners);
+        return steps * std::ldexp(of_a_step, is_plastic ? 0 : -static_cast<int>(level));
+      };
   }
 
 

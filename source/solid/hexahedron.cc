@@ -71,6 +71,17 @@ namespace tread
         }
     }
 
+    /// Scaled, kg.
+    std::array<double, 8> node_masses(const HexahedronIntegrals &cell,
+                                      const ElasticMaterial     &material,
+                                      const double               density_scale)
+    {
+      std::array<double, 8> mass;
+      for (unsigned int a = 0; a < 8; ++a)
+        mass[a] = density_scale * material.density * cell.node_volume[a];
+      return mass;
+    }
+
     std::array<std::array<double, 3>, 4> hourglass_moments(const std::array<dealii::Point<3>, 8> &nodes)
     {
       std::array<std::array<double, 3>, 4> moments{};
@@ -167,37 +178,37 @@ namespace tread
   }
 
 
-  double highest_frequency_bound(const HexahedronIntegrals &cell,
-                                 const ElasticMaterial     &material,
-                                 const double               hourglass_stiffness,
-                                 const bool                 fully_integrated,
-                                 const double               density_scale)
+  double fully_integrated_frequency_bound(const HexahedronIntegrals &cell,
+                                          const ElasticMaterial     &material,
+                                          const double               density_scale)
   {
-    std::array<double, 8> mass;
-    for (unsigned int a = 0; a < 8; ++a)
-      mass[a] = density_scale * material.density * cell.node_volume[a];
+    const std::array<double, 8> mass = node_masses(cell, material, density_scale);
+    // The modes of different Gauss points are coupled by the nodes: the bound of the whole
+    // 48 x 48 Gram matrix follows from the stiffness matrix itself, 24 x 24.
+    std::array<std::array<double, 24>, 24> k{};
+    const double                           mu = material.shear_modulus(), lambda = material.lame();
+    for (unsigned int q = 0; q < 8; ++q)
+      for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int b = 0; b < 8; ++b)
+          {
+            const auto  &ga = cell.point_gradient[q][a], &gb = cell.point_gradient[q][b];
+            const double product = ga[0] * gb[0] + ga[1] * gb[1] + ga[2] * gb[2];
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                k[3 * a + i][3 * b + j] +=
+                  cell.point_volume[q] / std::sqrt(mass[a] * mass[b]) *
+                  (lambda * ga[i] * gb[j] + mu * ga[j] * gb[i] + (i == j ? mu * product : 0.));
+          }
+    return std::sqrt(largest_eigenvalue_bound<24>(k));
+  }
 
-    if (fully_integrated)
-      {
-        // The modes of different Gauss points are coupled by the nodes: the bound of the whole
-        // 48 x 48 Gram matrix follows from the stiffness matrix itself, 24 x 24.
-        std::array<std::array<double, 24>, 24> k{};
-        const double                           mu = material.shear_modulus(), lambda = material.lame();
-        for (unsigned int q = 0; q < 8; ++q)
-          for (unsigned int a = 0; a < 8; ++a)
-            for (unsigned int b = 0; b < 8; ++b)
-              {
-                const auto  &ga = cell.point_gradient[q][a], &gb = cell.point_gradient[q][b];
-                const double product = ga[0] * gb[0] + ga[1] * gb[1] + ga[2] * gb[2];
-                for (unsigned int i = 0; i < 3; ++i)
-                  for (unsigned int j = 0; j < 3; ++j)
-                    k[3 * a + i][3 * b + j] +=
-                      cell.point_volume[q] / std::sqrt(mass[a] * mass[b]) *
-                      (lambda * ga[i] * gb[j] + mu * ga[j] * gb[i] + (i == j ? mu * product : 0.));
-              }
-        return std::sqrt(largest_eigenvalue_bound<24>(k));
-      }
 
+  double one_point_frequency_bound(const HexahedronIntegrals &cell,
+                                   const ElasticMaterial     &material,
+                                   const double               hourglass_stiffness,
+                                   const double               density_scale)
+  {
+    const std::array<double, 8>          mass = node_masses(cell, material, density_scale);
     std::array<std::array<double, 6>, 6> strain_gram{};
     add_strain_gram(strain_gram, cell.gradient, cell.volume, mass, material);
     std::array<std::array<double, 4>, 4> hourglass_gram{};

@@ -2,6 +2,8 @@
 // Without external forces linear and angular momentum must be conserved to round-off and energy within the
 // bounds of central differences, for a vibrating block with hanging nodes and for a spinning ring.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -120,10 +122,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
     tests::refine_near(body, Point<3>(.04, .03, .03), .012, .005);
     const Mesh mesh(MPI_COMM_WORLD, {body});
     check.that("block: has hanging nodes", mesh.n_global_hanging_nodes > 0);
-    for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
+    for (const std::string type : {OnePoint::name, FullyIntegrated::name})
       {
         SolidParameters solid_parameters;
-        solid_parameters.element_type = type;
+        solid_parameters.element = type;
         const Solid      solid(mesh, {steel}, solid_parameters);
         ExplicitDynamics dynamics(mesh, solid, parameters);
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
@@ -139,7 +141,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
         // the strain part; turn and translation hold most of the energy and hundreds of modes average, which
         // leaves some 1e-3 of the whole.
         run(check, dynamics, 4000, 0.01,
-            type == ElementType::one_point ? "block, one point" : "block, fully integrated");
+            type == OnePoint::name ? "block, one point" : "block, fully integrated");
       }
   }
   {

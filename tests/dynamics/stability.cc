@@ -2,6 +2,8 @@
 // The time step: not above the stability limit (1e5 steps at Courant number 0.95 keep their energy), not far
 // below it (true highest frequency by power iteration), and a run beyond the limit is stopped with advice.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -98,22 +100,22 @@ namespace
   void check_bound(tests::Check &check, const Body &body, const std::string &name, const double least)
   {
     const Mesh mesh(MPI_COMM_SELF, {body});
-    for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
+    for (const std::string type : {OnePoint::name, FullyIntegrated::name})
       for (const double poisson_ratio : {0., 0.3, 0.45})
         {
           ElasticMaterial material;
           material.poisson_ratio = poisson_ratio;
           SolidParameters    solid_parameters;
           DynamicsParameters parameters;
-          solid_parameters.element_type = type;
-          parameters.damping_steps      = 0.;
+          solid_parameters.element = type;
+          parameters.damping_steps = 0.;
           const Solid            solid(mesh, {material}, solid_parameters);
           const ExplicitDynamics dynamics(mesh, solid, parameters);
           const double           exact = 2. / highest_frequency(mesh, solid, dynamics.true_masses());
           const double           ratio = dynamics.critical_time_step() / exact;
           char                   what[120];
           std::snprintf(what, sizeof what, "%s, %s, nu %.2f: step/limit", name.c_str(),
-                        type == ElementType::one_point ? "one point" : "full", poisson_ratio);
+                        type == OnePoint::name ? "one point" : "full", poisson_ratio);
           std::printf("%s: critical time step %.4f us, limit %.4f us, ratio %.3f\n", what,
                       1e6 * dynamics.critical_time_step(), 1e6 * exact, ratio);
           // Above 1 runs fail; far below steps are in vain. For nu > 0 a free cell has a bulk mode that its

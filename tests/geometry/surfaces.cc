@@ -93,47 +93,49 @@ namespace
     // the bottom if that is higher.
     RunningSurfaces surfaces;
     surfaces.rail_top = rail(RailProfile::rail_54e1(), 0.);
-    Defect dip;
-    dip.begin       = -10e-3;
-    dip.width       = 60e-3;
-    dip.depth       = 0.05e-3;
+    Defect hollow;
+    hollow.shape = dip(0., 0.);
+    hollow.begin       = -10e-3;
+    hollow.width       = 60e-3;
+    hollow.depth       = 0.05e-3;
     surfaces.defect = [&](const double x, const double y) {
-      return dip.height(x, y);
+      return hollow.height(x, y);
     };
     check.absolute("in a flat dip: lift, um", 1e6 * first_contact(surfaces, 0.).lift, -50., 0.5);
-    dip.depth = 1e-3;
+    hollow.depth = 1e-3;
     check.absolute("over a deep dip: lift, um", 1e6 * first_contact(surfaces, 0.).lift,
                    1e6 * (std::sqrt(0.46 * 0.46 - 1e-4) - 0.46), 0.5);
   }
 
   void check_defects(tests::Check &check)
   {
-    Defect dip;
-    dip.begin  = 5e-3;
-    dip.length = 20e-3;
-    dip.width  = 30e-3;
-    dip.depth  = 0.2e-3;
-    check.absolute("dip: depth in its middle, um", 1e6 * dip.height(15e-3, 0.), -200., 1e-9);
-    check.that("dip: none beside it", dip.height(4.999e-3, 0.) == 0. && dip.height(25.001e-3, 0.) == 0. &&
-                                        dip.height(15e-3, 15.001e-3) == 0. && dip.height(7e-3, 14e-3) == 0.);
+    Defect hollow;
+    hollow.shape = dip(0., 0.);
+    hollow.begin  = 5e-3;
+    hollow.length = 20e-3;
+    hollow.width  = 30e-3;
+    hollow.depth  = 0.2e-3;
+    check.absolute("dip: depth in its middle, um", 1e6 * hollow.height(15e-3, 0.), -200., 1e-9);
+    check.that("dip: none beside it", hollow.height(4.999e-3, 0.) == 0. && hollow.height(25.001e-3, 0.) == 0. &&
+                                        hollow.height(15e-3, 15.001e-3) == 0. && hollow.height(7e-3, 14e-3) == 0.);
     double       volume = 0.;
     const double step   = 0.1e-3;
     for (double x = 0.5 * step; x < 30e-3; x += step)
       for (double y = -20e-3 + 0.5 * step; y < 20e-3; y += step)
-        volume -= step * step * dip.height(x, y);
+        volume -= step * step * hollow.height(x, y);
     check.relative("dip: volume of a paraboloid, mm3", 1e9 * volume, 3.14159265 / 8. * 0.2 * 20. * 30., 1e-3);
     // A sphere's cap of 20 mm and 0.2 mm: radius 250.1 mm.
-    dip.width          = dip.length;
+    hollow.width          = hollow.length;
     const double cap_r = (0.25 * 20. * 20. + 0.2 * 0.2) / (2. * 0.2);
-    check.absolute("dip: a sphere's cap at half its radius, um", 1e6 * dip.height(20e-3, 0.),
+    check.absolute("dip: a sphere's cap at half its radius, um", 1e6 * hollow.height(20e-3, 0.),
                    -1e3 * (std::sqrt(cap_r * cap_r - 25.) - (cap_r - 0.2)), 0.1);
 
     // Slopes jump at a sharp edge by 4 d/L = 0.04; a rounding spreads that evenly over its length.
     const auto slope = [&](const double x) {
-      return (dip.height(x + 1e-7, 0.) - dip.height(x - 1e-7, 0.)) / 2e-7;
+      return (hollow.height(x + 1e-7, 0.) - hollow.height(x - 1e-7, 0.)) / 2e-7;
     };
     check.absolute("dip: slope behind the sharp leading edge", slope(5.001e-3), -0.04, 1e-4);
-    dip.trailing_rounding = 4e-3;
+    hollow.shape = dip(0., 4e-3 / hollow.length);
     check.absolute("dip: slope in front of the rounded trailing edge", slope(22.7e-3), 0.0308, 1e-4);
     check.absolute("dip: slope in its middle", slope(25e-3), 0.02, 2e-3); // r^2 curves over 4 mm by a tenth
     check.below("dip: slope behind it", slope(27.5e-3), 1e-9);

@@ -3,6 +3,8 @@
 // with coefficient 1, bend like a plate of one cell's thickness. Fully integrated cells beside them lock in
 // bending.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
@@ -109,10 +111,10 @@ namespace
   {
     const ElasticMaterial material;
     const Mesh            mesh(MPI_COMM_SELF, {tests::make_patch_cube(0.03)});
-    for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
+    for (const std::string type : {OnePoint::name, FullyIntegrated::name})
       {
         SolidParameters parameters;
-        parameters.element_type = type;
+        parameters.element = type;
         const Solid                      solid(mesh, {material}, parameters);
         std::mt19937                     random(3);
         std::uniform_real_distribution<> offset(-1e-3, 1e-3);
@@ -136,7 +138,7 @@ namespace
         const double       slope = (a.strain + a.hourglass - b.strain - b.hourglass) / (2. * step);
         // Central difference: the third derivative adds some step^2 = 4e-10.
         check.relative(std::string("work of forces = change of energy (J), ") +
-                         (type == ElementType::one_point ? "one point" : "fully integrated"),
+                         (type == OnePoint::name ? "one point" : "fully integrated"),
                        power, slope, 1e-8);
       }
   }
@@ -145,7 +147,7 @@ namespace
   double cantilever(const unsigned int n_height,
                     const double       stretch,
                     const double       poisson_ratio,
-                    const ElementType  type,
+                    const std::string  type,
                     const double       coefficient)
   {
     const double    height = 0.01, length = 0.1, width = 0.01, load = 10.; // m, N
@@ -157,7 +159,7 @@ namespace
                       {{tests::Side::left, Boundary::support}});
     const Mesh      mesh(MPI_COMM_SELF, {body});
     SolidParameters parameters;
-    parameters.element_type          = type;
+    parameters.element               = type;
     parameters.hourglass_coefficient = coefficient;
     const Solid        solid(mesh, {material}, parameters);
     DynamicsParameters dynamics_parameters;
@@ -202,37 +204,37 @@ void run_test(tests::Check &check, const tests::Arguments &)
     {
       char what[100];
       std::snprintf(what, sizeof what, "beam, nu 0, %u cells high: deflection/theory", n);
-      check.relative(what, cantilever(n, 1., 0., ElementType::one_point, 1.), 1., 0.01);
+      check.relative(what, cantilever(n, 1., 0., OnePoint::name, 1.), 1., 0.01);
     }
   // The modes are given the plate's modulus E/(1-nu^2), for cells in a body rarely bend alone: a narrow beam
   // one cell high is too stiff by just that. More cells share this excess and the clamped end, where the
   // section cannot contract.
-  check.relative("beam, nu 0.3, 1 cells high: deflection/theory",
-                 cantilever(1, 1., .3, ElementType::one_point, 1.), 0.91, 0.01);
-  check.relative("beam, nu 0.3, 2 cells high: deflection/theory",
-                 cantilever(2, 1., .3, ElementType::one_point, 1.), 1., 0.06);
-  check.relative("beam, nu 0.3, 4 cells high: deflection/theory",
-                 cantilever(4, 1., .3, ElementType::one_point, 1.), 1., 0.03);
+  check.relative("beam, nu 0.3, 1 cells high: deflection/theory", cantilever(1, 1., .3, OnePoint::name, 1.),
+                 0.91, 0.01);
+  check.relative("beam, nu 0.3, 2 cells high: deflection/theory", cantilever(2, 1., .3, OnePoint::name, 1.),
+                 1., 0.06);
+  check.relative("beam, nu 0.3, 4 cells high: deflection/theory", cantilever(4, 1., .3, OnePoint::name, 1.),
+                 1., 0.03);
 
   // For the record: other coefficients, long cells and the locking of full integration.
   double locked = 0.;
   std::printf("deflection over beam theory, nu = 0.3   1 cell high   2 cells high   4 cells high\n");
-  const auto print_row = [&](const char *name, const double stretch, const ElementType type,
+  const auto print_row = [&](const char *name, const double stretch, const std::string type,
                              const double coefficient) {
     std::printf("  %-36s", name);
     for (const unsigned int n : {1u, 2u, 4u})
       {
         const double ratio = cantilever(n, stretch, .3, type, coefficient);
         std::printf("  %8.3f     ", ratio);
-        if (type == ElementType::fully_integrated && stretch == 1. && n == 1)
+        if (type == FullyIntegrated::name && stretch == 1. && n == 1)
           locked = ratio;
       }
     std::printf("\n");
   };
-  print_row("one point, coefficient 0.1", 1., ElementType::one_point, .1);
-  print_row("one point, coefficient 1, 2:1 cells", 2., ElementType::one_point, 1.);
-  print_row("fully integrated", 1., ElementType::fully_integrated, 1.);
-  print_row("fully integrated, 2:1 cells", 2., ElementType::fully_integrated, 1.);
+  print_row("one point, coefficient 0.1", 1., OnePoint::name, .1);
+  print_row("one point, coefficient 1, 2:1 cells", 2., OnePoint::name, 1.);
+  print_row("fully integrated", 1., FullyIntegrated::name, 1.);
+  print_row("fully integrated, 2:1 cells", 2., FullyIntegrated::name, 1.);
   // Parasitic shear 1/(2(1+nu)) comes on top of bending without contraction over the height, and over the
   // width too
   // ((1-nu)/((1+nu)(1-2nu))) or not (1/(1-nu^2)): stiffness between 1.484 and 1.731 for a cube.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Cells are computed n_lanes at a time: the position of a cell in a batch, its neighbours there and an
 // incomplete last batch must not affect the forces.
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 #include <tread/solid/solid.h>
 
 #include <deal.II/base/mpi.h>
@@ -48,14 +50,14 @@ namespace
   struct Element
   {
     const char *name;
-    ElementType type;
+    std::string type;
     double      viscosity;
   };
 
   SolidParameters parameters_of(const Element &element)
   {
     SolidParameters parameters;
-    parameters.element_type             = element.type;
+    parameters.element                  = element.type;
     parameters.linear_bulk_viscosity    = 0.06 * element.viscosity;
     parameters.quadratic_bulk_viscosity = 1.2 * element.viscosity;
     return parameters;
@@ -106,9 +108,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
   std::printf("%u lanes\n", n_lanes);
 
   const std::vector<ElasticMaterial> steel(1);
-  const Element                      elements[3] = {{"one point", ElementType::one_point, 0.},
-                                                    {"one point, bulk viscosity", ElementType::one_point, 1.},
-                                                    {"fully integrated", ElementType::fully_integrated, 0.}};
+  const Element                      elements[3] = {{"one point", OnePoint::name, 0.},
+                                                    {"one point, bulk viscosity", OnePoint::name, 1.},
+                                                    {"fully integrated", FullyIntegrated::name, 0.}};
   for (const Element &element : elements)
     {
       const SolidParameters parameters = parameters_of(element);

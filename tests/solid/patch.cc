@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Patch test: on distorted cells, with and without hanging nodes, a linear displacement field must give the
 // exact uniform stress and no force on inner nodes (Irons & Razzaque 1972).
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 #include <tread/solid/solid.h>
 
 #include <deal.II/base/mpi.h>
@@ -124,14 +126,13 @@ void run_test(tests::Check &check, const tests::Arguments &)
                   unsigned(mesh.n_global_hanging_nodes));
       check.that(refined ? "mesh has hanging nodes" : "mesh has no hanging nodes",
                  (mesh.n_global_hanging_nodes > 0) == refined);
-      for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
+      for (const std::string type : {OnePoint::name, FullyIntegrated::name})
         {
           SolidParameters parameters;
-          parameters.element_type = type;
+          parameters.element = type;
           const Solid       solid(mesh, {material}, parameters);
-          const std::string name =
-            std::string(type == ElementType::one_point ? "one point" : "fully integrated") +
-            (refined ? ", hanging nodes" : ", 7 cells");
+          const std::string name = std::string(type == OnePoint::name ? "one point" : "fully integrated") +
+                                   (refined ? ", hanging nodes" : ", 7 cells");
           // Positions of about 0.3 m carry rounding of 3e-17 m; over cells of 0.01 m and strains of 1e-3 that
           // is 1e-11 at worst.
           for (const bool is_large : {false, true})

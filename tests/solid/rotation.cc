@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A wheel rotates through any angle: rigid motion must store no energy, and a deformed state must keep its
 // energy and forces when it rotates.
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
 #include <tread/solid/solid.h>
 
 #include <deal.II/base/mpi.h>
@@ -45,12 +47,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
     row += Vector3{offset(random), offset(random), offset(random), 0.};
   mesh.distribute_hanging_nodes(deformed.data());
 
-  for (const ElementType type : {ElementType::one_point, ElementType::fully_integrated})
+  for (const std::string type : {OnePoint::name, FullyIntegrated::name})
     {
       SolidParameters parameters;
-      parameters.element_type = type;
+      parameters.element = type;
       const Solid       solid(mesh, {material}, parameters);
-      const std::string name         = type == ElementType::one_point ? "one point: " : "fully integrated: ";
+      const std::string name         = type == OnePoint::name ? "one point: " : "fully integrated: ";
       const double      energy_scale = material.young_modulus * edge * edge * edge; // J, that of strain 1
       const double      force_scale  = material.young_modulus * edge * edge;        // N
 

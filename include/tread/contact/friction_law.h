@@ -96,10 +96,6 @@ namespace tread
   /// All laws, the usual one first.
   const std::vector<FrictionLawEntry> &friction_laws();
 
-  /// Their names, as a parameter's pattern, and what they are, as its help.
-  dealii::Patterns::Selection friction_law_pattern();
-  std::string                 friction_law_help();
-
   /// Add the parameters that single laws have to the section of the contact, which was entered.
   void declare_friction_laws(dealii::ParameterHandler &section);
 

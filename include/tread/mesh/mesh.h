@@ -97,7 +97,7 @@ namespace tread
     }
 
     /// Approximate total time that a cell of a body with these corners (reference positions, m) will take,
-    /// over that of one step of a parallelepiped (@see Solid::relative_cost).
+    /// over that of one step of a parallelepiped (@see Element::relative_cost).
     /// @param level of time steps that follows from its size.
     using CellCost = std::function<double(unsigned int                                        body,
                                           const std::array<dealii::Point<3>, nodes_per_cell> &corners,

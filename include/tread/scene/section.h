@@ -105,6 +105,22 @@ namespace tread
               [&value](const std::string &text) { value = choice_named<Enum>(text); });
     }
 
+    /// One of the entries of a registry, which have a name and a description.
+    template <typename Entry>
+    void choose(const std::string        &name,
+                std::string              &value,
+                const std::vector<Entry> &entries,
+                const std::string        &introduction = "")
+    {
+      std::string names, meaning = introduction;
+      for (const Entry &entry : entries)
+        {
+          names += (names.empty() ? "" : "|") + entry.name;
+          meaning += (meaning.empty() ? "" : " ") + entry.name + ": " + entry.description + ".";
+        }
+      add(name, value, meaning, dealii::Patterns::Selection(names));
+    }
+
   private:
     void declare(const std::string                              &name,
                  const std::string                              &value,

@@ -55,12 +55,15 @@ namespace tread
                              const double               coefficient);
 
   /// Upper bound of the highest angular frequency of one free cell, rad/s, with the nodal masses
-  /// density_scale * density * node_volume.
-  double highest_frequency_bound(const HexahedronIntegrals &cell,
-                                 const ElasticMaterial     &material,
-                                 const double               hourglass_stiffness,
-                                 const bool                 fully_integrated,
-                                 const double               density_scale);
+  /// density_scale * density * node_volume: with one strain and this stiffness of the hourglass amplitudes,
+  /// or with 2 x 2 x 2 Gauss points.
+  double one_point_frequency_bound(const HexahedronIntegrals &cell,
+                                   const ElasticMaterial     &material,
+                                   const double               hourglass_stiffness,
+                                   const double               density_scale);
+  double fully_integrated_frequency_bound(const HexahedronIntegrals &cell,
+                                          const ElasticMaterial     &material,
+                                          const double               density_scale);
 } // namespace tread
 
 #endif

@@ -5,32 +5,14 @@
 #include <tread/base/simd.h>
 #include <tread/material/elastic.h>
 #include <tread/mesh/mesh.h>
-#include <tread/solid/one_point_batch.h>
+#include <tread/solid/element.h>
 #include <tread/solid/plastic_cells.h>
 
 #include <cstdint>
+#include <memory>
 
 namespace tread
 {
-  enum class ElementType
-  {
-    one_point,       ///< uniform strain with hourglass stiffness (Flanagan & Belytschko 1981)
-    fully_integrated ///< 2 x 2 x 2 Gauss points, without hourglass control: the cross-check
-  };
-
-  struct SolidParameters
-  {
-    ElementType element_type = ElementType::one_point;
-    /// Stiffness of the hourglass modes over that of pure bending of a box cell.
-    double hourglass_coefficient = 1.;
-    /// Artificial bulk viscosity: linear (times c h rho) and quadratic (times rho h^2 in compression).
-    double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
-    /// Factor on the inertia of the cells (quasi-static scenes).
-    double density_scale = 1.;
-    /// Cells of level l are slow enough for time steps of 2^l times the smallest; 0: all in one level.
-    unsigned int max_level = 0;
-  };
-
   /// Selection of the cells over which forces are summed.
   struct Levels
   {
@@ -144,83 +126,34 @@ namespace tread
     /// The value that cell_levels() would give for a cell with another largest level.
     unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
 
-    /// Approximate time that a cell and its nodes take in a step, over that of a one-point parallelepiped:
-    /// for a fair division among the ranks.
-    static double relative_cost(const std::array<dealii::Point<3>, 8> &corners,
-                                const ElementType                      type,
-                                const bool                             is_plastic);
-
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell. They
     /// are computed anew and not stored.
     std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
 
     bool needs_velocity() const
     {
-      return parameters.linear_bulk_viscosity > 0. || parameters.quadratic_bulk_viscosity > 0.;
+      return parameters.has_bulk_viscosity();
     }
 
     /// Memory of this rank's cells for the internal forces, bytes.
     std::size_t memory_consumption() const;
 
   private:
-    struct BatchOfPoints
+    struct Group ///< of one element, material and level
     {
-      unsigned int node[8][n_lanes]  = {};
-      Lanes        gradient[8][8][3] = {}; ///< at each Gauss point
-      Lanes        weight[8]         = {}; ///< volume of each Gauss point
-    };
-    enum class Kind
-    {
-      affine,
-      general,
-      points
-    };
-    struct Range ///< cells of one material, level and kind
-    {
-      std::size_t  begin, end; ///< batches of their kind
-      std::size_t  cells;      ///< where those of the first batch are in cell_of_lane
-      Kind         kind;
-      unsigned int level;
-      double       lambda, mu, density, wave_speed;
+      unsigned int                     level;
+      std::unique_ptr<const CellGroup> cells;
     };
 
-    template <bool viscous, bool affine>
-    void add_one_point_forces(const Range   &range,
-                              const Vector3 *x,
-                              const Vector3 *v,
-                              Vector3       *force,
-                              const double   factor) const;
-    void add_fully_integrated_forces(const Range   &range,
-                                     const Vector3 *x,
-                                     Vector3       *force,
-                                     const double   factor) const;
-
-    /// Call work(range, batch, cells of its lanes) for each batch, whatever its kind.
-    template <typename Work>
-    void for_batches(const Work &work) const;
-
-    template <bool affine>
-    const AlignedVector<OnePointBatch<affine>> &one_point_batches() const
-    {
-      if constexpr (affine)
-        return affine_batches;
-      else
-        return general_batches;
-    }
-
-    SolidParameters                                parameters;
-    PlasticCells                                   plastic_cells;
-    PlasticHistory                                 virgin_history;
-    std::vector<ElasticMaterial>                   materials;
-    AlignedVector<OnePointBatch<true>>             affine_batches;
-    AlignedVector<OnePointBatch<false>>            general_batches;
-    AlignedVector<BatchOfPoints>                   point_batches;
-    std::vector<std::array<unsigned int, n_lanes>> cell_of_lane; ///< invalid where padded
-    std::vector<Range>                             ranges;
-    std::vector<double>                            frequencies;
-    std::vector<unsigned int>                      levels_of_cells;
-    double                                         highest_cell_frequency = 0.; ///< of all ranks, rad/s
-    std::size_t                                    n_cells;
+    SolidParameters              parameters;
+    PlasticCells                 plastic_cells;
+    PlasticHistory               virgin_history;
+    std::vector<ElasticMaterial> materials;
+    std::vector<Group>           groups; ///< of all cells but those of plastic zones
+    std::vector<double>          frequencies;
+    std::vector<unsigned int>    levels_of_cells;
+    double                       highest_cell_frequency = 0.; ///< of all ranks, rad/s
+    std::size_t                  n_cells;
   };
 } // namespace tread
 

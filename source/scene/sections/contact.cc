@@ -13,7 +13,8 @@ namespace tread
                 "Without slip; that of Coulomb's law is the same at any slip speed. 0 is frictionless. "
                 "Half-space references, the predicted start among them, know this number only.",
                 Double(0., 2.));
-    section.add("Friction law", friction_law, friction_law_help(), friction_law_pattern());
+    section.choose("Friction law", friction_law, friction_laws(),
+                   "How the friction coefficient depends on the slip speed of each node.");
     declare_friction_laws(handler);
     section.add(
       "Tolerance", tolerance,

@@ -3,22 +3,12 @@
 
 namespace tread
 {
-  template <>
-  const std::vector<Choice<ElementType>> &choices()
-  {
-    static const std::vector<Choice<ElementType>> list{
-      {ElementType::one_point, "one-point", "uniform strain with hourglass stiffness, fast."},
-      {ElementType::fully_integrated, "fully-integrated", "the cross-check."}};
-    return list;
-  }
-
-
   void SolidSection::declare(dealii::ParameterHandler &handler)
   {
     using dealii::Patterns::Double;
     Section section(handler, "Solid");
 
-    section.choose("Element", element);
+    section.choose("Element", element, elements());
     section.add("Hourglass coefficient", hourglass_coefficient,
                 "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
                 Double(0.01, 10.));
@@ -42,9 +32,9 @@ namespace tread
 
   void SolidSection::check() const
   {
-    require(element == ElementType::one_point || !has_bulk_viscosity(),
+    require(element_named(element).has_bulk_viscosity || !has_bulk_viscosity(),
             "'Solid/Linear bulk viscosity' and 'Solid/Quadratic bulk viscosity' must be 0 with "
             "'Solid/Element' " +
-              name_of(element));
+              element);
   }
 } // namespace tread

@@ -7,13 +7,10 @@
 
 namespace tread
 {
-  template <>
-  const std::vector<Choice<ElementType>> &choices();
-
   /// Section `Solid`.
   struct SolidSection
   {
-    ElementType element               = ElementType::one_point;
+    std::string element               = elements().front().name;
     double      hourglass_coefficient = 1.;
     double      stiffness_damping     = 0.1; ///< time steps
     double      mass_damping          = 0.;  ///< 1/s

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_solid_element_h
+#define tread_solid_element_h
+
+#include <tread/base/simd.h>
+#include <tread/material/elastic.h>
+#include <tread/mesh/mesh.h>
+#include <tread/solid/hexahedron.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  struct SolidParameters
+  {
+    std::string element = "one-point"; ///< one of elements()
+    /// Stiffness of the hourglass modes over that of pure bending of a box cell.
+    double hourglass_coefficient = 1.;
+    /// Artificial bulk viscosity: linear (times c h rho) and quadratic (times rho h^2 in compression).
+    double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
+    /// Factor on the inertia of the cells (quasi-static scenes).
+    double density_scale = 1.;
+    /// Cells of level l are slow enough for time steps of 2^l times the smallest; 0: all in one level.
+    unsigned int max_level = 0;
+
+    bool has_bulk_viscosity() const
+    {
+      return linear_bulk_viscosity > 0. || quadratic_bulk_viscosity > 0.;
+    }
+  };
+
+  /// Elastic cells of one element, material and level of time steps, in the order in which their kernel takes
+  /// them. The caller treats hanging nodes.
+  class CellGroup
+  {
+  public:
+    virtual ~CellGroup() = default;
+
+    /// Add factor times the forces that the cells exert on their nodes (N) when these are at x (m) and, for
+    /// bulk viscosity, move at v (m/s).
+    virtual void add_forces(const Vector3 *x,
+                            const Vector3 *v,
+                            Vector3       *force,
+                            const double   factor) const = 0;
+
+    /// Add the energies stored at x, J, whose sums over the lanes count.
+    virtual void add_energies(const Vector3 *x, Lanes &strain, Lanes &hourglass) const = 0;
+
+    /// Set the Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) at the centres of the cells at x, by cell of the
+    /// mesh. @param wanted by cell: batches without any wanted cell are left out; empty: all cells.
+    virtual void set_cauchy_stress(const Vector3                      *x,
+                                   const std::vector<char>            &wanted,
+                                   std::vector<std::array<double, 6>> &stress) const = 0;
+
+    /// Bytes.
+    virtual std::size_t memory_consumption() const = 0;
+  };
+
+  /// A finite element: how cells resist to deformation, and what time integration must know of them.
+  ///
+  /// A new element is a header and a source like those of fully_integrated, and its line in element.cc.
+  class Element
+  {
+  public:
+    virtual ~Element() = default;
+
+    /// Upper bound of the highest angular frequency of one free cell, rad/s, with the nodal masses
+    /// density_scale * density * node_volume.
+    virtual double highest_frequency_bound(const HexahedronIntegrals &cell,
+                                           const ElasticMaterial     &material) const = 0;
+
+    /// Approximate time that a cell with these corners (m) and its nodes take in a step, over that of a
+    /// one-point parallelepiped: for a fair division among the ranks.
+    virtual double relative_cost(const std::array<dealii::Point<3>, 8> &corners) const = 0;
+
+    /// Put cells of the mesh, all of this material, into groups.
+    virtual std::vector<std::unique_ptr<const CellGroup>> make_groups(
+      const Mesh                      &mesh,
+      const ElasticMaterial           &material,
+      const std::vector<unsigned int> &cells) const = 0;
+  };
+
+  /// What a scene has to know of an element to offer it.
+  struct ElementEntry
+  {
+    std::string name, description;
+    /// Cells that yield are one-point cells; bulk viscosity is a pressure of cells with one strain.
+    bool can_yield, has_bulk_viscosity;
+    std::shared_ptr<const Element> (*make)(const SolidParameters &parameters);
+  };
+
+  /// All elements, the usual one first.
+  const std::vector<ElementEntry> &elements();
+
+  /// @throws std::invalid_argument if there is none of this name
+  const ElementEntry &element_named(const std::string &name);
+} // namespace tread
+
+#endif

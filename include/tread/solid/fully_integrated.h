@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_solid_fully_integrated_h
+#define tread_solid_fully_integrated_h
+
+#include <tread/solid/element.h>
+
+namespace tread
+{
+  /// 2 x 2 x 2 Gauss points, without hourglass control.
+  class FullyIntegrated : public Element
+  {
+  public:
+    static constexpr const char *name        = "fully-integrated";
+    static constexpr const char *description = "the cross-check";
+    static constexpr bool        can_yield = false, has_bulk_viscosity = false;
+
+    explicit FullyIntegrated(const SolidParameters &parameters)
+      : density_scale(parameters.density_scale)
+    {
+    }
+
+    double highest_frequency_bound(const HexahedronIntegrals &cell,
+                                   const ElasticMaterial     &material) const override;
+    double relative_cost(const std::array<dealii::Point<3>, 8> &corners) const override;
+    std::vector<std::unique_ptr<const CellGroup>> make_groups(
+      const Mesh                      &mesh,
+      const ElasticMaterial           &material,
+      const std::vector<unsigned int> &cells) const override;
+
+  private:
+    double density_scale;
+  };
+} // namespace tread
+
+#endif

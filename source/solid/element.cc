@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/solid/element.h>
+#include <tread/solid/fully_integrated.h>
+#include <tread/solid/one_point.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    template <typename E>
+    ElementEntry entry()
+    {
+      return {E::name, E::description, E::can_yield, E::has_bulk_viscosity,
+              [](const SolidParameters &parameters) -> std::shared_ptr<const Element> {
+                return std::make_shared<E>(parameters);
+              }};
+    }
+  } // namespace
+
+
+  const std::vector<ElementEntry> &elements()
+  {
+    static const std::vector<ElementEntry> list{
+      entry<OnePoint>(),
+      entry<FullyIntegrated>(),
+    };
+    return list;
+  }
+
+
+  const ElementEntry &element_named(const std::string &name)
+  {
+    const auto found = std::find_if(elements().begin(), elements().end(),
+                                    [&](const ElementEntry &element) { return element.name == name; });
+    if (found == elements().end())
+      throw std::invalid_argument("there is no element '" + name + "'");
+    return *found;
+  }
+} // namespace tread
