@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/defect.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -20,19 +21,13 @@ namespace tread
   } // namespace
 
 
-  double Defect::height(const double x, const double y) const
+  std::function<double(double, double)> dip(const double leading_rounding, const double trailing_rounding)
   {
-    const double u = (x - begin) / length, v = 2. * (y - y_middle) / width;
-    const double rounding = u < 0.5 ? leading_rounding : trailing_rounding;
-    if (profile)
-      {
-        if (u <= 0. || u >= 1. || std::abs(v) >= 1.)
-          return 0.;
-        return -depth * profile(u) * (1. - v * v);
-      }
-    // At the edge r^2 grows by 4/length per length of path.
-    const double r_squared = (2. * u - 1.) * (2. * u - 1.) + v * v;
-    return -depth * rounded_ramp(1. - r_squared, 2. * rounding / length);
+    return [=](const double u, const double v) {
+      // At the edge r^2 grows by 4 per length of path.
+      const double r_squared = (2. * u - 1.) * (2. * u - 1.) + v * v;
+      return rounded_ramp(1. - r_squared, 2. * (u < 0.5 ? leading_rounding : trailing_rounding));
+    };
   }
 
 
@@ -51,10 +46,11 @@ namespace tread
       throw std::runtime_error("a defect's profile must lie below the line between its ends");
 
     Defect defect;
-    defect.length  = length;
-    defect.depth   = deepest;
-    defect.profile = [=](const double u) {
-      return below(reversed ? 1. - u : u) / deepest;
+    defect.length = length;
+    defect.depth  = deepest;
+    defect.shape  = [=](const double u, const double v) {
+      return u <= 0. || u >= 1. || std::abs(v) >= 1. ? 0.
+                                                      : below(reversed ? 1. - u : u) / deepest * (1. - v * v);
     };
     return defect;
   }

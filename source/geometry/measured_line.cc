@@ -171,6 +171,14 @@ namespace tread
       return samples;
     }
 
+    /// How files are read whose names have these endings. A new format is a function and its line here.
+    struct Format
+    {
+      std::vector<std::string> endings;
+      std::vector<Sample> (*read)(const std::string &file, std::istream &in);
+    };
+    const std::vector<Format> formats{{{"prr", "prw"}, read_simpack}, {{"ban", "whl"}, read_miniprof}};
+
     std::vector<Sample> read_samples(const std::string &file)
     {
       std::ifstream in(file);
@@ -178,10 +186,12 @@ namespace tread
         fail(file, "cannot be read");
       if (std::filesystem::is_directory(file))
         fail(file, "is a folder");
-      const std::string   kind    = ending(file);
-      std::vector<Sample> samples = kind == "prr" || kind == "prw"   ? read_simpack(file, in)
-                                    : kind == "ban" || kind == "whl" ? read_miniprof(file, in)
-                                                                     : read_table(file, in);
+      const auto format =
+        std::find_if(formats.begin(), formats.end(), [kind = ending(file)](const Format &f) {
+          return std::find(f.endings.begin(), f.endings.end(), kind) != f.endings.end();
+        });
+      const std::vector<Sample> samples =
+        format != formats.end() ? format->read(file, in) : read_table(file, in);
       if (samples.size() < 4)
         fail(file, "has " + std::to_string(samples.size()) + (samples.size() == 1 ? " point" : " points") +
                      "; at least four are needed");

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <sstream>
 
 namespace tread
@@ -46,15 +47,46 @@ namespace tread
       }
     };
 
-    template <int dim>
-    void set_vector(typename ArrayOutput<dim>::Patch &patch,
-                    const unsigned int                first,
-                    const unsigned int                vertex,
-                    const Vector3                     value)
+    /// A field of a picture: its name with the unit, and its values as they are written, by what it is asked
+    /// for at a vertex. A new field is one line in a list.
+    template <typename Value, typename At>
+    struct Field
     {
-      for (unsigned int d = 0; d < 3; ++d)
-        patch.data(first + d, vertex) = value[d];
-    }
+      std::string                      name;
+      std::function<Value(const At &)> value;
+    };
+
+    /// The fields of one picture: vectors first.
+    template <int dim, typename At>
+    struct Fields
+    {
+      std::vector<Field<Vector3, At>> vectors;
+      std::vector<Field<double, At>>  scalars;
+
+      ArrayOutput<dim> output() const
+      {
+        ArrayOutput<dim> empty;
+        for (const auto &field : vectors)
+          empty.add_vector(field.name);
+        for (const auto &field : scalars)
+          empty.names.push_back(field.name);
+        return empty;
+      }
+
+      /// Set the values at a vertex of a patch.
+      void set(typename ArrayOutput<dim>::Patch &patch, const unsigned int vertex, const At &at) const
+      {
+        unsigned int row = 0;
+        for (const auto &field : vectors)
+          {
+            const Vector3 value = field.value(at);
+            for (unsigned int d = 0; d < 3; ++d)
+              patch.data(row++, vertex) = value[d];
+          }
+        for (const auto &field : scalars)
+          patch.data(row++, vertex) = field.value(at);
+      }
+    };
 
     struct SurfaceValues
     {
@@ -62,14 +94,25 @@ namespace tread
       Vector3 shear{}, slip{};           // MPa, m/s
     };
 
-    ArrayOutput<2> surface_output()
+    const Fields<2, SurfaceValues> &surface_fields()
     {
-      ArrayOutput<2> output;
-      for (const char *scalar : {"pressure_MPa", "state"})
-        output.names.emplace_back(scalar);
-      output.add_vector("shear_MPa");
-      output.add_vector("slip_m_per_s");
-      return output;
+      using S = SurfaceValues;
+      static const Fields<2, S> fields{{{"shear_MPa",
+                                         [](const S &s) {
+                                           return s.shear;
+                                         }},
+                                        {"slip_m_per_s",
+                                         [](const S &s) {
+                                           return s.slip;
+                                         }}},
+                                       {{"pressure_MPa",
+                                         [](const S &s) {
+                                           return s.pressure;
+                                         }},
+                                        {"state", [](const S &s) {
+                                           return s.state;
+                                         }}}};
+      return fields;
     }
 
     /// Vertices in deal.II's order.
@@ -85,10 +128,7 @@ namespace tread
       for (unsigned int v = 0; v < 4; ++v)
         {
           patch.vertices[v] = dealii::Point<3>(vertices[v][0], vertices[v][1], vertices[v][2]);
-          patch.data(0, v)  = values[v].pressure;
-          patch.data(1, v)  = values[v].state;
-          set_vector<2>(patch, 2, v, values[v].shear);
-          set_vector<2>(patch, 5, v, values[v].slip);
+          surface_fields().set(patch, v, values[v]);
         }
       output.patches.push_back(std::move(patch));
     }
@@ -125,22 +165,51 @@ namespace tread
   void RunFolder::write_volume(const ExplicitDynamics                         &dynamics,
                                const std::map<unsigned int, const WheelHub *> &hubs)
   {
-    const Mesh    &mesh = dynamics.mesh;
-    ArrayOutput<3> output;
-    output.add_vector("displacement_um");
-    output.add_vector("velocity_m_per_s");
-    for (const char *name : {"von_mises_MPa", "mean_stress_MPa", "body"})
-      output.names.emplace_back(name);
+    const Mesh                              &mesh = dynamics.mesh;
     const std::vector<std::array<double, 6>> stress =
       dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
-    // What remains of the stress behind the wheel is the residual stress.
-    const bool plastic = !dynamics.history.values.empty();
-    const bool yields  = dealii::Utilities::MPI::logical_or(plastic, comm); // the same data on all ranks
     const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
-    if (yields)
-      for (const char *name : {"equivalent_plastic_strain_percent", "stress_xx_MPa", "stress_yy_MPa",
-                               "stress_zz_MPa", "stress_xy_MPa", "stress_yz_MPa", "stress_zx_MPa"})
-        output.names.emplace_back(name);
+
+    struct At ///< a node of a cell
+    {
+      unsigned int cell, node;
+      Vector3      displacement; // m, without the hub's rigid motion
+    };
+    Fields<3, At> fields{{{"displacement_um",
+                           [](const At &at) {
+                             return 1e6 * at.displacement;
+                           }},
+                          {"velocity_m_per_s",
+                           [&](const At &at) {
+                             return dynamics.v[at.node];
+                           }}},
+                         {{"von_mises_MPa",
+                           [&](const At &at) {
+                             return 1e-6 * von_mises(stress[at.cell]);
+                           }},
+                          {"mean_stress_MPa",
+                           [&](const At &at) {
+                             return 1e-6 / 3. *
+                                    (stress[at.cell][0] + stress[at.cell][1] + stress[at.cell][2]);
+                           }},
+                          {"body", [&](const At &at) {
+                             return double(mesh.cells[at.cell].body);
+                           }}}};
+    // What remains of the stress behind the wheel is the residual stress.
+    const bool yields = dealii::Utilities::MPI::logical_or(!dynamics.history.values.empty(), comm);
+    if (yields) // the same fields on all ranks
+      {
+        fields.scalars.push_back({"equivalent_plastic_strain_percent", [&](const At &at) {
+                                    return strain.empty() ? 0. : 100. * strain[at.cell];
+                                  }});
+        constexpr const char *components[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+        for (unsigned int k = 0; k < 6; ++k)
+          fields.scalars.push_back({std::string("stress_") + components[k] + "_MPa", [&, k](const At &at) {
+                                      return 1e-6 * stress[at.cell][k];
+                                    }});
+      }
+
+    ArrayOutput<3> output = fields.output();
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         ArrayOutput<3>::Patch patch;
@@ -160,17 +229,7 @@ namespace tread
                 rigid               = hub.position_of(rigid - Vector3{hub.start_x(), 0., hub.start_z(), 0.});
               }
             patch.vertices[v] = dealii::Point<3>(x[0], x[1], x[2]);
-            set_vector<3>(patch, 0, v, 1e6 * (x - rigid));
-            set_vector<3>(patch, 3, v, dynamics.v[i]);
-            patch.data(6, v) = 1e-6 * von_mises(stress[c]);
-            patch.data(7, v) = 1e-6 / 3. * (stress[c][0] + stress[c][1] + stress[c][2]);
-            patch.data(8, v) = mesh.cells[c].body;
-            if (yields)
-              {
-                patch.data(9, v) = strain.empty() ? 0. : 100. * strain[c];
-                for (unsigned int k = 0; k < 6; ++k)
-                  patch.data(10 + k, v) = 1e-6 * stress[c][k];
-              }
+            fields.set(patch, v, {c, i, x - rigid});
           }
         output.patches.push_back(std::move(patch));
       }
@@ -187,7 +246,7 @@ namespace tread
     const std::vector<ContactNodeState> states = contact.active_nodes();
     if (!writes_tables) // all ranks know all of the surface
       return;
-    ArrayOutput<2>             output = surface_output();
+    ArrayOutput<2>             output = surface_fields().output();
     std::vector<SurfaceValues> values(contact.surfaces.nodes.size());
     for (const ContactNodeState &state : states)
       {
@@ -218,7 +277,7 @@ namespace tread
   {
     if (!writes_tables)
       return;
-    ArrayOutput<2> output = surface_output();
+    ArrayOutput<2> output = surface_fields().output();
     for (const PatchNode &element : elements)
       {
         SurfaceValues values;

@@ -257,7 +257,7 @@ namespace tread
                                           ": it slows motion that is part of the answer");
     };
     if (shapes->defect)
-      needs_inertia("'Defect/Shape' " + name_of(defect.shape));
+      needs_inertia("'Defect/Shape' " + defect.shape);
     if (track.has_supports())
       needs_inertia("'Track/Foundation' " + name_of(track.foundation));
     require(time_stepping.levels == 1 || solid.stiffness_damping >= least_damping_of_levels,

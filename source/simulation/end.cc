@@ -14,6 +14,15 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Traction over the friction bound from which nearly the whole patch slips: in Carter's strip (1926),
+    /// traction 1 - (1 - creepage)^2 of the bound, a tenth of the length adheres here, and the last hundredth
+    /// of traction is a tenth of the creepage.
+    constexpr double nearly_sliding = 0.99;
+  } // namespace
+
+
   void Simulation::end_passage(RunFolder &folder)
   {
     using dealii::Utilities::MPI::max;
@@ -55,7 +64,7 @@ namespace tread
                                                              const ContactAnswer &answer) const
   {
     const double normal = answer.force[2], traction = answer.force[0];
-    const bool   all_slips   = std::abs(traction) >= 0.99 * scene.contact.friction_coefficient * normal;
+    const bool all_slips = std::abs(traction) >= nearly_sliding * scene.contact.friction_coefficient * normal;
     reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
     c.prescribe_force        = !all_slips;
     c.creepage               = -answer.creepage;

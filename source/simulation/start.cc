@@ -11,6 +11,18 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Measurements in a row without any load on a wheel after which none is to be expected: 2000 iterations,
+    /// as many as a whole start takes.
+    constexpr unsigned int most_unloaded = 100;
+
+    /// Balance of forces, share of the load, at which predicted tractions are laid on: the pressure is then
+    /// what it will be but for this share, and what the tractions change settles with the rest.
+    constexpr double balance_for_tractions = 3e-4;
+  } // namespace
+
+
   void Simulation::prepare_start(Progress &progress)
   {
     const double                                         began = progress.seconds();
@@ -36,11 +48,12 @@ namespace tread
         return contact.total_impulse_on(wheel.body)[2] > 0.;
       });
       unloaded              = all_loaded ? 0 : unloaded + 1;
-      if (unloaded > 100)
+      if (unloaded > most_unloaded)
         throw std::runtime_error(
           "the wheel finds no rail under it at the start: it sinks past what is meshed "
           "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
-      if (predicts_tractions && !free_rolling_known && share <= std::max(scene.start.tolerance, 3e-4))
+      if (predicts_tractions && !free_rolling_known &&
+          share <= std::max(scene.start.tolerance, balance_for_tractions))
         {
           measure_free_rolling();
           free_rolling_known = true;

@@ -324,13 +324,10 @@ namespace
   {
     dealii::ParameterHandler section;
     declare_friction_laws(section);
-    const dealii::Patterns::Selection pattern = friction_law_pattern();
     for (const FrictionLawEntry &entry : friction_laws())
       {
         const std::string name = "law " + entry.name + ": ";
-        check.that(name + "can be named and has a help text",
-                   pattern.match(entry.name) && !entry.description.empty() &&
-                     friction_law_help().find(entry.name + ": " + entry.description) != std::string::npos);
+        check.that(name + "is described", !entry.description.empty());
         const auto law = make_friction_law(entry.name, static_coefficient, section);
         check.relative(name + "coefficient without slip", law->coefficient(0.), static_coefficient, 1e-15);
         double error = 0.;
@@ -347,7 +344,9 @@ namespace
           negative = negative || law->coefficient(s) < 0.;
         check.that(name + "never negative", !negative);
       }
-    check.that("an unknown name is refused", !pattern.match("Coulombs"));
+    check.that("an unknown name is refused", !tests::complaint<std::invalid_argument>([&] {
+                                                make_friction_law("Coulombs", static_coefficient, section);
+                                              }).empty());
     bool refused = false;
     try
       {

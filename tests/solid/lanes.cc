@@ -47,14 +47,14 @@ namespace
     return body;
   }
 
-  struct Element
+  struct Tested
   {
     const char *name;
     std::string type;
     double      viscosity;
   };
 
-  SolidParameters parameters_of(const Element &element)
+  SolidParameters parameters_of(const Tested &element)
   {
     SolidParameters parameters;
     parameters.element                  = element.type;
@@ -108,10 +108,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
   std::printf("%u lanes\n", n_lanes);
 
   const std::vector<ElasticMaterial> steel(1);
-  const Element                      elements[3] = {{"one point", OnePoint::name, 0.},
+  const Tested                      elements[3] = {{"one point", OnePoint::name, 0.},
                                                     {"one point, bulk viscosity", OnePoint::name, 1.},
                                                     {"fully integrated", FullyIntegrated::name, 0.}};
-  for (const Element &element : elements)
+  for (const Tested &element : elements)
     {
       const SolidParameters parameters = parameters_of(element);
       const std::string     name       = std::string(element.name) + ": ";

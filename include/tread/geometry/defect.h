@@ -5,7 +5,6 @@
 #include <tread/geometry/measured_line.h>
 
 #include <functional>
-#include <limits>
 
 namespace tread
 {
@@ -19,22 +18,24 @@ namespace tread
     double y_middle = 0.;
     double depth    = 1e-4; ///< of its deepest point
 
-    /// A kink at the edge is rounded over so much of the path, half of it on each side; 0: sharp.
-    double leading_rounding  = 0.;
-    double trailing_rounding = 0.;
+    /// Depth over the largest depth, from u = 0 at the leading edge to 1 at the trailing edge and from v = -1
+    /// to 1 across; zero outside.
+    std::function<double(double u, double v)> shape;
 
-    /// Depth over the largest depth along the path, from 0 at the leading edge to 1 at the trailing edge;
-    /// null: a dip.
-    std::function<double(double)> profile;
-
-    /// Depth of a dip, at the distance r from its middle: d (1 - r^2) with r = 1 at the edge, a sphere's cap
-    /// where length and width are equal (apart from a share of (d/length)^2). A profile has the lateral law
-    /// 1 - (2y/width)^2 (thesis, section 4.3.2.2).
-    double height(const double x, const double y) const;
+    double height(const double x, const double y) const
+    {
+      return -depth * shape((x - begin) / length, 2. * (y - y_middle) / width);
+    }
   };
 
-  /// The depth of a measured line over its chord as the profile of a defect, with its length and its largest
-  /// depth. @param reversed rolled over from the other end.
+  /// Shape of a dip: 1 - r^2 at the distance r from its middle, with r = 1 at the edge; a sphere's cap where
+  /// length and width are equal (apart from a share of (depth/length)^2). A kink at the edge is rounded over
+  /// so much of the path, half of it on each side; 0: sharp.
+  /// @param leading_rounding, trailing_rounding over the length
+  std::function<double(double, double)> dip(const double leading_rounding, const double trailing_rounding);
+
+  /// The depth of a measured line over its chord as a defect with its length and its largest depth, and with
+  /// the lateral law 1 - v^2 (thesis, section 4.3.2.2). @param reversed rolled over from the other end.
   /// @throws std::runtime_error where the line is nowhere below its chord.
   Defect defect_along(const MeasuredLine &line, const bool reversed);
 } // namespace tread

@@ -7,14 +7,57 @@
 
 namespace tread
 {
-  template <>
-  const std::vector<Choice<DefectShape>> &choices()
+  namespace
   {
-    static const std::vector<Choice<DefectShape>> list{
-      {DefectShape::none, "none", "smooth."},
-      {DefectShape::dip, "dip",
-       "of Length, Width and Depth, a sphere's cap where length and width are equal."},
-      {DefectShape::profile, "profile", "along the path as in Profile file, across as Lateral law says."}};
+    std::shared_ptr<Defect> make_dip(const DefectSection &section, const std::string &)
+    {
+      const double length = section.length;
+      require(length > 0. && section.depth > 0.,
+              "a dip needs 'Defect/Length (mm)' and 'Defect/Depth (mm)' above 0");
+      require(!section.reversed,
+              "'Defect/Reversed' is for 'Defect/Shape' profile; a dip is rolled over from its other "
+              "end with its rounded edges exchanged");
+      require(std::max(section.leading_rounding, section.trailing_rounding) <= 0.5 * length,
+              "'Defect/Rounded leading edge (mm)' and 'Rounded trailing edge (mm)' must be at most half of "
+              "'Defect/Length (mm)', " +
+                text_in_mm(0.5 * length));
+      auto defect   = std::make_shared<Defect>();
+      defect->width = section.width > 0. ? section.width : length;
+      defect->shape = dip(section.leading_rounding / length, section.trailing_rounding / length);
+      return defect;
+    }
+
+
+    std::shared_ptr<Defect> make_profile(const DefectSection &section, const std::string &file)
+    {
+      require(!section.profile_file.empty(), "'Defect/Shape' profile needs 'Defect/Profile file'");
+      auto defect = std::make_shared<Defect>();
+      try
+        {
+          *defect = defect_along(read_longitudinal_profile(file), section.reversed);
+        }
+      catch (const std::runtime_error &error)
+        {
+          throw InputError("'Defect/Profile file': " + std::string(error.what()));
+        }
+      const bool uniform = section.lateral_law == LateralLaw::uniform;
+      require(uniform || section.width > 0.,
+              "'Defect/Width (mm)' must be above 0 for a profile with 'Lateral law' parabola");
+      defect->width = uniform ? std::numeric_limits<double>::infinity() : section.width;
+      return defect;
+    }
+  } // namespace
+
+
+  const std::vector<DefectShape> &defect_shapes()
+  {
+    static const std::vector<DefectShape> list{
+      {"none", "smooth",
+       [](const DefectSection &, const std::string &) {
+         return std::shared_ptr<Defect>();
+       }},
+      {"dip", "of Length, Width and Depth, a sphere's cap where length and width are equal", make_dip},
+      {"profile", "along the path as in Profile file, across as Lateral law says", make_profile}};
     return list;
   }
 
@@ -34,7 +77,7 @@ namespace tread
     using dealii::Patterns::Double;
     Section section(handler, "Defect");
 
-    section.choose("Shape", shape);
+    section.choose("Shape", shape, defect_shapes());
     section.add(
       "Position (mm)", position,
       "x of the leading edge. Where the wheel starts and ends: 'Motion/Start' and 'Rolled distance'.",
@@ -62,40 +105,11 @@ namespace tread
 
   std::shared_ptr<const Defect> DefectSection::make(const std::string &file) const
   {
-    if (shape == DefectShape::none)
+    const auto                    found  = std::find_if(defect_shapes().begin(), defect_shapes().end(),
+                                                        [&](const DefectShape &entry) { return entry.name == shape; });
+    const std::shared_ptr<Defect> defect = found->make(*this, file);
+    if (!defect)
       return nullptr;
-    auto defect = std::make_shared<Defect>();
-    if (shape == DefectShape::dip)
-      {
-        require(length > 0. && depth > 0.,
-                "a dip needs 'Defect/Length (mm)' and 'Defect/Depth (mm)' above 0");
-        require(!reversed,
-                "'Defect/Reversed' is for 'Defect/Shape' profile; a dip is rolled over from its other "
-                "end with its rounded edges exchanged");
-        defect->width             = width > 0. ? width : length;
-        defect->leading_rounding  = leading_rounding;
-        defect->trailing_rounding = trailing_rounding;
-        require(std::max(leading_rounding, trailing_rounding) <= 0.5 * length,
-                "'Defect/Rounded leading edge (mm)' and 'Rounded trailing edge (mm)' must be at most half of "
-                "'Defect/Length (mm)', " +
-                  text_in_mm(0.5 * length));
-      }
-    else
-      {
-        require(!profile_file.empty(), "'Defect/Shape' profile needs 'Defect/Profile file'");
-        try
-          {
-            *defect = defect_along(read_longitudinal_profile(file), reversed);
-          }
-        catch (const std::runtime_error &error)
-          {
-            throw InputError("'Defect/Profile file': " + std::string(error.what()));
-          }
-        const bool uniform = lateral_law == LateralLaw::uniform;
-        require(uniform || width > 0.,
-                "'Defect/Width (mm)' must be above 0 for a profile with 'Lateral law' parabola");
-        defect->width = uniform ? std::numeric_limits<double>::infinity() : width;
-      }
     if (length > 0.)
       defect->length = length;
     if (depth > 0.)

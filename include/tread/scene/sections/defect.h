@@ -9,15 +9,21 @@
 
 namespace tread
 {
-  enum class DefectShape
+  struct DefectSection;
+
+  /// What a scene has to know of a shape of defects to offer it. A new one is a function like dip() of
+  /// geometry/defect.h, its entry in sections/defect.cc and a test.
+  struct DefectShape
   {
-    none,
-    dip,
-    profile
+    std::string name, description;
+    /// Null: there is none. @param section the parameters that the user has set; position, length and depth
+    /// are set afterwards where they are given. @param file where the profile file was found
+    /// @throws InputError
+    std::shared_ptr<Defect> (*make)(const DefectSection &section, const std::string &file);
   };
 
-  template <>
-  const std::vector<Choice<DefectShape>> &choices();
+  /// All shapes, the usual one first.
+  const std::vector<DefectShape> &defect_shapes();
 
   enum class LateralLaw
   {
@@ -31,7 +37,7 @@ namespace tread
   /// Section `Defect`. Lengths in m.
   struct DefectSection
   {
-    DefectShape shape    = DefectShape::none;
+    std::string shape    = defect_shapes().front().name;
     double      position = 0.; ///< x of the leading edge
     double      length = 0., width = 0., depth = 0.;
     double      lateral_position = 0.;
