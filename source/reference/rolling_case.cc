@@ -108,6 +108,42 @@ namespace tread::reference
       return solution;
     }
 
+    /// The normal problem on a grid, to be started from Hertz's pressure.
+    NormalProblem normal_problem(const RollingCase &c, const HertzEllipse &hertz, const Grid &grid)
+    {
+      NormalProblem normal;
+      normal.force = c.normal_force;
+      normal.gap.resize(grid.size());
+      normal.initial_pressure.resize(grid.size());
+      for (unsigned int j = 0; j < grid.n_y; ++j)
+        for (unsigned int i = 0; i < grid.n_x; ++i)
+          {
+            const double x = grid.x(i), y = grid.y(j);
+            normal.gap[j * grid.n_x + i] =
+              c.gap ? c.gap(x, y) : c.curvature_x * x * x + c.curvature_y * y * y;
+            normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
+          }
+      return normal;
+    }
+
+    TangentialProblem tangential_problem(const RollingCase &c, const unsigned int order)
+    {
+      TangentialProblem tangential;
+      tangential.friction     = c.friction;
+      tangential.longitudinal = c.prescribe_force ? 0. : c.creepage;
+      tangential.lateral      = c.lateral_creepage;
+      tangential.order        = order;
+      tangential.spin         = c.spin;
+      if (c.radius_change)
+        tangential.more_slip = [&c](const double x, const double y) -> std::array<double, 2> {
+          const double h = 0.5 * c.element_size;
+          return {-c.radius_change(y), x * (c.radius_change(y + h) - c.radius_change(y - h)) / (2. * h)};
+        };
+      tangential.prescribe_longitudinal_force = c.prescribe_force;
+      tangential.longitudinal_force           = c.traction_coefficient * c.normal_force;
+      return tangential;
+    }
+
     /// Hertz's pressure, mean over each element.
     NormalSolution known_normal(const Grid &grid, const HertzEllipse &hertz, const double force)
     {
@@ -131,21 +167,24 @@ namespace tread::reference
       normal.approach = hertz.approach;
       return normal;
     }
+
     /// The pressure of elements a third as large, mean over each element, and its edges. Their error is a
     /// ninth of the grid's own, and the normal problem is the smaller part of the work.
-    NormalSolution finer_normal(const Grid                                       &grid,
-                                const ElasticPair                                &pair,
-                                const std::function<NormalProblem(const Grid &)> &problem,
-                                Edges                                            &edges)
+    NormalSolution finer_normal(const RollingCase  &c,
+                                const ElasticPair  &pair,
+                                const HertzEllipse &hertz,
+                                const Grid         &grid,
+                                Edges              &edges)
     {
       constexpr unsigned int parts = 3;
       const double           size = grid.dx / parts, first = 0.5 * (parts - 1) * size;
       const Grid             fine{parts * grid.n_x,     parts * grid.n_y,    size, size,
                       grid.x_first - first, grid.y_first - first};
       const FourierGrid      fourier(fine);
-      NormalSolution         normal     = solve_normal(fourier, NormalOperator(fourier, pair), problem(fine));
-      const Edges            fine_edges = pressure_edges(fine, normal.pressure);
-      std::vector<double>    pressure(grid.size(), 0.), gap(grid.size(), 0.);
+      NormalSolution         normal =
+        solve_normal(fourier, NormalOperator(fourier, pair), normal_problem(c, hertz, fine));
+      const Edges         fine_edges = pressure_edges(fine, normal.pressure);
+      std::vector<double> pressure(grid.size(), 0.), gap(grid.size(), 0.);
       for (const unsigned int e : normal.contact)
         pressure[e / fine.n_x / parts * grid.n_x + e % fine.n_x / parts] +=
           normal.pressure[e] / (parts * parts);
@@ -181,6 +220,125 @@ namespace tread::reference
           normal.contact.push_back(e);
       return normal;
     }
+
+    /// How far a patch reaches from the point of contact, in x and in y.
+    struct Reach
+    {
+      double x, y;
+    };
+
+    /// As far as Hertz's ellipse; the reach of a patch that is no ellipse is found with large elements.
+    Reach patch_reach(const RollingCase &c, const ElasticPair &pair, const HertzEllipse &hertz)
+    {
+      Reach reach{hertz.semi_axis_x, hertz.semi_axis_y};
+      if (!c.gap)
+        return reach;
+      const double size = std::min(reach.x, reach.y) / 3.;
+      while (true)
+        {
+          const Grid           coarse = centred_grid(reach.x + 2. * size, reach.y + 2. * size, size);
+          const FourierGrid    fourier(coarse);
+          const NormalSolution normal =
+            solve_normal(fourier, NormalOperator(fourier, pair), normal_problem(c, hertz, coarse));
+          if (normal.cut)
+            {
+              reach.x *= 1.5;
+              reach.y *= 1.5;
+              continue;
+            }
+          reach = {0., 0.};
+          for (const unsigned int e : normal.contact)
+            {
+              reach.x = std::max(reach.x, std::abs(coarse.x(e % coarse.n_x)) + size);
+              reach.y = std::max(reach.y, std::abs(coarse.y(e / coarse.n_x)) + size);
+            }
+          return reach;
+        }
+    }
+
+    /// Contact on one grid, and where its patch ends. The pressure of like bodies does not depend on the
+    /// tractions: with order 2 it is known, or found with finer elements, before the tangential problem.
+    ContactSolution solve_on_grid(const RollingCase  &c,
+                                  const ElasticPair  &pair,
+                                  const HertzEllipse &hertz,
+                                  const Grid         &grid,
+                                  TangentialProblem  &tangential,
+                                  Edges              &edges)
+    {
+      const NormalProblem normal = normal_problem(c, hertz, grid);
+      const bool          known  = tangential.order == 2 && pair.coupling == 0.;
+      ContactSolution     contact;
+      if (known && !c.gap)
+        {
+          contact.normal = known_normal(grid, hertz, c.normal_force);
+          edges          = ellipse_edges(grid, hertz.semi_axis_x, hertz.semi_axis_y);
+        }
+      else if (known)
+        contact.normal = finer_normal(c, pair, hertz, grid, edges);
+      tangential.leading_edge = edges.lead;
+      if (c.friction == 0.)
+        {
+          const NormalSolution by_elements = contact.normal;
+          contact                          = solve_frictionless(grid, pair, normal, tangential);
+          if (known)
+            contact.normal = by_elements;
+        }
+      else if (known)
+        contact.tangential = solve_tangential(grid, pair, contact.normal.pressure, tangential);
+      else
+        contact = solve_contact(grid, pair, normal, tangential);
+      if (!known)
+        edges = pressure_edges(grid, contact.normal.pressure);
+      return contact;
+    }
+
+    /// The fields and the numbers that the solution has itself; slips become velocities.
+    RollingResult as_result(const RollingCase  &c,
+                            const HertzEllipse &hertz,
+                            const Grid         &grid,
+                            ContactSolution   &&contact)
+    {
+      RollingResult result;
+      result.n_x          = grid.n_x;
+      result.n_y          = grid.n_y;
+      result.element_size = c.element_size;
+      for (unsigned int j = 0; j < grid.n_y; ++j)
+        for (unsigned int i = 0; i < grid.n_x; ++i)
+          {
+            result.x.push_back(grid.x(i));
+            result.y.push_back(grid.y(j));
+          }
+      NormalSolution     &n = contact.normal;
+      TangentialSolution &t = contact.tangential;
+      result.pressure       = std::move(n.pressure);
+      result.shear_x        = std::move(t.shear_x);
+      result.shear_y        = std::move(t.shear_y);
+      result.slip_x         = std::move(t.slip_x);
+      result.slip_y         = std::move(t.slip_y);
+      for (std::size_t e = 0; e < grid.size(); ++e)
+        {
+          result.slip_x[e] *= c.speed;
+          result.slip_y[e] *= c.speed;
+        }
+      result.state                 = std::move(t.state);
+      result.normal_force          = n.force;
+      result.longitudinal_force    = t.longitudinal_force;
+      result.lateral_force         = t.lateral_force;
+      result.spin_moment           = t.spin_moment;
+      result.creepage              = t.longitudinal + 0.; // no negative zero
+      result.lateral_creepage      = t.lateral;
+      result.spin                  = t.spin;
+      result.approach              = n.approach;
+      result.hertz_pressure        = hertz.max_pressure;
+      result.hertz_semi_x          = hertz.semi_axis_x;
+      result.hertz_semi_y          = hertz.semi_axis_y;
+      result.normal_iterations     = n.iterations;
+      result.tangential_iterations = t.iterations;
+      result.linear_iterations     = t.linear_iterations;
+      result.normal_residual       = n.residual;
+      result.tangential_residual   = t.residual;
+      return result;
+    }
   } // namespace
 
   RollingResult solve_rolling(const RollingCase &c)
@@ -201,130 +359,19 @@ namespace tread::reference
             "at most a third of the smaller Hertz semi-axis, " +
               std::to_string(std::min(hertz.semi_axis_x, hertz.semi_axis_y) / 3.) + " m");
 
-    TangentialProblem tangential;
-    tangential.friction     = c.friction;
-    tangential.longitudinal = c.prescribe_force ? 0. : c.creepage;
-    tangential.lateral      = c.lateral_creepage;
-    tangential.order        = order;
-    tangential.spin         = c.spin;
-    if (c.radius_change)
-      tangential.more_slip = [&](const double x, const double y) -> std::array<double, 2> {
-        const double h = 0.5 * c.element_size;
-        return {-c.radius_change(y), x * (c.radius_change(y + h) - c.radius_change(y - h)) / (2. * h)};
-      };
-    tangential.prescribe_longitudinal_force = c.prescribe_force;
-    tangential.longitudinal_force           = c.traction_coefficient * c.normal_force;
-
-    const std::function<NormalProblem(const Grid &)> normal_problem = [&](const Grid &grid) {
-      NormalProblem normal;
-      normal.force = c.normal_force;
-      normal.gap.resize(grid.size());
-      normal.initial_pressure.resize(grid.size());
-      for (unsigned int j = 0; j < grid.n_y; ++j)
-        for (unsigned int i = 0; i < grid.n_x; ++i)
-          {
-            const double x = grid.x(i), y = grid.y(j);
-            normal.gap[j * grid.n_x + i] =
-              c.gap ? c.gap(x, y) : c.curvature_x * x * x + c.curvature_y * y * y;
-            normal.initial_pressure[j * grid.n_x + i] = hertz.pressure(x, y);
-          }
-      return normal;
-    };
-    // How far a patch that is no ellipse reaches is found with large elements.
-    double half_x = hertz.semi_axis_x, half_y = hertz.semi_axis_y;
-    if (c.gap)
-      for (const double size = std::min(half_x, half_y) / 3.;;)
-        {
-          const Grid           coarse = centred_grid(half_x + 2. * size, half_y + 2. * size, size);
-          const FourierGrid    fourier(coarse);
-          const NormalSolution normal =
-            solve_normal(fourier, NormalOperator(fourier, pair), normal_problem(coarse));
-          if (normal.cut)
-            {
-              half_x *= 1.5;
-              half_y *= 1.5;
-              continue;
-            }
-          half_x = half_y = 0.;
-          for (const unsigned int e : normal.contact)
-            {
-              half_x = std::max(half_x, std::abs(coarse.x(e % coarse.n_x)) + size);
-              half_y = std::max(half_y, std::abs(coarse.y(e / coarse.n_x)) + size);
-            }
-          break;
-        }
-
-    RollingResult   result;
-    Grid            grid;
-    ContactSolution contact;
+    TangentialProblem tangential = tangential_problem(c, order);
+    const Reach       reach      = patch_reach(c, pair, hertz);
+    Grid              grid;
+    ContactSolution   contact;
     for (double margin = 2. * c.element_size;; margin *= 3.)
       {
-        grid                       = centred_grid(half_x + margin, half_y + margin, c.element_size);
-        const NormalProblem normal = normal_problem(grid);
-        const bool          known  = order == 2 && pair.coupling == 0.;
-        if (known && !c.gap)
-          {
-            contact.normal = known_normal(grid, hertz, c.normal_force);
-            edges          = ellipse_edges(grid, hertz.semi_axis_x, hertz.semi_axis_y);
-          }
-        else if (known)
-          contact.normal = finer_normal(grid, pair, normal_problem, edges);
-        tangential.leading_edge = edges.lead;
-        if (c.friction == 0.)
-          {
-            const NormalSolution by_elements = contact.normal;
-            contact                          = solve_frictionless(grid, pair, normal, tangential);
-            if (known)
-              contact.normal = by_elements;
-          }
-        else if (known)
-          contact.tangential = solve_tangential(grid, pair, contact.normal.pressure, tangential);
-        else
-          contact = solve_contact(grid, pair, normal, tangential);
-        if (!known)
-          edges = pressure_edges(grid, contact.normal.pressure);
+        grid    = centred_grid(reach.x + margin, reach.y + margin, c.element_size);
+        contact = solve_on_grid(c, pair, hertz, grid, tangential, edges);
         if (!contact.normal.cut)
           break;
       }
 
-    result.n_x          = grid.n_x;
-    result.n_y          = grid.n_y;
-    result.element_size = c.element_size;
-    for (unsigned int j = 0; j < grid.n_y; ++j)
-      for (unsigned int i = 0; i < grid.n_x; ++i)
-        {
-          result.x.push_back(grid.x(i));
-          result.y.push_back(grid.y(j));
-        }
-    NormalSolution     &n = contact.normal;
-    TangentialSolution &t = contact.tangential;
-    result.pressure       = std::move(n.pressure);
-    result.shear_x        = std::move(t.shear_x);
-    result.shear_y        = std::move(t.shear_y);
-    result.slip_x         = std::move(t.slip_x);
-    result.slip_y         = std::move(t.slip_y);
-    for (std::size_t e = 0; e < grid.size(); ++e)
-      {
-        result.slip_x[e] *= c.speed;
-        result.slip_y[e] *= c.speed;
-      }
-    result.state                 = std::move(t.state);
-    result.normal_force          = n.force;
-    result.longitudinal_force    = t.longitudinal_force;
-    result.lateral_force         = t.lateral_force;
-    result.spin_moment           = t.spin_moment;
-    result.creepage              = t.longitudinal + 0.; // no negative zero
-    result.lateral_creepage      = t.lateral;
-    result.spin                  = t.spin;
-    result.approach              = n.approach;
-    result.hertz_pressure        = hertz.max_pressure;
-    result.hertz_semi_x          = hertz.semi_axis_x;
-    result.hertz_semi_y          = hertz.semi_axis_y;
-    result.normal_iterations     = n.iterations;
-    result.tangential_iterations = t.iterations;
-    result.linear_iterations     = t.linear_iterations;
-    result.normal_residual       = n.residual;
-    result.tangential_residual   = t.residual;
+    RollingResult result = as_result(c, hertz, grid, std::move(contact));
     summarise(c, tangential, grid, result);
     if (order == 2)
       {

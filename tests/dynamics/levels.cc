@@ -112,11 +112,8 @@ namespace
         sum += block.dynamics->true_masses()[i] * block.dynamics->v[i];
     return tests::sum_over_ranks(sum, block.mesh.comm);
   }
-} // namespace
 
-
-void run_test(tests::Check &check, const tests::Arguments &)
-{
+  void levels_of_cells(tests::Check &check)
   {
     const Block block(Boundary::support, 3, .95, .1);
     check.that("three levels of cells", block.dynamics->max_level() == 2);
@@ -127,7 +124,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
                 plain.dynamics->critical_time_step() / block.dynamics->critical_time_step(), 1.05);
   }
 
-  // Any motion of the grid: energy only falls, over 1e5 of the smallest steps at Courant number 0.95.
+  /// Any motion of the grid: energy only falls, over 1e5 of the smallest steps at Courant number 0.95.
+  void random_motion(tests::Check &check)
   {
     Block block(Boundary::support, 2, .95, .1);
     set_random_velocities(block, 1.);
@@ -156,8 +154,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
                    -(ledger.kinetic + ledger.strain + ledger.hourglass) / kinetic_at_first, 1., .1);
   }
 
-  // A free block: the pushes that make up for late forces come before those that they make up for, so
-  // momentum is lent, not given. When the grid has come to rest all is paid back.
+  /// The pushes that make up for late forces come before those that they make up for, so momentum is lent,
+  /// not given. When the grid has come to rest all is paid back.
+  void free_block(tests::Check &check)
   {
     Block block(Boundary::free, 2, .9, .1);
     set_random_velocities(block, 1.);
@@ -180,7 +179,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
     check.below("free block: momentum not paid back, as it still turns", change(), 2e-4);
   }
 
-  // Loaded and at rest: without the steady shares the border between levels would rattle.
+  /// Without the steady shares the border between levels would rattle.
+  void loaded_at_rest(tests::Check &check)
   {
     Block block(Boundary::support, 2, .9, .1);
     block.load_end(Vector3{0., 0., 2e4, 0.});
@@ -198,8 +198,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
     check.below("loaded and at rest: fastest node, m/s", fastest, 1e-5);
   }
 
-  // A smooth push, then free ringing: the ledger closes over 1e5 steps, and the deflection follows that of
-  // one step.
+  /// A smooth push, then free ringing: the ledger closes over 1e5 steps, and the deflection follows that of
+  /// one step.
+  void push_and_ringing(tests::Check &check)
   {
     Block        levels(Boundary::support, 2, .9, .1), plain(Boundary::support, 0, .9, .1);
     const double duration       = 100e-6;
@@ -249,4 +250,14 @@ void run_test(tests::Check &check, const tests::Arguments &)
                 plain.dynamics->ledger().residual_share(), 1e-4);
     check.below("push: deflection against one step for all", worst_deflection / largest_deflection, 2e-3);
   }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  levels_of_cells(check);
+  random_motion(check);
+  free_block(check);
+  loaded_at_rest(check);
+  push_and_ringing(check);
 }

@@ -60,136 +60,208 @@ namespace
     return (rail_depth(y + d) - rail_depth(y - d)) / (2. * d);
   }
 
+  /// A conical tread, R = 460 mm, that touches the head beside the crown and drives with a tenth of its load.
+  struct TreadOnHead
+  {
+    double            force, shift; ///< N; from the crown to the point of contact, m
+    double            slope, depth; ///< of the head where the tread touches it; depth in m
+    std::string       name;
+    ElasticPair       pair;
+    HertzEllipse      crown, side; ///< if all of the head were the crown's arc or the 80 mm arc
+    Grid              grid;
+    TangentialProblem rolling;
+
+    explicit TreadOnHead(const double shift)
+      : force(80e3)
+      , shift(shift)
+      , slope(rail_slope(shift))
+      , depth(rail_depth(shift))
+      , name(std::to_string(std::lround(shift * 1e3)) + " mm: ")
+      , pair(combine(Elastic{}, Elastic{}))
+      , crown(hertz_ellipse(1. / 0.92, 1. / 0.6, pair.hertz_modulus(), force))
+      , side(hertz_ellipse(1. / 0.92, 1. / 0.16, pair.hertz_modulus(), force))
+      , grid(centred_grid(12e-3, 8e-3, 0.33e-3))
+    {
+      grid.y_first += shift;
+      rolling.friction                     = 0.4;
+      rolling.prescribe_longitudinal_force = true;
+      rolling.longitudinal_force           = 0.1 * force;
+      rolling.spin                         = slope / 0.46; // of a cone of this slope
+    }
+
+    ContactSolution solve() const
+    {
+      NormalProblem normal;
+      normal.force = force;
+      normal.gap   = make_gap(grid, [&](const double x, const double y) {
+        return x * x / 0.92 + rail_depth(y) - depth - slope * (y - shift);
+      });
+      return solve_contact(grid, pair, normal, rolling);
+    }
+
+    /// The same with y from the point of contact, and a first grid that holds the patch of the 80 mm arc
+    /// only.
+    RollingCase narrow_case() const
+    {
+      RollingCase narrow;
+      narrow.curvature_x          = 1. / 0.92;
+      narrow.curvature_y          = 1. / 0.16;
+      narrow.normal_force         = force;
+      narrow.friction             = rolling.friction;
+      narrow.traction_coefficient = 0.1;
+      narrow.spin                 = rolling.spin;
+      narrow.element_size         = grid.dx;
+      narrow.gap                  = [*this](const double x, const double y) {
+        return x * x / 0.92 + rail_depth(y + shift) - depth - slope * y;
+      };
+      return narrow;
+    }
+  };
+
+  /// Area and largest pressure of a patch.
+  struct Patch
+  {
+    double area, max_pressure;
+  };
+
+  /// What holds for each patch by itself.
+  Patch patch_on_head(tread::tests::Check &check, const TreadOnHead &on_head, const ContactSolution &c)
+  {
+    const std::string &name = on_head.name;
+    const Grid        &grid = on_head.grid;
+    const double area = c.normal.contact.size() * grid.element_area(), p_max = largest(c.normal.pressure);
+    double       sum = 0., moment = 0.;
+    for (std::size_t e = 0; e < grid.size(); ++e)
+      {
+        sum += c.normal.pressure[e] * grid.element_area();
+        moment += c.normal.pressure[e] * grid.element_area() * grid.y(e / grid.n_x);
+      }
+    std::printf("    %sarea %.2f mm^2, p_max %.1f MPa, centre of force at %.3f mm, xi %.3e, Fy/Fn %+.4f, "
+                "%u + %u iterations\n",
+                name.c_str(), area * 1e6, p_max * 1e-6, moment / sum * 1e3, c.tangential.longitudinal,
+                c.tangential.lateral_force / on_head.force, c.normal.iterations, c.tangential.iterations);
+    check.relative(name + "sum of the pressure [kN]", sum * 1e-3, 80., 1e-12);
+    check.relative(name + "Fx [kN]", c.tangential.longitudinal_force * 1e-3, 8., 1e-5);
+    check.that(name + "patch inside the grid", !c.normal.cut);
+    double gap_error = 0.;
+    for (std::size_t e = 0; e < grid.size(); ++e)
+      gap_error =
+        std::max(gap_error, c.normal.pressure[e] > 0. ? std::abs(c.normal.gap[e]) : -c.normal.gap[e]);
+    check.below(name + "gap in contact, penetration outside, over the approach",
+                gap_error / c.normal.approach, 1e-8);
+    return {area, p_max};
+  }
+
+  /// Between the ellipses of the crown and of the 80 mm arc, and monotonic as the patch leaves the crown.
+  void between_both_arcs(tread::tests::Check   &check,
+                         const TreadOnHead     &on_head,
+                         const ContactSolution &c,
+                         const Patch           &patch,
+                         const Patch           &before)
+  {
+    const std::string &name = on_head.name;
+    // whole elements are counted: an element more or less along half of the edge is 3 %
+    check.that(name + "area between that of both arcs",
+               patch.area < 1.03 * on_head.crown.area && patch.area > 0.97 * on_head.side.area);
+    check.that(name + "pressure between that of both arcs",
+               patch.max_pressure > 0.995 * on_head.crown.max_pressure &&
+                 patch.max_pressure < 1.01 * on_head.side.max_pressure);
+    check.that(name + "area falls, pressure rises",
+               patch.area <= before.area && patch.max_pressure >= before.max_pressure * (1. - 1e-3));
+    if (on_head.shift == 0.)
+      {
+        // the patch (b = 5.0 mm) lies on the crown arc alone; that is a circle, Hertz's a parabola:
+        // (b/R)^2/4 of the gap, 1e-4
+        check.relative(name + "p_max against Hertz [MPa]", patch.max_pressure * 1e-6,
+                       on_head.crown.max_pressure * 1e-6, 1e-3);
+        check.relative(name + "area against Hertz [mm^2]", patch.area * 1e6, on_head.crown.area * 1e6, 0.03);
+        check.below(name + "Fy/Fn", c.tangential.lateral_force / on_head.force, 1e-6);
+      }
+  }
+
+  /// Solved from a first grid that holds the patch of the 80 mm arc only: where the patch reaches over the
+  /// crown's arc the grid has to grow, and the answer must not depend on it. Returns whether it grew.
+  bool narrow_first_grid(tread::tests::Check   &check,
+                         const TreadOnHead     &on_head,
+                         const ContactSolution &c,
+                         const Patch           &patch,
+                         const RollingResult   &grown)
+  {
+    const std::string &name   = on_head.name;
+    bool               border = false;
+    for (std::size_t e = 0; e < grown.x.size(); ++e)
+      border = border || (grown.pressure[e] > 0. && (e % grown.n_x == 0 || e % grown.n_x == grown.n_x - 1 ||
+                                                     e / grown.n_x == 0 || e / grown.n_x == grown.n_y - 1));
+    const double first_width = 2. * on_head.side.semi_axis_y + 4. * on_head.grid.dy,
+                 width       = grown.n_y * on_head.grid.dy;
+    std::printf("    %sfirst guess %.1f mm wide, in the end %.1f mm\n", name.c_str(), first_width * 1e3,
+                width * 1e3);
+    check.that(name + "narrow first grid: holds the patch in the end", !border);
+    check.relative(name + "narrow first grid: area [mm^2]", grown.area * 1e6, patch.area * 1e6, 1e-12);
+    check.relative(name + "narrow first grid: p_max [MPa]", grown.max_pressure * 1e-6,
+                   patch.max_pressure * 1e-6, 1e-6);
+    // its y, and with it the pole of spin, begins at the point of contact
+    check.relative(name + "narrow first grid: xi [1e-3]", grown.creepage * 1e3,
+                   (c.tangential.longitudinal - on_head.rolling.spin * on_head.shift) * 1e3, 1e-5);
+    check.relative(name + "narrow first grid: Fn [kN]", grown.normal_force * 1e-3, 80., 1e-12);
+    return width > 1.2 * first_width;
+  }
+
+  /// The same spin as the change of the rolling radius of a cone, and that of a hollow tread, whose power
+  /// must be that of the shear stresses over their slip, which converges with the element size.
+  void cone_and_hollow_tread(tread::tests::Check &check,
+                             const std::string   &name,
+                             RollingCase          c,
+                             const RollingResult &with_spin)
+  {
+    const double spin = c.spin;
+    c.spin            = 0.;
+    c.radius_change   = [&](const double y) {
+      return spin * y;
+    };
+    const RollingResult cone = solve_rolling(c);
+    check.relative(name + "cone: xi [1e-3]", cone.creepage * 1e3, with_spin.creepage * 1e3, 1e-6);
+    check.relative(name + "cone: power [W]", cone.power_balance, with_spin.power_balance, 1e-6);
+    c.radius_change = [&](const double y) {
+      return spin * y + 20. * y * y;
+    };
+    const RollingResult hollow = solve_rolling(c);
+    check.relative(name + "hollow tread: Fx [kN]", hollow.longitudinal_force * 1e-3, 8., 1e-5);
+    c.element_size /= 2.;
+    const double power_finer = solve_rolling(c).frictional_power;
+    check.relative(name + "hollow tread: power [W], extrapolated", hollow.power_balance,
+                   2. * power_finer - hollow.frictional_power, 0.03);
+    check.that(name + "hollow tread: creeps less, as its radius is larger beside the middle",
+               hollow.creepage > cone.creepage);
+  }
+
   void rail_head(tread::tests::Check &check)
   {
     std::printf("\n--- head of 54E1 under a conical tread, R = 460 mm, that touches it 0 to 8 mm beside the "
                 "crown; 80 kN\n");
-    const ElasticPair  pair        = combine(Elastic{}, Elastic{});
-    const double       force       = 80e3;
-    const HertzEllipse crown       = hertz_ellipse(1. / 0.92, 1. / 0.6, pair.hertz_modulus(), force);
-    const HertzEllipse side        = hertz_ellipse(1. / 0.92, 1. / 0.16, pair.hertz_modulus(), force);
-    double             area_before = 1e9, pressure_before = 0.;
-    unsigned int       n_grown = 0;
+    Patch        before{1e9, 0.};
+    unsigned int n_grown = 0;
     for (const double shift : {0., 2e-3, 4e-3, 6e-3, 8e-3})
       {
-        Grid         grid  = centred_grid(12e-3, 8e-3, 0.33e-3);
-        const double slope = rail_slope(shift), depth = rail_depth(shift);
-        grid.y_first += shift;
-        NormalProblem normal;
-        normal.force = force;
-        normal.gap   = make_gap(grid, [&](const double x, const double y) {
-          return x * x / 0.92 + rail_depth(y) - depth - slope * (y - shift);
-        });
-        TangentialProblem rolling;
-        rolling.friction                     = 0.4;
-        rolling.prescribe_longitudinal_force = true;
-        rolling.longitudinal_force           = 0.1 * force;
-        rolling.spin                         = slope / 0.46; // of a cone of this slope
-        const ContactSolution c              = solve_contact(grid, pair, normal, rolling);
-        const double area = c.normal.contact.size() * grid.element_area(), p_max = largest(c.normal.pressure);
-        double       sum = 0., moment = 0.;
-        for (std::size_t e = 0; e < grid.size(); ++e)
-          {
-            sum += c.normal.pressure[e] * grid.element_area();
-            moment += c.normal.pressure[e] * grid.element_area() * grid.y(e / grid.n_x);
-          }
-        char name[20];
-        std::snprintf(name, sizeof(name), "%.0f mm: ", shift * 1e3);
-        std::printf("    %sarea %.2f mm^2, p_max %.1f MPa, centre of force at %.3f mm, xi %.3e, Fy/Fn %+.4f, "
-                    "%u + %u iterations\n",
-                    name, area * 1e6, p_max * 1e-6, moment / sum * 1e3, c.tangential.longitudinal,
-                    c.tangential.lateral_force / force, c.normal.iterations, c.tangential.iterations);
-        check.relative(std::string(name) + "sum of the pressure [kN]", sum * 1e-3, 80., 1e-12);
-        check.relative(std::string(name) + "Fx [kN]", c.tangential.longitudinal_force * 1e-3, 8., 1e-5);
-        check.that(std::string(name) + "patch inside the grid", !c.normal.cut);
-        double gap_error = 0.;
-        for (std::size_t e = 0; e < grid.size(); ++e)
-          gap_error =
-            std::max(gap_error, c.normal.pressure[e] > 0. ? std::abs(c.normal.gap[e]) : -c.normal.gap[e]);
-        check.below(std::string(name) + "gap in contact, penetration outside, over the approach",
-                    gap_error / c.normal.approach, 1e-8);
-        // between the ellipses of the crown and of the 80 mm arc, and monotonic as the patch leaves the crown
-        // whole elements are counted: an element more or less along half of the edge is 3 %
-        check.that(std::string(name) + "area between that of both arcs",
-                   area < 1.03 * crown.area && area > 0.97 * side.area);
-        check.that(std::string(name) + "pressure between that of both arcs",
-                   p_max > 0.995 * crown.max_pressure && p_max < 1.01 * side.max_pressure);
-        check.that(std::string(name) + "area falls, pressure rises",
-                   area <= area_before && p_max >= pressure_before * (1. - 1e-3));
-        if (shift == 0.)
-          {
-            // the patch (b = 5.0 mm) lies on the crown arc alone; that is a circle, Hertz's a parabola:
-            // (b/R)^2/4 of the gap, 1e-4
-            check.relative(std::string(name) + "p_max against Hertz [MPa]", p_max * 1e-6,
-                           crown.max_pressure * 1e-6, 1e-3);
-            check.relative(std::string(name) + "area against Hertz [mm^2]", area * 1e6, crown.area * 1e6,
-                           0.03);
-            check.below(std::string(name) + "Fy/Fn", c.tangential.lateral_force / force, 1e-6);
-          }
-        // The same from a first grid that holds the patch of the 80 mm arc only: where the patch reaches over
-        // the crown's arc the grid has to grow, and the answer must not depend on it.
-        RollingCase narrow;
-        narrow.curvature_x          = 1. / 0.92;
-        narrow.curvature_y          = 1. / 0.16;
-        narrow.normal_force         = force;
-        narrow.friction             = rolling.friction;
-        narrow.traction_coefficient = 0.1;
-        narrow.spin                 = rolling.spin;
-        narrow.element_size         = grid.dx;
-        narrow.gap                  = [&](const double x, const double y) {
-          return x * x / 0.92 + rail_depth(y + shift) - depth - slope * y;
-        };
+        const TreadOnHead     on_head(shift);
+        const ContactSolution c     = on_head.solve();
+        const Patch           patch = patch_on_head(check, on_head, c);
+        between_both_arcs(check, on_head, c, patch, before);
+        const RollingCase   narrow = on_head.narrow_case();
         const RollingResult grown  = solve_rolling(narrow);
-        bool                border = false;
-        for (std::size_t e = 0; e < grown.x.size(); ++e)
-          border =
-            border || (grown.pressure[e] > 0. && (e % grown.n_x == 0 || e % grown.n_x == grown.n_x - 1 ||
-                                                  e / grown.n_x == 0 || e / grown.n_x == grown.n_y - 1));
-        const double first_width = 2. * side.semi_axis_y + 4. * grid.dy;
-        std::printf("    %sfirst guess %.1f mm wide, in the end %.1f mm\n", name, first_width * 1e3,
-                    grown.n_y * grid.dy * 1e3);
-        n_grown += grown.n_y * grid.dy > 1.2 * first_width;
-        check.that(std::string(name) + "narrow first grid: holds the patch in the end", !border);
-        check.relative(std::string(name) + "narrow first grid: area [mm^2]", grown.area * 1e6, area * 1e6,
-                       1e-12);
-        check.relative(std::string(name) + "narrow first grid: p_max [MPa]", grown.max_pressure * 1e-6,
-                       p_max * 1e-6, 1e-6);
-        // its y, and with it the pole of spin, begins at the point of contact
-        check.relative(std::string(name) + "narrow first grid: xi [1e-3]", grown.creepage * 1e3,
-                       (c.tangential.longitudinal - rolling.spin * shift) * 1e3, 1e-5);
-        check.relative(std::string(name) + "narrow first grid: Fn [kN]", grown.normal_force * 1e-3, 80.,
-                       1e-12);
-        // The same spin as the change of the rolling radius of a cone, and that of a hollow tread, whose
-        // power must be that of the shear stresses over their slip, which converges with the element size.
-        narrow.spin          = 0.;
-        narrow.radius_change = [&](const double y) {
-          return rolling.spin * y;
-        };
-        const RollingResult cone = solve_rolling(narrow);
-        check.relative(std::string(name) + "cone: xi [1e-3]", cone.creepage * 1e3, grown.creepage * 1e3,
-                       1e-6);
-        check.relative(std::string(name) + "cone: power [W]", cone.power_balance, grown.power_balance, 1e-6);
-        narrow.radius_change = [&](const double y) {
-          return rolling.spin * y + 20. * y * y;
-        };
-        const RollingResult hollow = solve_rolling(narrow);
-        check.relative(std::string(name) + "hollow tread: Fx [kN]", hollow.longitudinal_force * 1e-3, 8.,
-                       1e-5);
-        narrow.element_size /= 2.;
-        const double power_finer = solve_rolling(narrow).frictional_power;
-        check.relative(std::string(name) + "hollow tread: power [W], extrapolated", hollow.power_balance,
-                       2. * power_finer - hollow.frictional_power, 0.03);
-        check.that(std::string(name) + "hollow tread: creeps less, as its radius is larger beside the middle",
-                   hollow.creepage > cone.creepage);
-        area_before     = area;
-        pressure_before = p_max;
+        n_grown += narrow_first_grid(check, on_head, c, patch, grown);
+        cone_and_hollow_tread(check, on_head.name, narrow, grown);
+        before = patch;
       }
-
     check.that("narrow first grid: grew on the crown and beside it", n_grown >= 3);
+  }
 
+  void two_patches(tread::tests::Check &check)
+  {
     std::printf("\n--- two patches: a flat-bottomed valley, loaded as one body\n");
-    const Grid    grid = centred_grid(6e-3, 16e-3, 0.4e-3);
-    NormalProblem normal;
+    const ElasticPair pair = combine(Elastic{}, Elastic{});
+    const Grid        grid = centred_grid(6e-3, 16e-3, 0.4e-3);
+    NormalProblem     normal;
     normal.force = 60e3;
     normal.gap   = make_gap(grid, [](const double x, const double y) {
       const double d = std::abs(y) - 9e-3;
@@ -465,6 +537,7 @@ namespace
 void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   rail_head(check);
+  two_patches(check);
   unlike_bodies(check);
   steady_is_steady(check);
   frictionless(check);

@@ -30,23 +30,20 @@ namespace
         best = {z, f(z)};
     return best;
   }
-} // namespace
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
-{
-  const ElasticPair steel   = combine(Elastic{}, Elastic{});
-  const double      modulus = steel.hertz_modulus();
-  check.relative("E* of steel on steel [GPa]", modulus * 1e-9, 115.38, 5e-5);
-  check.relative("G of steel on steel [GPa]", steel.shear * 1e-9, 80.769231, 1e-8);
-  check.below("K of like bodies [-]", steel.coupling, 1e-15);
+  void elastic_constants(tread::tests::Check &check, const ElasticPair &steel)
   {
+    check.relative("E* of steel on steel [GPa]", steel.hertz_modulus() * 1e-9, 115.38, 5e-5);
+    check.relative("G of steel on steel [GPa]", steel.shear * 1e-9, 80.769231, 1e-8);
+    check.below("K of like bodies [-]", steel.coupling, 1e-15);
     // aluminium on steel: E* must be that of the two-body formula
     const ElasticPair pair = combine(Elastic{70e9, 0.33}, Elastic{210e9, 0.3});
     check.relative("E* of unlike bodies [GPa]", pair.hertz_modulus() * 1e-9,
                    1e-9 / ((1. - 0.33 * 0.33) / 70e9 + (1. - 0.09) / 210e9), 1e-14);
   }
 
-  // Elliptic integrals: Abramowitz & Stegun (1964), table 17.1, m = 0.5; Legendre's relation for two others
+  /// Elliptic integrals: Abramowitz & Stegun (1964), table 17.1, m = 0.5; Legendre's relation for two others.
+  void integrals(tread::tests::Check &check)
   {
     const EllipticIntegrals f = elliptic_integrals(std::sqrt(0.5));
     check.relative("K(m = 0.5)", f.first, 1.854074677301372, 1e-14);
@@ -59,7 +56,8 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.relative("B(m = 0.5)", f.complement, (f.second - 0.5 * f.first) / 0.5, 1e-13);
   }
 
-  // Sphere on plane, both elastic, R = 50 mm, 1 kN
+  /// Both elastic, R = 50 mm, 1 kN.
+  void sphere_on_plane(tread::tests::Check &check, const double modulus)
   {
     const HertzEllipse sphere = hertz_sphere(0.05, modulus, 1000.);
     check.absolute("sphere: a [mm]", sphere.semi_axis_x * 1e3, 0.6875, 6e-5);
@@ -74,21 +72,25 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                       hertz_sphere(0.05, modulus, 1000. * (1. - d)).approach),
                    1e-7);
   }
-  // Line, R = 460 mm, 10 MN/m
+
+  /// R = 460 mm, 10 MN/m.
+  void line_contact(tread::tests::Check &check, const double modulus)
   {
     const HertzLine line = hertz_line(0.46, modulus, 10e6);
     check.absolute("line: a [mm]", line.half_width * 1e3, 7.125, 6e-4);
     check.absolute("line: p0 [MPa]", line.max_pressure * 1e-6, 893.6, 0.06);
   }
-  // Wheel R = 460 mm on a rail head of 300 mm
+
+  /// R = 460 mm on a rail head of 300 mm.
+  void wheel_on_rail_head(tread::tests::Check &check, const double modulus)
   {
-    struct Vector3
+    struct Row
     {
       double force, a, b, p0, approach;
     };
-    for (const Vector3 &row :
-         {Vector3{100e3, 7.162, 5.387, 1237.6, 104.1}, Vector3{116.8e3, 7.542, 5.673, 1303.3, 115.5},
-          Vector3{127.1e3, 7.758, 5.835, 1340.5, 122.2}, Vector3{140e3, 8.012, 6.027, 1384.4, 130.3}})
+    for (const Row &row :
+         {Row{100e3, 7.162, 5.387, 1237.6, 104.1}, Row{116.8e3, 7.542, 5.673, 1303.3, 115.5},
+          Row{127.1e3, 7.758, 5.835, 1340.5, 122.2}, Row{140e3, 8.012, 6.027, 1384.4, 130.3}})
       {
         const HertzEllipse h = hertz_ellipse(1. / 0.92, 1. / 0.6, modulus, row.force);
         const std::string  name =
@@ -106,7 +108,9 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     const HertzLine    line    = hertz_line(0.5, modulus, 0.75e5 / slender.semi_axis_y);
     check.relative("slender ellipse like a line: a", slender.semi_axis_x, line.half_width, 1e-3);
   }
-  // Stress on the axis: textbook maxima (Johnson 1985, sects. 4.1, 3.4), given with three digits
+
+  /// Textbook maxima (Johnson 1985, sects. 4.1, 3.4), given with three digits.
+  void stress_on_axis(tread::tests::Check &check)
   {
     const auto circle = [](const double z) {
       return hertz_axis_stress_circle(1., 1., 0.3, z);
@@ -128,7 +132,9 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     const Maximum mises_line = maximum_over_depth([&](const double z) { return line(z).von_mises(); });
     check.absolute("line: p0/Y at first yield, von Mises", 1. / mises_line.value, 1.794, 6e-4);
   }
-  // Impact: steel sphere R = 10 mm
+
+  /// Steel sphere R = 10 mm.
+  void impact_of_sphere(tread::tests::Check &check, const double modulus)
   {
     const double      mass = 7800. * 4. / 3. * std::numbers::pi * 1e-6;
     const HertzImpact fast = hertz_impact(mass, 0.01, modulus, 1.),
@@ -144,8 +150,9 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.absolute("impact on a rigid plane: duration [us]", rigid.duration * 1e6, 52.24, 6e-3);
     check.absolute("impact on a rigid plane: force [N]", rigid.max_force, 2300.9, 0.06);
   }
-  // Rail on a Winkler foundation: 54E1 (EI = 210 GPa x 2337.9 cm^4), pads 1300 and ballast 45 MN/m, sleepers
-  // 0.6 m
+
+  /// 54E1 (EI = 210 GPa x 2337.9 cm^4), pads 1300 and ballast 45 MN/m, sleepers 0.6 m.
+  void rail_on_winkler_foundation(tread::tests::Check &check)
   {
     const double     u    = foundation_modulus(1300e6, 45e6, 0.6);
     const Zimmermann beam = zimmermann(210e9 * 2337.9e-8, u, 116.8e3);
@@ -161,11 +168,30 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.absolute("Zimmermann: critical speed of bare 54E1 [m/s]",
                    zimmermann_critical_speed(210e9 * 2337.9e-8, u, 54.77), 830., 3.);
   }
-  // Bad input: one line that names the argument
-  check.refuses("no curvature", "curvature_x", [&] { hertz_ellipse(0., 1., modulus, 1.); });
-  check.refuses("negative force", "force", [&] { hertz_ellipse(1., 1., modulus, -1.); });
-  check.refuses("NaN force", "force", [&] { hertz_ellipse(1., 1., modulus, NAN); });
-  check.refuses("Poisson's ratio", "Poisson's ratio of the rail", [] {
-    combine(Elastic{}, Elastic{210e9, 0.6});
-  });
+
+  /// Refused with one line that names the argument.
+  void bad_input(tread::tests::Check &check, const double modulus)
+  {
+    check.refuses("no curvature", "curvature_x", [&] { hertz_ellipse(0., 1., modulus, 1.); });
+    check.refuses("negative force", "force", [&] { hertz_ellipse(1., 1., modulus, -1.); });
+    check.refuses("NaN force", "force", [&] { hertz_ellipse(1., 1., modulus, NAN); });
+    check.refuses("Poisson's ratio", "Poisson's ratio of the rail", [] {
+      combine(Elastic{}, Elastic{210e9, 0.6});
+    });
+  }
+} // namespace
+
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+{
+  const ElasticPair steel   = combine(Elastic{}, Elastic{});
+  const double      modulus = steel.hertz_modulus();
+  elastic_constants(check, steel);
+  integrals(check);
+  sphere_on_plane(check, modulus);
+  line_contact(check, modulus);
+  wheel_on_rail_head(check, modulus);
+  stress_on_axis(check);
+  impact_of_sphere(check, modulus);
+  rail_on_winkler_foundation(check);
+  bad_input(check, modulus);
 }

@@ -15,28 +15,30 @@
 
 using namespace tread::reference;
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+namespace
 {
-  const ElasticPair steel = combine(Elastic{}, Elastic{});
+  /// The patch of a 460 mm wheel on a 300 mm rail head at 127.1 kN, f = 0.5.
+  CreepPatch wheel_on_rail()
+  {
+    const ElasticPair  steel = combine(Elastic{}, Elastic{});
+    const HertzEllipse hertz = hertz_ellipse(1. / 0.92, 1. / 0.6, steel.hertz_modulus(), 127.1e3);
+    return {hertz.semi_axis_x, hertz.semi_axis_y, steel.shear, steel.poisson, 127.1e3, 0.5};
+  }
 
-  // The patch of a 460 mm wheel on a 300 mm rail head at 127.1 kN, f = 0.5
-  const HertzEllipse hertz = hertz_ellipse(1. / 0.92, 1. / 0.6, steel.hertz_modulus(), 127.1e3);
-  const CreepPatch   patch{hertz.semi_axis_x, hertz.semi_axis_y, steel.shear, steel.poisson, 127.1e3, 0.5};
+  void kalkers_coefficients(tread::tests::Check &check, const CreepPatch &patch)
   {
     const CreepageCoefficients c = creepage_coefficients(patch.semi_axis_x / patch.semi_axis_y, 0.3);
     // by hand from the table, linear between its rows: three digits
     check.absolute("C11 at b/a = 0.752, nu = 0.3", c.c11, 4.63, 0.02);
     check.absolute("C22 at b/a = 0.752, nu = 0.3", c.c22, 4.18, 0.02);
     check.absolute("C23 at b/a = 0.752, nu = 0.3", c.c23, 1.885, 0.02);
-    check.relative("f11 = C11 G a b [MN]", c.c11 * steel.shear * patch.semi_axis_x * patch.semi_axis_y * 1e-6,
+    check.relative("f11 = C11 G a b [MN]", c.c11 * patch.shear * patch.semi_axis_x * patch.semi_axis_y * 1e-6,
                    16.93, 0.002);
-  }
-  // Nodes of the table are met; between them the interpolation is smooth: leaving one row out of a linear
-  // interpolation between its neighbours differs by the curvature only, so neighbours bracket the value.
-  check.relative("C11 at a/b = 1, nu = 0.25", creepage_coefficients(1., 0.25).c11, 4.12, 1e-12);
-  check.relative("C23 at a/b = 10, nu = 0.5", creepage_coefficients(10., 0.5).c23, 18.0, 1e-12);
-  check.relative("C22 at a/b = 0.1, nu = 0", creepage_coefficients(0.1, 0.).c22, 2.51, 1e-12);
-  {
+    // Nodes of the table are met; between them the interpolation is smooth: leaving one row out of a linear
+    // interpolation between its neighbours differs by the curvature only, so neighbours bracket the value.
+    check.relative("C11 at a/b = 1, nu = 0.25", creepage_coefficients(1., 0.25).c11, 4.12, 1e-12);
+    check.relative("C23 at a/b = 10, nu = 0.5", creepage_coefficients(10., 0.5).c23, 18.0, 1e-12);
+    check.relative("C22 at a/b = 0.1, nu = 0", creepage_coefficients(0.1, 0.).c22, 2.51, 1e-12);
     bool monotone = true;
     for (const double nu : {0., 0.1, 0.25, 0.4, 0.5})
       for (double t = std::log(0.1); t < std::log(10.) - 0.011; t += 0.01)
@@ -49,18 +51,19 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.that("coefficients grow with a/b", monotone);
   }
 
-  // Shen-Hedrick-Elkins: figures with four digits worked out with C11 = 4.63; ours is interpolated
-  check.relative("creepage of Shen-Hedrick-Elkins, mu = 0.15",
-                 -shen_hedrick_elkins_creepage(patch, 0.15 * 127.1e3), 1.263e-3, 0.002);
-  check.relative("creepage of Shen-Hedrick-Elkins, mu = 0.30",
-                 -shen_hedrick_elkins_creepage(patch, 0.30 * 127.1e3), 2.964e-3, 0.002);
-  for (const double ratio : {-0.49, -0.1, 0.05, 0.3, 0.4999})
-    {
-      const double xi = shen_hedrick_elkins_creepage(patch, ratio * 127.1e3);
-      check.relative("Shen-Hedrick-Elkins forth and back, mu " + std::to_string(ratio),
-                     shen_hedrick_elkins(patch, Creepage{xi, 0., 0.}).longitudinal / 127.1e3, ratio, 1e-12);
-    }
+  void shen_hedrick_elkins_law(tread::tests::Check &check, const CreepPatch &patch)
   {
+    // figures with four digits worked out with C11 = 4.63; ours is interpolated
+    check.relative("creepage of Shen-Hedrick-Elkins, mu = 0.15",
+                   -shen_hedrick_elkins_creepage(patch, 0.15 * 127.1e3), 1.263e-3, 0.002);
+    check.relative("creepage of Shen-Hedrick-Elkins, mu = 0.30",
+                   -shen_hedrick_elkins_creepage(patch, 0.30 * 127.1e3), 2.964e-3, 0.002);
+    for (const double ratio : {-0.49, -0.1, 0.05, 0.3, 0.4999})
+      {
+        const double xi = shen_hedrick_elkins_creepage(patch, ratio * 127.1e3);
+        check.relative("Shen-Hedrick-Elkins forth and back, mu " + std::to_string(ratio),
+                       shen_hedrick_elkins(patch, Creepage{xi, 0., 0.}).longitudinal / 127.1e3, ratio, 1e-12);
+      }
     const Creepage   tiny{1e-9, -2e-9, 0.};
     const CreepForce a = linear_theory(patch, tiny), b = shen_hedrick_elkins(patch, tiny);
     check.relative("Shen-Hedrick-Elkins is linear at first", b.lateral, a.lateral, 1e-5);
@@ -69,12 +72,14 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                    0.5 * 127.1e3, 1e-12);
     check.that("forces oppose the creepage", full.longitudinal > 0. && full.lateral < 0.);
   }
-  // Vermeulen-Johnson for a circle: full slip at xi = f p0 a pi (4 - 3 nu)/(8 G a) (Johnson 1985, eq. 3.91)
+
+  /// Full slip at xi = f p0 a pi (4 - 3 nu)/(8 G a) (Johnson 1985, eq. 3.91).
+  void vermeulen_johnson_circle(tread::tests::Check &check, const double shear)
   {
-    const CreepPatch round{5e-3, 5e-3, steel.shear, 0.3, 50e3, 0.3};
+    const CreepPatch round{5e-3, 5e-3, shear, 0.3, 50e3, 0.3};
     const double     p0     = 1.5 * 50e3 / (std::numbers::pi * 25e-6);
-    const double     full   = 0.3 * p0 * std::numbers::pi * (4. - 0.9) / (8. * steel.shear);
-    const double     full_y = 0.3 * p0 * std::numbers::pi * (4. - 0.3) / (8. * steel.shear);
+    const double     full   = 0.3 * p0 * std::numbers::pi * (4. - 0.9) / (8. * shear);
+    const double     full_y = 0.3 * p0 * std::numbers::pi * (4. - 0.3) / (8. * shear);
     check.relative("Vermeulen-Johnson, circle, Fx/(f N) at tau = 1/2",
                    vermeulen_johnson(round, Creepage{-0.5 * full, 0., 0.}).longitudinal / 15e3, 0.875, 1e-12);
     // u_y(x) = ... (4 - nu) x^2: nu sin^2 instead of nu cos^2 in the kernel
@@ -82,12 +87,12 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                    vermeulen_johnson(round, Creepage{0., -0.5 * full_y, 0.}).lateral / 15e3, 0.875, 1e-12);
     // Its slope is known to be some 20 % too high: shear that opposes no slip beside the adhesion ellipse.
     const double slope =
-      vermeulen_johnson(round, Creepage{-1e-9, 0., 0.}).longitudinal / (1e-9 * steel.shear * 25e-6);
+      vermeulen_johnson(round, Creepage{-1e-9, 0., 0.}).longitudinal / (1e-9 * shear * 25e-6);
     check.relative("Vermeulen-Johnson's C11 near Kalker's", slope, creepage_coefficients(1., 0.3).c11, 0.25);
   }
 
-  // Carter's example: G = 82 GPa, nu = 0.28, R = 500 mm, a = 1 mm, f = 0.3, xi = 2.4e-4 -> Q = 0.64 f P, a' =
-  // 0.6 a
+  /// G = 82 GPa, nu = 0.28, R = 500 mm, a = 1 mm, f = 0.3, xi = 2.4e-4 -> Q = 0.64 f P, a' = 0.6 a.
+  void carters_example(tread::tests::Check &check)
   {
     const double modulus = 82e9 / 0.72 / 1.;
     const double force   = std::numbers::pi * modulus * 1e-6 / (4. * 0.5);
@@ -113,7 +118,8 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.relative("Carter: full slip", carter(0.5, modulus, force, 0.3, 1e-2).traction_ratio, -1., 1e-12);
   }
 
-  // Cattaneo-Mindlin: G = 200 MPa, nu = 0.42, R = 50 mm, N = 9.1954 N, f = 0.4, T = 7/8 f N
+  /// G = 200 MPa, nu = 0.42, R = 50 mm, N = 9.1954 N, f = 0.4, T = 7/8 f N.
+  void cattaneo_mindlin_sphere(tread::tests::Check &check)
   {
     const Elastic         soft{2. * 200e6 * 1.42, 0.42};
     const ElasticPair     pair = combine(soft, soft);
@@ -150,8 +156,8 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                    8., 2e-3);
   }
 
-  // FASTSIM: linear slopes are Kalker's by construction, full slip is f N, mirrored creepages give mirrored
-  // forces
+  /// Linear slopes are Kalker's by construction, full slip is f N, mirrored creepages give mirrored forces.
+  void fastsim_limits(tread::tests::Check &check, const CreepPatch &patch)
   {
     for (const Creepage &w : {Creepage{-1e-8, 0., 0.}, Creepage{0., 1e-8, 0.}, Creepage{0., 0., 1e-6}})
       {
@@ -173,8 +179,26 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     check.absolute("FASTSIM beside Shen-Hedrick-Elkins, Fx/(f N)", t.longitudinal / 63.55e3,
                    s.longitudinal / 63.55e3, 0.05);
   }
-  check.refuses("axis ratio", "axis_ratio = 20", [] { creepage_coefficients(20., 0.3); });
-  check.refuses("force beyond f N", "force", [&] { shen_hedrick_elkins_creepage(patch, 70e3); });
-  check.refuses("spin in Vermeulen-Johnson", "spin", [&] { vermeulen_johnson(patch, Creepage{0., 0., 1.}); });
-  check.refuses("traction ratio", "traction_ratio", [] { carter_creepage(0.5, 1e11, 1e5, 0.3, 1.2); });
+
+  void bad_input(tread::tests::Check &check, const CreepPatch &patch)
+  {
+    check.refuses("axis ratio", "axis_ratio = 20", [] { creepage_coefficients(20., 0.3); });
+    check.refuses("force beyond f N", "force", [&] { shen_hedrick_elkins_creepage(patch, 70e3); });
+    check.refuses("spin in Vermeulen-Johnson", "spin", [&] {
+      vermeulen_johnson(patch, Creepage{0., 0., 1.});
+    });
+    check.refuses("traction ratio", "traction_ratio", [] { carter_creepage(0.5, 1e11, 1e5, 0.3, 1.2); });
+  }
+} // namespace
+
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+{
+  const CreepPatch patch = wheel_on_rail();
+  kalkers_coefficients(check, patch);
+  shen_hedrick_elkins_law(check, patch);
+  vermeulen_johnson_circle(check, patch.shear);
+  carters_example(check);
+  cattaneo_mindlin_sphere(check);
+  fastsim_limits(check, patch);
+  bad_input(check, patch);
 }

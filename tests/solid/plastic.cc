@@ -43,145 +43,187 @@ namespace
     const std::vector<double> strain = solid.plastic().equivalent_plastic_strain(history);
     return *std::max_element(strain.begin(), strain.end());
   }
-} // namespace
 
-
-void run_test(tests::Check &check, const tests::Arguments &)
-{
-  const ElasticMaterial elastic;
-  const Mesh            mesh(MPI_COMM_SELF, {tests::make_patch_cube(edge)});
-  const auto            everywhere = [](const Point<3> &) {
+  bool everywhere(const Point<3> &)
+  {
     return true;
-  };
-  const NodalField                 reference = tests::reference_positions(mesh);
-  NodalField                       direction(mesh.nodes.size());
-  std::mt19937                     random(3);
-  std::uniform_real_distribution<> number(-1., 1.);
-  for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-    direction[i] = Vector3{number(random), number(random), number(random), 0.};
-  const NodalField at_rest(reference.size(), Vector3{});
-  const auto       moved = [&](const double size) {
-    NodalField x(reference);
-    for (unsigned int i = 0; i < x.size(); ++i)
-      x[i] += size * edge * direction[i];
-    return x;
-  };
+  }
 
-  for (const bool kinematic : {false, true})
+  /// A cube of distorted cells whose nodes are displaced along random directions.
+  struct Cube
+  {
+    const ElasticMaterial elastic;
+    const Mesh            mesh{MPI_COMM_SELF, {tests::make_patch_cube(edge)}};
+    const NodalField      reference = tests::reference_positions(mesh);
+    const NodalField      at_rest   = NodalField(reference.size(), Vector3{});
+    NodalField            direction = NodalField(reference.size());
+
+    Cube()
     {
-      const std::string name = kinematic ? "two backstresses: " : "isotropic: ";
-      const Solid solid(mesh, {elastic}, SolidParameters(), {{0, steel_that_yields(kinematic), everywhere}});
-      check.that(name + "all cells may yield", solid.plastic().n_cells() == mesh.cells.size());
-
-      // Loading, unloading and loading the other way, with and without a full turn meanwhile.
-      PlasticHistory     straight = solid.virgin(), turning = solid.virgin();
-      double             difference = 0., scale = 0.;
-      const unsigned int n = 180;
-      for (unsigned int step = 1; step <= n; ++step)
-        {
-          const double angle = 2. * dealii::numbers::PI * step / n;
-          const auto   x     = moved(0.03 * std::sin(angle));
-          NodalField   f(x.size(), Vector3{}), g(x.size(), Vector3{});
-          solid.update_internal_forces(x.data(), at_rest.data(), f.data(), straight);
-          solid.update_internal_forces(turned(x, angle).data(), at_rest.data(), g.data(), turning);
-          difference = std::max(difference, distance(turned(f, angle), g));
-          scale      = std::max(scale, largest(f));
-        }
-      std::printf("%slargest plastic strain %.3f %%, largest nodal force %.3g N\n", name.c_str(),
-                  100. * largest_strain(solid, straight), scale);
-      check.that(name + "much plastic strain", largest_strain(solid, straight) > 0.02);
-      check.below(name + "forces after a full turn while yielding", difference / scale, 1e-12);
-      double     change = 0.;
-      const auto before = solid.plastic().stored(straight), after = solid.plastic().stored(turning);
-      for (unsigned int c = 0; c < before.size(); ++c)
-        for (unsigned int k = 0; k < 19; ++k)
-          change = std::max(change, std::abs(before[c].values[k] - after[c].values[k]) /
-                                      (k < 7 ? 1. : std::sqrt(elastic.young_modulus * edge) * edge));
-      check.below(name + "history after that", change, 1e-12);
-
-      // Only turning: nothing flows, the residual stress turns along.
-      NodalField     x     = moved(0.), f_0(x.size(), Vector3{});
-      PlasticHistory rigid = straight;
-      solid.update_internal_forces(x.data(), at_rest.data(), f_0.data(), rigid);
-      const PlasticHistory kept       = rigid;
-      double               turn_error = 0., work = 0.;
-      for (unsigned int degrees = 1; degrees <= 360; ++degrees)
-        {
-          const double angle = degrees * dealii::numbers::PI / 180.;
-          NodalField   f(x.size(), Vector3{});
-          work += solid.update_internal_forces(turned(x, angle).data(), at_rest.data(), f.data(), rigid);
-          turn_error = std::max(turn_error, distance(turned(f_0, angle), f));
-        }
-      check.below(name + "forces while a body with residual stress turns", turn_error / scale, 1e-12);
-      check.below(name + "plastic strain from that",
-                  largest_strain(solid, rigid) - largest_strain(solid, kept), 1e-12);
-
-      // Trial evaluations leave no trace, and agree with the update.
-      NodalField       f(x.size(), Vector3{}), g(x.size(), Vector3{});
-      const NodalField beyond  = moved(5e-4);
-      PlasticHistory   history = kept;
-      solid.add_internal_forces(beyond.data(), at_rest.data(), f.data(), history);
-      const StrainEnergy trial = solid.strain_energy(beyond.data(), history);
-      solid.update_internal_forces(beyond.data(), at_rest.data(), g.data(), history);
-      check.that(name + "they yield", largest_strain(solid, history) > largest_strain(solid, kept) + 1e-4);
-      check.that(name + "trial forces are those of the update", distance(f, g) == 0.);
-      const StrainEnergy updated = solid.strain_energy(beyond.data(), history);
-      // The update keeps the plastic volume to the cube of the elastic strain, 1e-2 here.
-      check.relative(name + "elastic energy, before and after the update, J", trial.strain, updated.strain,
-                     1e-5);
-      NodalField again(x.size(), Vector3{});
-      solid.add_internal_forces(beyond.data(), at_rest.data(), again.data(), history);
-      check.below(name + "forces from the updated history", distance(again, g) / scale, 1e-5);
-
-      // Work of the forces = elastic energy + plastic work; midpoint rule, so of second order in the step,
-      // the return mapping of first.
-      double error[2];
-      for (const unsigned int refined : {0u, 1u})
-        {
-          PlasticHistory     path     = solid.virgin();
-          const unsigned int steps    = refined ? 4000 : 2000;
-          double             external = 0., plastic = 0.;
-          NodalField         last_x = moved(0.), last_f(x.size(), Vector3{});
-          for (unsigned int step = 1; step <= steps; ++step)
-            {
-              const NodalField next = moved(0.03 * std::sin(2. * dealii::numbers::PI * step / steps));
-              NodalField       force(x.size(), Vector3{});
-              plastic += solid.update_internal_forces(next.data(), at_rest.data(), force.data(), path);
-              for (unsigned int i = 0; i < next.size(); ++i)
-                external -= 0.5 * dot(force[i] + last_f[i], next[i] - last_x[i]);
-              last_x = next;
-              last_f = force;
-            }
-          const StrainEnergy stored = solid.strain_energy(last_x.data(), path);
-          error[refined]            = (external - plastic - stored.strain - stored.hourglass) / external;
-          std::printf("%s%u steps: work %.1f J, plastic %.1f J, elastic %.2f J, hourglass %.2f J\n",
-                      name.c_str(), steps, external, plastic, stored.strain, stored.hourglass);
-        }
-      check.below(name + "energy that is missing, share", error[1], 5e-3);
-      check.absolute(name + "it halves with the step", error[0] / error[1], 2., 0.3);
+      std::mt19937                     random(3);
+      std::uniform_real_distribution<> number(-1., 1.);
+      for (Vector3 &d : direction)
+        d = Vector3{number(random), number(random), number(random), 0.};
     }
 
+    Solid solid(const std::vector<PlasticZone> &zones) const
+    {
+      return Solid(mesh, {elastic}, SolidParameters(), zones);
+    }
+
+    /// Positions after displacements of up to this share of the edge in each direction.
+    NodalField moved(const double share) const
+    {
+      NodalField x(reference);
+      for (unsigned int i = 0; i < x.size(); ++i)
+        x[i] += share * edge * direction[i];
+      return x;
+    }
+  };
+
+  struct Loaded
   {
-    // Small strain: what does not yield is elastic, to the order of the strain (Hencky's instead of Green's).
-    const Solid plain(mesh, {elastic}, SolidParameters()),
-      plastic(mesh, {elastic}, SolidParameters(), {{0, steel_that_yields(false), everywhere}});
-    const NodalField x = moved(1e-5);
+    PlasticHistory history;
+    double         largest_force; ///< N
+  };
+
+  /// Loading, unloading and loading the other way, with and without a full turn meanwhile.
+  Loaded load_with_and_without_turn(tests::Check      &check,
+                                    const std::string &name,
+                                    const Cube        &cube,
+                                    const Solid       &solid)
+  {
+    PlasticHistory     straight = solid.virgin(), turning = solid.virgin();
+    double             difference = 0., scale = 0.;
+    const unsigned int n = 180;
+    for (unsigned int step = 1; step <= n; ++step)
+      {
+        const double angle = 2. * dealii::numbers::PI * step / n;
+        const auto   x     = cube.moved(0.03 * std::sin(angle));
+        NodalField   f(x.size(), Vector3{}), g(x.size(), Vector3{});
+        solid.update_internal_forces(x.data(), cube.at_rest.data(), f.data(), straight);
+        solid.update_internal_forces(turned(x, angle).data(), cube.at_rest.data(), g.data(), turning);
+        difference = std::max(difference, distance(turned(f, angle), g));
+        scale      = std::max(scale, largest(f));
+      }
+    std::printf("%slargest plastic strain %.3f %%, largest nodal force %.3g N\n", name.c_str(),
+                100. * largest_strain(solid, straight), scale);
+    check.that(name + "much plastic strain", largest_strain(solid, straight) > 0.02);
+    check.below(name + "forces after a full turn while yielding", difference / scale, 1e-12);
+    double     change = 0.;
+    const auto before = solid.plastic().stored(straight), after = solid.plastic().stored(turning);
+    for (unsigned int c = 0; c < before.size(); ++c)
+      for (unsigned int k = 0; k < 19; ++k)
+        change = std::max(change, std::abs(before[c].values[k] - after[c].values[k]) /
+                                    (k < 7 ? 1. : std::sqrt(cube.elastic.young_modulus * edge) * edge));
+    check.below(name + "history after that", change, 1e-12);
+    return {straight, scale};
+  }
+
+  /// Only turning: nothing flows, the residual stress turns along. Returns the history before the turn, at
+  /// the reference positions.
+  PlasticHistory turn_with_residual_stress(tests::Check      &check,
+                                           const std::string &name,
+                                           const Cube        &cube,
+                                           const Solid       &solid,
+                                           const Loaded      &loaded)
+  {
+    NodalField     x     = cube.moved(0.), f_0(x.size(), Vector3{});
+    PlasticHistory rigid = loaded.history;
+    solid.update_internal_forces(x.data(), cube.at_rest.data(), f_0.data(), rigid);
+    const PlasticHistory kept       = rigid;
+    double               turn_error = 0.;
+    for (unsigned int degrees = 1; degrees <= 360; ++degrees)
+      {
+        const double angle = degrees * dealii::numbers::PI / 180.;
+        NodalField   f(x.size(), Vector3{});
+        solid.update_internal_forces(turned(x, angle).data(), cube.at_rest.data(), f.data(), rigid);
+        turn_error = std::max(turn_error, distance(turned(f_0, angle), f));
+      }
+    check.below(name + "forces while a body with residual stress turns", turn_error / loaded.largest_force,
+                1e-12);
+    check.below(name + "plastic strain from that", largest_strain(solid, rigid) - largest_strain(solid, kept),
+                1e-12);
+    return kept;
+  }
+
+  /// Trial evaluations leave no trace, and agree with the update.
+  void trial_and_update(tests::Check         &check,
+                        const std::string    &name,
+                        const Cube           &cube,
+                        const Solid          &solid,
+                        const PlasticHistory &before,
+                        const double          largest_force)
+  {
+    const NodalField beyond = cube.moved(5e-4);
+    NodalField       f(beyond.size(), Vector3{}), g(beyond.size(), Vector3{});
+    PlasticHistory   history = before;
+    solid.add_internal_forces(beyond.data(), cube.at_rest.data(), f.data(), history);
+    const StrainEnergy trial = solid.strain_energy(beyond.data(), history);
+    solid.update_internal_forces(beyond.data(), cube.at_rest.data(), g.data(), history);
+    check.that(name + "they yield", largest_strain(solid, history) > largest_strain(solid, before) + 1e-4);
+    check.that(name + "trial forces are those of the update", distance(f, g) == 0.);
+    const StrainEnergy updated = solid.strain_energy(beyond.data(), history);
+    // The update keeps the plastic volume to the cube of the elastic strain, 1e-2 here.
+    check.relative(name + "elastic energy, before and after the update, J", trial.strain, updated.strain,
+                   1e-5);
+    NodalField again(beyond.size(), Vector3{});
+    solid.add_internal_forces(beyond.data(), cube.at_rest.data(), again.data(), history);
+    check.below(name + "forces from the updated history", distance(again, g) / largest_force, 1e-5);
+  }
+
+  /// Work of the forces = elastic energy + plastic work; midpoint rule, so of second order in the step, the
+  /// return mapping of first.
+  void energy_balance(tests::Check &check, const std::string &name, const Cube &cube, const Solid &solid)
+  {
+    double error[2];
+    for (const unsigned int refined : {0u, 1u})
+      {
+        PlasticHistory     path     = solid.virgin();
+        const unsigned int steps    = refined ? 4000 : 2000;
+        double             external = 0., plastic = 0.;
+        NodalField         last_x = cube.moved(0.), last_f(last_x.size(), Vector3{});
+        for (unsigned int step = 1; step <= steps; ++step)
+          {
+            const NodalField next = cube.moved(0.03 * std::sin(2. * dealii::numbers::PI * step / steps));
+            NodalField       force(next.size(), Vector3{});
+            plastic += solid.update_internal_forces(next.data(), cube.at_rest.data(), force.data(), path);
+            for (unsigned int i = 0; i < next.size(); ++i)
+              external -= 0.5 * dot(force[i] + last_f[i], next[i] - last_x[i]);
+            last_x = next;
+            last_f = force;
+          }
+        const StrainEnergy stored = solid.strain_energy(last_x.data(), path);
+        error[refined]            = (external - plastic - stored.strain - stored.hourglass) / external;
+        std::printf("%s%u steps: work %.1f J, plastic %.1f J, elastic %.2f J, hourglass %.2f J\n",
+                    name.c_str(), steps, external, plastic, stored.strain, stored.hourglass);
+      }
+    check.below(name + "energy that is missing, share", error[1], 5e-3);
+    check.absolute(name + "it halves with the step", error[0] / error[1], 2., 0.3);
+  }
+
+  /// What does not yield is elastic, to the order of the strain (Hencky's instead of Green's).
+  void small_strain(tests::Check &check, const Cube &cube)
+  {
+    const Solid plain = cube.solid({}), plastic = cube.solid({{0, steel_that_yields(false), everywhere}});
+    const NodalField x = cube.moved(1e-5);
     NodalField       f(x.size(), Vector3{}), g(x.size(), Vector3{});
-    plain.add_internal_forces(x.data(), at_rest.data(), f.data());
-    plastic.add_internal_forces(x.data(), at_rest.data(), g.data());
+    plain.add_internal_forces(x.data(), cube.at_rest.data(), f.data());
+    plastic.add_internal_forces(x.data(), cube.at_rest.data(), g.data());
     check.below("elastic and not yielding, strain 5e-5", distance(f, g) / largest(f), 5e-4);
   }
+
+  /// Of several zones the last counts; cells outside are elastic.
+  void zones_on_top_of_each_other(tests::Check &check, const Cube &cube)
   {
-    // Of several zones the last counts; cells outside are elastic.
-    const auto half = [](const Point<3> &p) {
+    const Mesh &mesh = cube.mesh;
+    const auto  half = [](const Point<3> &p) {
       return p[2] > 0.5 * edge;
     };
     PlasticMaterial none, weak = steel_that_yields(false);
-    weak.yield_stress = 1e6;
-    const Solid  solid(mesh, {elastic}, SolidParameters(),
-                       {{0, steel_that_yields(true), everywhere}, {0, none, half}});
-    const Solid  weld(mesh, {elastic}, SolidParameters(),
-                      {{0, steel_that_yields(true), everywhere}, {0, weak, half}});
+    weak.yield_stress    = 1e6;
+    const Solid  solid   = cube.solid({{0, steel_that_yields(true), everywhere}, {0, none, half}});
+    const Solid  weld    = cube.solid({{0, steel_that_yields(true), everywhere}, {0, weak, half}});
     unsigned int n_upper = 0;
     for (const Mesh::Cell &cell : mesh.cells)
       {
@@ -193,9 +235,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
     check.that("a zone without yield stress takes cells out",
                n_upper > 0 && solid.plastic().n_cells() == mesh.cells.size() - n_upper);
     PlasticHistory   history = weld.virgin();
-    const NodalField x       = moved(1e-4);
+    const NodalField x       = cube.moved(1e-4);
     NodalField       f(x.size(), Vector3{});
-    weld.update_internal_forces(x.data(), at_rest.data(), f.data(), history);
+    weld.update_internal_forces(x.data(), cube.at_rest.data(), f.data(), history);
     const std::vector<double> strain    = weld.plastic().equivalent_plastic_strain(history);
     unsigned int              n_yielded = 0;
     for (const double p : strain)
@@ -209,4 +251,22 @@ void run_test(tests::Check &check, const tests::Arguments &)
     weld.plastic().forget(0, back);
     check.that("and forgotten", largest_strain(weld, back) == 0.);
   }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  const Cube cube;
+  for (const bool kinematic : {false, true})
+    {
+      const std::string name  = kinematic ? "two backstresses: " : "isotropic: ";
+      const Solid       solid = cube.solid({{0, steel_that_yields(kinematic), everywhere}});
+      check.that(name + "all cells may yield", solid.plastic().n_cells() == cube.mesh.cells.size());
+      const Loaded         loaded  = load_with_and_without_turn(check, name, cube, solid);
+      const PlasticHistory history = turn_with_residual_stress(check, name, cube, solid, loaded);
+      trial_and_update(check, name, cube, solid, history, loaded.largest_force);
+      energy_balance(check, name, cube, solid);
+    }
+  small_strain(check, cube);
+  zones_on_top_of_each_other(check, cube);
 }
