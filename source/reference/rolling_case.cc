@@ -268,6 +268,7 @@ namespace tread::reference
       const NormalProblem normal = normal_problem(c, hertz, grid);
       const bool          known  = tangential.order == 2 && pair.coupling == 0.;
       ContactSolution     contact;
+      edges = Edges(); // those of a grid that was too small do not fit this one
       if (known && !c.gap)
         {
           contact.normal = known_normal(grid, hertz, c.normal_force);
