@@ -13,7 +13,8 @@ import os
 
 from tread.commands import command_parser, run_command
 from tread.measured_runs import available_ranks, run_scene
-from tread.runs import ROOT, DataError, Error, parameters_of, read_summary
+from tread.files import DataError, Error, read_summary
+from tread.runs import ROOT, parameters_of
 from tread.tables import fill, markdown, number, provenance
 
 # (heading, key, factor, what is large: include/tread/output/quality.h)

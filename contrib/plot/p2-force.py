@@ -18,7 +18,8 @@ import os
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.runs import DataError, Run
+from tread.files import DataError
+from tread.runs import Run
 
 SHEAR_COEFFICIENT = 10 * 1.3 / (12 + 11 * 0.3)  # of a rectangle, nu = 0.3 (Cowper 1966)
 

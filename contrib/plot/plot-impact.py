@@ -33,7 +33,8 @@ import numpy as np
 
 from tread.commands import command_parser, run_command
 from tread.plots import BLUE, COLOURS, ORANGE, RED, plt, save, use_style
-from tread.runs import PROGRAM, DataError, Run, dynamic_force
+from tread.files import DataError
+from tread.runs import PROGRAM, Run, dynamic_force
 
 # Second moments of area about the lateral axis, m4 (EN 13674-1).
 SECOND_MOMENT = {"54E1": 2337.9e-8, "60E1": 3038.3e-8}

@@ -14,7 +14,7 @@ import numpy as np
 
 from tread.commands import command_parser, run_command
 from tread.plots import BLUE, GREEN, RED, SKY, plt, save, use_style
-from tread.runs import DataError, read_table
+from tread.files import DataError, read_table
 
 PLACES = {"sleeper": "over a sleeper", "mid_span": "at mid-span"}
 FORCES = {"section": "force on a cross-section", "spread": "on 120 mm of the rail", "top": "on the rail top"}

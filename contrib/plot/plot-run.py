@@ -25,7 +25,8 @@ from matplotlib.ticker import MaxNLocator
 from tread.commands import run_command
 from tread.patches import read_contact, read_patch
 from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, plt, save, use_style
-from tread.runs import Run, reference_value
+from tread.files import reference_value
+from tread.runs import Run
 
 GREY, ADHESION, SLIP = "#666666", "#A9CBE3", "#F3B77E"
 

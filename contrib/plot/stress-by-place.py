@@ -15,7 +15,8 @@ import os
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.runs import DataError, Run
+from tread.files import DataError
+from tread.runs import Run
 from tread.tables import markdown
 
 STRAIN = "equivalent_plastic_strain_percent"

@@ -15,7 +15,8 @@ import os
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.runs import DataError, Run
+from tread.files import DataError
+from tread.runs import Run
 
 COLUMNS = {"normal_force_N": "contact", "support_1_pad_N": "pad", "support_1_ballast_N": "ballast"}
 

@@ -14,7 +14,8 @@ import os
 from tread.commands import command_parser, run_command
 from tread.measured_runs import contact_measures, run_scene
 from tread.patches import read_patch
-from tread.runs import ROOT, is_complete, read_summary, reference_value
+from tread.files import is_complete, read_summary, reference_value
+from tread.runs import ROOT
 from tread.tables import fill, markdown, number
 
 # Errors allowed by cell size: (key of compare-contact.py, row, factor, unit, 0.63 mm, 0.33 mm).

@@ -22,7 +22,8 @@ import tread
 from tread import measured_runs, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch
-from tread.runs import ROOT, arguments_of, command, environment, read_table
+from tread.files import read_table
+from tread.runs import ROOT, arguments_of, command, environment
 
 REAL_PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
 

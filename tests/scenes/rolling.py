@@ -8,7 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from tread.runs import ROOT, arguments_of, command, environment, execute, read_parameters, read_summary
+from tread.files import read_parameters, read_summary
+from tread.runs import ROOT, arguments_of, command, environment, execute
 from tread_runner import Check, press_ctrl_c, rows_of, run, script, table
 
 program, what = sys.argv[1], sys.argv[2]

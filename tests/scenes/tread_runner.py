@@ -8,7 +8,8 @@ import sys
 import time
 
 import tread
-from tread.runs import ROOT, environment, read_table
+from tread.files import read_table
+from tread.runs import ROOT, environment
 
 
 def run(program, scene, output, settings=(), ranks=1, more=()):

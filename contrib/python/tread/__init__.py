@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of tread from Python: tread.run() rolls a scene, tread.Run reads what a run left in its folder."""
 
-from .runs import DataError, Error, ProgramError, Run, run
+from .files import DataError, Error
+from .runs import ProgramError, Run, run
 
 __all__ = ["DataError", "Error", "ProgramError", "Run", "run"]

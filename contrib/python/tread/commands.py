@@ -6,7 +6,7 @@ import importlib.util
 import os
 import sys
 
-from .runs import Error
+from .files import Error
 
 NAME = os.path.basename(sys.argv[0])
 

@@ -15,7 +15,7 @@ import os
 import numpy as np
 
 from .patches import read_contact, read_patch
-from .runs import read_summary, read_table, reference_value
+from .files import read_summary, read_table, reference_value
 
 
 def neighbours_in_contact(patch):

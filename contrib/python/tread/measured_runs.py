@@ -8,8 +8,8 @@ import subprocess
 import time
 
 from .comparison import compare
-from .runs import (ROOT, ProgramError, arguments_of, command, environment, execute, is_complete, must_end_well, own_line,
-                   read_summary)
+from .files import is_complete, read_summary
+from .runs import ROOT, ProgramError, arguments_of, command, environment, execute, must_end_well, own_line
 
 
 def shipped(scene):

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .runs import DataError, read_table
+from .files import DataError, read_table
 
 
 class Patch:

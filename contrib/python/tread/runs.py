@@ -9,28 +9,19 @@
 numpy is imported where columns are read: without it programs can be started, and commands say in one line that it is missing.
 """
 
-import csv
 import functools
-import gzip
-import json
 import os
 import shutil
 import signal
 import subprocess
+
+from .files import Error, parameters_in, read_parameters, read_summary, read_table
 
 # This file is contrib/python/tread/runs.py, to which folders of commands have links; installed by pip it has no such root.
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *3 * [os.pardir]))
 PROGRAM = os.path.join(ROOT, "build/source/tread")
 if not os.path.isdir(os.path.join(ROOT, "prm")):
     PROGRAM = shutil.which("tread") or "tread"
-
-
-class Error(Exception):
-    """What went wrong, in one line for the user."""
-
-
-class DataError(Error):
-    """A file is missing or cannot be understood."""
 
 
 class ProgramError(Error):
@@ -163,7 +154,7 @@ class Run:
     def patch(self):
         """The contact patch at the end, a patches.Patch: x, y (mm), pressure, shear_x, shear_y (MPa), slip_x, slip_y (m/s),
         area (mm2), adhesion (bool), each a (nodes in contact,) array."""
-        from .patches import read_patch
+        from .patches import read_patch  # which needs numpy
 
         return read_patch(self.path("patch.csv"))
 
@@ -173,101 +164,7 @@ class Run:
         return read_parameters(self.path("parameters.prm"))
 
 
-def read_table(path, required=(), text=("state",)):
-    """A CSV file (also .gz; lines that start with # are comments) as {column: (rows,) array}, of numbers but for the columns
-    `text`; other columns that are not numbers are left out, or refused if they are required. @raises DataError"""
-    import numpy as np
-
-    try:
-        opener = gzip.open if path.endswith(".gz") else open
-        with opener(path, "rt", encoding="utf-8", newline="") as stream:
-            rows = list(csv.reader(line for line in stream if line.strip() and not line.startswith("#")))
-    except (OSError, EOFError, UnicodeDecodeError) as error:
-        raise DataError(f"{path}: {getattr(error, 'strerror', None) or error}") from None
-    if not rows:
-        raise DataError(f"{path}: empty file")
-    names = [name.strip() for name in rows[0]]
-    for name in required:
-        if name not in names:
-            raise DataError(f"{path}: no column '{name}' (columns: {', '.join(names)})")
-    for number, row in enumerate(rows[1:], 1):
-        if len(row) != len(names):
-            raise DataError(f"{path}: data row {number} has {len(row)} entries, expected {len(names)}")
-    table = {}
-    for i, name in enumerate(names):
-        column = [row[i].strip() for row in rows[1:]]
-        if name in text:
-            table[name] = np.array(column, dtype=str)
-            continue
-        try:
-            table[name] = np.array(column, dtype=float)
-        except ValueError:
-            if name in required:
-                raise DataError(f"{path}: column '{name}' has an entry that is not a number") from None
-    return table
-
-
-def read_summary(folder):
-    """summary.json of a run, read anew. @raises DataError"""
-    path = os.path.join(folder, "summary.json")
-    try:
-        with open(path, encoding="utf-8") as stream:
-            summary = json.load(stream)
-    except OSError as error:
-        raise DataError(f"{path}: {error.strerror}") from None
-    except ValueError as error:
-        raise DataError(f"{path}: not valid JSON ({error})") from None
-    if not isinstance(summary, dict):
-        raise DataError(f"{path}: not a JSON object")
-    return summary
-
-
-def is_complete(folder):
-    """Whether a folder has the results of a run that came to its end."""
-    try:
-        return read_summary(folder).get("completed") is True
-    except DataError:
-        return False
-
-
 def parameters_of(scene, settings=(), program=PROGRAM):
     """{"Section/Name": text} of all parameters of a scene, as the program understands it."""
     asked = must_end_well(execute([*arguments_of(scene, settings), "--print-parameters"], program=program))
     return parameters_in(asked.stdout.splitlines())
-
-
-def parameters_in(lines):
-    """{"Section/Name": text} of the lines of a parameter file."""
-    result, section = {}, []
-    for line in lines:
-        line = line.split("#")[0].strip()
-        if line.startswith("subsection "):
-            section.append(line[len("subsection "):].strip())
-        elif line == "end" and section:
-            section.pop()
-        elif line.startswith("set "):
-            name, _, value = line[len("set "):].partition("=")
-            result["/".join(section + [name.strip()])] = value.strip()
-    return result
-
-
-def read_parameters(path):
-    """The same of a file, empty if there is none."""
-    if not os.path.exists(path):
-        return {}
-    with open(path, encoding="utf-8") as stream:
-        return parameters_in(stream)
-
-
-def reference_value(summary, key, source=""):
-    """The number that the summary compares `key` with, or None; `source` picks one of several."""
-    entries = summary.get("reference", {}).get(key)
-    if isinstance(entries, dict) and "value" not in entries:
-        entries = [dict(entry, source=entry.get("source", name)) for name, entry in entries.items()]
-    elif not isinstance(entries, list):
-        entries = [entries]
-    entries = [entry for entry in entries if isinstance(entry, dict) and entry.get("value") is not None]
-    for entry in entries:
-        if source.lower() in str(entry.get("source", "")).lower():
-            return float(entry["value"])
-    return None

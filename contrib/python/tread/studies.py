@@ -38,7 +38,8 @@ import subprocess
 import time
 
 from .commands import command_parser, run_command
-from .runs import PROGRAM, DataError, ProgramError, Run, arguments_of, command, dynamic_force, environment, is_complete, own_line
+from .files import DataError, is_complete
+from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",

@@ -4,7 +4,8 @@
 import os
 import re
 
-from .runs import ROOT, DataError
+from .files import DataError
+from .runs import ROOT
 
 
 def machine():

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Read the files of a run's folder.
+
+numpy is imported where columns are read: without it commands can say in one line that it is missing.
+"""
+
+import csv
+import gzip
+import json
+import os
+
+
+class Error(Exception):
+    """What went wrong, in one line for the user."""
+
+
+class DataError(Error):
+    """A file is missing or cannot be understood."""
+
+
+def read_table(path, required=(), text=("state",)):
+    """A CSV file (also .gz; lines that start with # are comments) as {column: (rows,) array}, of numbers but for the columns
+    `text`; other columns that are not numbers are left out, or refused if they are required. @raises DataError"""
+    import numpy as np
+
+    try:
+        opener = gzip.open if path.endswith(".gz") else open
+        with opener(path, "rt", encoding="utf-8", newline="") as stream:
+            rows = list(csv.reader(line for line in stream if line.strip() and not line.startswith("#")))
+    except (OSError, EOFError, UnicodeDecodeError) as error:
+        raise DataError(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+    if not rows:
+        raise DataError(f"{path}: empty file")
+    names = [name.strip() for name in rows[0]]
+    for name in required:
+        if name not in names:
+            raise DataError(f"{path}: no column '{name}' (columns: {', '.join(names)})")
+    for number, row in enumerate(rows[1:], 1):
+        if len(row) != len(names):
+            raise DataError(f"{path}: data row {number} has {len(row)} entries, expected {len(names)}")
+    table = {}
+    for i, name in enumerate(names):
+        column = [row[i].strip() for row in rows[1:]]
+        if name in text:
+            table[name] = np.array(column, dtype=str)
+            continue
+        try:
+            table[name] = np.array(column, dtype=float)
+        except ValueError:
+            if name in required:
+                raise DataError(f"{path}: column '{name}' has an entry that is not a number") from None
+    return table
+
+
+def read_summary(folder):
+    """summary.json of a run, read anew. @raises DataError"""
+    path = os.path.join(folder, "summary.json")
+    try:
+        with open(path, encoding="utf-8") as stream:
+            summary = json.load(stream)
+    except OSError as error:
+        raise DataError(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise DataError(f"{path}: not valid JSON ({error})") from None
+    if not isinstance(summary, dict):
+        raise DataError(f"{path}: not a JSON object")
+    return summary
+
+
+def is_complete(folder):
+    """Whether a folder has the results of a run that came to its end."""
+    try:
+        return read_summary(folder).get("completed") is True
+    except DataError:
+        return False
+
+
+def parameters_in(lines):
+    """{"Section/Name": text} of the lines of a parameter file."""
+    result, section = {}, []
+    for line in lines:
+        line = line.split("#")[0].strip()
+        if line.startswith("subsection "):
+            section.append(line[len("subsection "):].strip())
+        elif line == "end" and section:
+            section.pop()
+        elif line.startswith("set "):
+            name, _, value = line[len("set "):].partition("=")
+            result["/".join(section + [name.strip()])] = value.strip()
+    return result
+
+
+def read_parameters(path):
+    """The same of a file, empty if there is none."""
+    if not os.path.exists(path):
+        return {}
+    with open(path, encoding="utf-8") as stream:
+        return parameters_in(stream)
+
+
+def reference_value(summary, key, source=""):
+    """The number that the summary compares `key` with, or None; `source` picks one of several."""
+    entries = summary.get("reference", {}).get(key)
+    if isinstance(entries, dict) and "value" not in entries:
+        entries = [dict(entry, source=entry.get("source", name)) for name, entry in entries.items()]
+    elif not isinstance(entries, list):
+        entries = [entries]
+    entries = [entry for entry in entries if isinstance(entry, dict) and entry.get("value") is not None]
+    for entry in entries:
+        if source.lower() in str(entry.get("source", "")).lower():
+            return float(entry["value"])
+    return None
