@@ -4,7 +4,7 @@
 
 Reads RESULTS/<folder>-<name of the parameter file>/summary.json of the scenes of prm/. With --run, scenes without results
 are run first, one after the other; --rolled shortens their paths (results of other lengths are run anew), --scenes chooses.
-Scenes without results are left out and named.
+Scenes without results are named, and keep the row that they have in the table.
 """
 
 import fnmatch
@@ -15,7 +15,7 @@ from tread.commands import command_parser, run_command
 from tread.measured_runs import available_ranks, run_scene
 from tread.files import DataError, Error, read_summary
 from tread.runs import ROOT, parameters_of
-from tread.tables import fill, markdown, number, provenance
+from tread.tables import fill, machine, markdown, number, rows_of
 
 # (heading, key, factor, what is large: include/tread/output/quality.h)
 MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
@@ -45,6 +45,11 @@ def settings_of(scene, rolled):
     return settings
 
 
+def commit_of(summary):
+    """What stands in brackets in the version of the program."""
+    return summary["version"].partition("(")[2].rstrip(")")
+
+
 def cell(summary, key, factor, large):
     value = summary.get(key)
     if value is None:
@@ -62,7 +67,7 @@ def main():
     parser.add_argument("--ranks", metavar="N", type=int, default=available_ranks())
     parser.add_argument("--print", action="store_true", dest="only_print", help="print the table instead of filling it in")
     arguments = parser.parse_args()
-    rows, summaries, missing = [], [], []
+    rows, missing = [], []
     for scene in scenes(arguments.scenes):
         folder = os.path.join(arguments.results, scene[:-len(".prm")].replace(os.sep, "-"))
         try:
@@ -72,16 +77,17 @@ def main():
             print(f"note: {error}")
             missing.append(scene)
             continue
-        summaries.append(summary)
         rows.append([scene[:-len(".prm")], number(1e3 * summary["rolled_m"])]
-                    + [cell(summary, key, factor, large) for _, key, factor, large in MEASURES])
+                    + [cell(summary, key, factor, large) for _, key, factor, large in MEASURES] + [commit_of(summary)])
     if not rows:
         raise DataError(f"no results in {arguments.results}")
     if missing:
-        print("left out:", ", ".join(missing))
-    table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES], rows)
-    table += "\n\nBold: a run warns of it. " + provenance("contrib/plot/energy-table.py --run"
-                                                      + (f" --rolled {arguments.rolled:g}" if arguments.rolled else ""), summaries)
+        print("without results:", ", ".join(missing))
+    measured = {row[0] for row in rows}
+    rows += [row for row in rows_of("verification.md", "energy") if row[0] not in measured]
+    table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES] + ["commit"], sorted(rows))
+    table += (f"\n\nBold: a run warns of it. {machine()}; `contrib/plot/energy-table.py --run"
+              + (f" --rolled {arguments.rolled:g}" if arguments.rolled else "") + "`, each row with the commit it was made with.")
     if arguments.only_print:
         print(table)
     else:

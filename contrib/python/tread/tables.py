@@ -35,14 +35,27 @@ def number(value):
     return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
+def marked(name):
+    """Pattern of a table's text between its marks."""
+    return re.compile(rf"(<!-- begin table {name} -->\n)(.*?)(<!-- end table {name} -->)", re.DOTALL)
+
+
+def rows_of(page, name):
+    """[[cell]] of a table on a page of doc/ as it is, without its heading."""
+    with open(os.path.join(ROOT, "doc", page), encoding="utf-8") as stream:
+        found = marked(name).search(stream.read())
+    lines = [line for line in (found[2] if found else "").splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[1:]]
+
+
 def fill(page, name, table):
     """Put a table between its marks on a page of doc/."""
     path = os.path.join(ROOT, "doc", page)
     with open(path, encoding="utf-8") as stream:
         text = stream.read()
-    pattern = re.compile(rf"(<!-- begin table {name} -->\n).*?(<!-- end table {name} -->)", re.DOTALL)
+    pattern = marked(name)
     if not pattern.search(text):
         raise DataError(f"doc/{page}: no place for table '{name}'")
     with open(path, "w", encoding="utf-8") as stream:
-        stream.write(pattern.sub(lambda match: match[1] + table + "\n" + match[2], text))
+        stream.write(pattern.sub(lambda match: match[1] + table + "\n" + match[3], text))
     print(f"doc/{page}: table '{name}' filled")
