@@ -8,8 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from tread.files import read_parameters, read_summary
-from tread.runs import ROOT, arguments_of, command, environment, execute
+from tread.files import read_summary
+from tread.runs import ROOT, arguments_of, command, environment, execute, parameters_of
 from tread_runner import Check, press_ctrl_c, rows_of, run, script, table
 
 program, what = sys.argv[1], sys.argv[2]
@@ -282,8 +282,8 @@ with tempfile.TemporaryDirectory() as folder:
                    if name.endswith(".prm")]
         for scene in sorted(shipped):
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
-            settings = read_parameters(scene)
-            on_track = any(key.startswith("Track/") for key in settings)
+            settings = parameters_of(scene, program=program)
+            on_track = settings["Track/Foundation"] != "rigid"
             new_mesh = is_first(settings, no_mesh)
             if new_mesh:
                 dry = execute([scene, "--dry-run"], program=program)
@@ -292,7 +292,7 @@ with tempfile.TemporaryDirectory() as folder:
                 cut = execute([scene, "--dry-run", "-s", "Motion/Rolled distance (mm)=20"], program=program)
                 if not check.that(f"{name}: can be cut short", cut.returncode == 0):
                     print(cut.stderr)
-                check.that(f"{name}: cut short it costs less", steps(cut.stdout) < 0.1 * steps(dry.stdout))
+                check.that(f"{name}: cut short it costs less", steps(cut.stdout) < 0.5 * steps(dry.stdout))
             elif not on_track and is_first({**settings, **start}, ("Title",)):
                 short = run(program, name, path("start"), start)
                 check.that(f"{name}: starts and ends", short["completed"])
