@@ -104,7 +104,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("element updates of both parts over their time", resumed["element_updates_per_s"],
                        resumed["element_updates"] / resumed["wall_s_internal_forces"], 1e-9)
         same("resumed on 4 ranks against never stopped on 1",
-             run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 1e-4, 3e-3)
+             run(program, "smooth-rolling.prm", path("more-ranks"), settings, ranks=4, more=["--resume"]), whole, 1e-6, 3e-3)
 
         again = execute(arguments_of(SCENE, settings, path("parts")) + ["--resume"], program=program)
         check.that("a complete run is left as it is", again.returncode == 0 and "complete" in again.stdout
@@ -241,7 +241,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.that("the second wheel adds less settlement than the first",
                    0. < second["settlement_um"] - first["settlement_um"] < 0.5 * first["settlement_um"])
         ranks = run(program, "smooth-rolling.prm", path("ranks"), settings, 3)
-        same("3 ranks against 1", ranks, whole, 1e-6, 1e-5)
+        same("3 ranks against 1", ranks, whole, 1e-6, 3e-3)
         check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
         levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=3"])
         check.energy("levels of time steps: ", levels, 0.01)
