@@ -32,6 +32,11 @@ namespace tread
     /// Iterations between two corrections by the rail as a beam: until then the cells have followed the last.
     constexpr unsigned int iterations_between_beams = 200;
 
+    /// So often the coupling of a balanced contact is integrated anew. One or two are usual; more happen
+    /// where two couplings alternate, because a pair at the border of the patch comes with one of them and
+    /// goes with the other. Either is an equilibrium but for what this pair carries.
+    constexpr unsigned int most_refreshes = 10;
+
     /// The slowest motion by far is that of the whole wheel sinking into the contact. Its rigid shift is
     /// given this many times more acceleration by the total force.
     constexpr double lightness_of_wheel = 16.;
@@ -360,7 +365,7 @@ namespace tread
     // Sweeps on the way to equilibrium are no steps in time.
     const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
     Relaxation          relaxation(*this);
-    unsigned int        iteration = 1, last_refresh = 0;
+    unsigned int        iteration = 1, last_refresh = 0, n_refreshes = 0;
     for (; iteration <= max_iterations; ++iteration)
       {
         const unsigned int place   = iteration % iterations_between_looks;
@@ -380,16 +385,21 @@ namespace tread
         if (!std::isfinite(share))
           throw std::runtime_error("no equilibrium at the start: forces grow without bound after " +
                                    std::to_string(iteration) + " iterations");
+        const bool was_due = contact && contact->refresh_due();
         if (after_measurement)
           after_measurement(iteration, share);
-        // The iteration continues if the callback has changed the contact.
-        if (share <= tolerance && !(contact && contact->refresh_due()))
+        // The iteration continues if the callback has changed the contact, but not because pairs at the
+        // border of the patch come and go for ever.
+        const bool changed = contact && contact->refresh_due() && !was_due;
+        if (share <= tolerance && !changed)
           {
             // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
-            if (!contact || iteration <= last_refresh + iterations_between_looks)
+            if (!contact || iteration <= last_refresh + iterations_between_looks ||
+                n_refreshes == most_refreshes)
               break;
             relaxation.refresh_contact();
             last_refresh = iteration;
+            ++n_refreshes;
           }
       }
     if (iteration > max_iterations)

@@ -55,6 +55,9 @@ namespace tread
         text = match.prefix().str() + std::regex_replace(match[1].str(), std::regex(R"(\|)"), " or ") +
                match.suffix().str();
       text = std::regex_replace(
+        text, std::regex(R"(\[List of <(\[[^\]]*\])> of length \d+\.\.\.(\d+) \(inclusive\)\])"),
+        "up to $2 numbers from $1, separated by commas");
+      text = std::regex_replace(
         text, std::regex(R"(\[(Double|Integer range) (\S*?)\.\.\.(\S*) \(inclusive\)\])"), "$2 to $3");
       return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }
@@ -66,12 +69,14 @@ namespace tread
       std::vector<std::string> included; ///< as named, in their order
     };
 
-    ParameterFile read_parameter_file(const std::string &file)
+    /// @param included: by another file
+    ParameterFile read_parameter_file(const std::string &file, const bool included)
     {
       std::ifstream input(file);
       if (!input)
-        throw InputError("cannot read parameter file '" + file + "'");
-      const std::regex include("\\s*include\\s+(.*\\S)\\s*");
+        throw InputError("cannot read parameter file '" + file + "'" +
+                         (included ? ", which another one includes" : ""));
+      const std::regex include("\\s*include\\s+([^#]*[^#\\s])\\s*(#.*)?");
       ParameterFile    content;
       std::string      line;
       for (std::smatch match; std::getline(input, line); content.text += '\n')
@@ -156,7 +161,7 @@ namespace tread
       throw InputError("parameter file '" + file + "' is included by itself");
     if (std::filesystem::is_directory(file))
       throw InputError("parameter file '" + file + "' is a folder");
-    const ParameterFile content = read_parameter_file(file);
+    const ParameterFile content = read_parameter_file(file, depth > 0);
     for (const std::string &name : content.included)
       parse((std::filesystem::path(file).parent_path() / name).string(), depth + 1);
     try

@@ -118,8 +118,10 @@ namespace tread
         for (const auto &[name, value] :
              {std::pair("normal_force_N", force[2]), std::pair("longitudinal_force_N", force[0]),
               std::pair("lateral_force_N", force[1]), std::pair("traction_coefficient", traction),
-              std::pair("creepage", wheel.creepage(scene)), std::pair("max_pressure_Pa", patch.max_pressure),
-              std::pair("patch_area_m2", patch.area), std::pair("adhesion_share", patch.adhesion_share),
+              std::pair("creepage", wheel.creepage(scene)),
+              std::pair("free_rolling_creepage", wheel.free_creepage),
+              std::pair("max_pressure_Pa", patch.max_pressure), std::pair("patch_area_m2", patch.area),
+              std::pair("adhesion_share", patch.adhesion_share),
               std::pair("max_slip_m_per_s", patch.max_slip),
               std::pair("frictional_power_W", patch.frictional_power)})
           summary.set(prefix + name, value);

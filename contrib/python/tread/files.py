@@ -8,6 +8,7 @@ import csv
 import gzip
 import json
 import os
+import re
 
 
 class Error(Exception):
@@ -88,6 +89,17 @@ def parameters_in(lines):
             name, _, value = line[len("set "):].partition("=")
             result["/".join(section + [name.strip()])] = value.strip()
     return result
+
+
+def texts_of(scene):
+    """[text] of a parameter file and of those that it includes, one after the other. @raises DataError"""
+    try:
+        with open(scene, encoding="utf-8") as stream:
+            text = stream.read()
+    except OSError as error:
+        raise DataError(f"{scene}: {error.strerror}") from None
+    included = re.findall(r"^\s*include\s+([^#\n]*[^#\s])", text, re.MULTILINE)
+    return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name))]
 
 
 def read_parameters(path):

@@ -38,7 +38,7 @@ import subprocess
 import time
 
 from .commands import command_parser, run_command
-from .files import DataError, is_complete
+from .files import DataError, is_complete, texts_of
 from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
@@ -170,8 +170,7 @@ class Member(Run):
         self.name, self.state, self.process = name, "", None
         self.line = arguments_of(study.scene, settings, self.folder)
         self.ranks, self.program = arguments.ranks or study.ranks, arguments.program
-        with open(study.scene, encoding="utf-8") as stream:
-            self.input = {"settings": settings, "scene": stream.read()}
+        self.input = {"settings": settings, "scene": texts_of(study.scene)}
 
     def same_input(self):
         try:

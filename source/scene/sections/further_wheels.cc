@@ -19,7 +19,8 @@ namespace tread
       "Distances (mm)", distances,
       "Of the axles of further wheels behind that of the first one, rising, separated by commas. "
       "They are like the first wheel, with the same load, speed and rolled distance, and roll on the "
-      "same rail at the same time. Empty: there is one wheel.",
+      "same rail at the same time. A distance of whole finest cells gives each the same mesh. "
+      "Empty: there is one wheel.",
       Double(tiny, 1e5), most_wheels);
     section.add(
       "Traction coefficients", traction_coefficients,
@@ -42,6 +43,6 @@ namespace tread
       }
     require(traction_coefficients.empty() || traction_coefficients.size() == distances.size(),
             "'Further wheels/Traction coefficients' has " + std::to_string(traction_coefficients.size()) +
-              " numbers for " + std::to_string(distances.size()) + " further wheels");
+              " entries; 'Further wheels/Distances (mm)' has " + std::to_string(distances.size()));
   }
 } // namespace tread
