@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/registry.h>
 #include <tread/contact/falling_friction.h>
 #include <tread/contact/friction_law.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 
 namespace tread
 {
@@ -64,10 +63,6 @@ namespace tread
                                                        const double                    coefficient,
                                                        const dealii::ParameterHandler &section)
   {
-    const auto law = std::find_if(friction_laws().begin(), friction_laws().end(),
-                                  [&](const FrictionLawEntry &entry) { return entry.name == name; });
-    if (law == friction_laws().end())
-      throw std::invalid_argument("there is no friction law '" + name + "'");
-    return law->make(coefficient, section);
+    return entry_named(friction_laws(), name, "friction law").make(coefficient, section);
   }
 } // namespace tread

@@ -385,13 +385,10 @@ namespace tread
         if (!std::isfinite(share))
           throw std::runtime_error("no equilibrium at the start: forces grow without bound after " +
                                    std::to_string(iteration) + " iterations");
-        const bool was_due = contact && contact->refresh_due();
         if (after_measurement)
           after_measurement(iteration, share);
-        // The iteration continues if the callback has changed the contact, but not because pairs at the
-        // border of the patch come and go for ever.
-        const bool changed = contact && contact->refresh_due() && !was_due;
-        if (share <= tolerance && !changed)
+        // The iteration continues if the callback has changed the contact.
+        if (share <= tolerance && !(contact && contact->refresh_due()))
           {
             // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
             if (!contact || iteration <= last_refresh + iterations_between_looks ||

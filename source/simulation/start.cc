@@ -28,15 +28,28 @@ namespace tread
     const double                                         began = progress.seconds();
     std::vector<std::optional<reference::RollingResult>> half_space;
     for (RollingWheel &wheel : wheels)
-      half_space.push_back(predict_rolling(wheel, progress));
+      {
+        const auto own  = wheels.begin() + wheel.number;
+        const auto like = std::find_if(wheels.begin(), own, [&](const RollingWheel &before) {
+          return scene.traction_coefficient(before.number) == scene.traction_coefficient(wheel.number);
+        });
+        if (like == own)
+          half_space.push_back(predict_rolling(wheel, progress));
+        else
+          {
+            half_space.push_back(half_space[like->number]);
+            wheel.target_creepage = like->target_creepage;
+          }
+      }
     const bool predicts_tractions =
       std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
+      const NodalField x       = dynamics.positions();
+      const double     stretch = half_space_stretch(scene);
       for (RollingWheel &wheel : wheels)
-        wheel.free_creepage =
-          contact.free_rolling_creepage(dynamics.positions().data(), wheel.body) - half_space_stretch(scene);
+        wheel.free_creepage = contact.free_rolling_creepage(x.data(), wheel.body) - stretch;
     };
     bool         free_rolling_known = false;
     unsigned int unloaded           = 0; // measurements in a row

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/registry.h>
 #include <tread/solid/element.h>
 #include <tread/solid/fully_integrated.h>
 #include <tread/solid/one_point.h>
-
-#include <algorithm>
-#include <stdexcept>
 
 namespace tread
 {
@@ -33,10 +31,6 @@ namespace tread
 
   const ElementEntry &element_named(const std::string &name)
   {
-    const auto found = std::find_if(elements().begin(), elements().end(),
-                                    [&](const ElementEntry &element) { return element.name == name; });
-    if (found == elements().end())
-      throw std::invalid_argument("there is no element '" + name + "'");
-    return *found;
+    return entry_named(elements(), name, "element");
   }
 } // namespace tread

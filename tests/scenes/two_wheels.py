@@ -25,18 +25,16 @@ def on_rigid_foundation(path):
     alone = [run(program, RIGID, path("first"), COARSE),
              run(program, RIGID, path("second"), COARSE + ["Motion/Traction coefficient=0.15"])]
     together = run(program, RIGID, path("both"), COARSE + BEHIND)
-    for number, single in enumerate(alone):
+    for number, (single, folder) in enumerate(zip(alone, ("first", "second"))):
+        prefix, table = (f"wheel_{number + 1}_", "patch_wheel_2.csv") if number else ("", "patch.csv")
         for key in PATCH:
-            of_wheel = f"wheel_{number + 1}_{key}" if number else key
-            check.relative(f"wheel {number + 1} as alone: {key}", together[of_wheel], single[key], 0.01)
-        tables = ["patch.csv" if not number or folder != "both" else "patch_wheel_2.csv"
-                  for folder in ("both", ("first", "second")[number])]
-        both, own = (sum(row["pressure_MPa"] * row["area_mm2"] for row in rows_of(path(folder), name))
-                     for folder, name in zip(("both", ("first", "second")[number]), tables))
+            check.relative(f"wheel {number + 1} as alone: {key}", together[prefix + key], single[key], 0.01)
+        both, own = (sum(row["pressure_MPa"] * row["area_mm2"] for row in rows_of(path(place), name))
+                     for place, name in (("both", table), (folder, "patch.csv")))
         check.relative(f"wheel {number + 1} as alone: sum of its patch table (N)", both, own, 0.01)
-        last_both, last_own = (rows_of(path(folder), "history.csv")[-1] for folder in ("both", ("first", "second")[number]))
+        last_both, last_own = (rows_of(path(place), "history.csv")[-1] for place in ("both", folder))
         check.relative(f"wheel {number + 1} as alone: largest pressure in the last row of the history (Pa)",
-                       last_both["wheel_2_max_pressure_Pa" if number else "max_pressure_Pa"], last_own["max_pressure_Pa"], 0.01)
+                       last_both[prefix + "max_pressure_Pa"], last_own["max_pressure_Pa"], 0.01)
     check.energy("two wheels: ", together, 3e-3)
     for ranks in (2, 3):
         parallel = run(program, RIGID, path(f"{ranks}"), COARSE + BEHIND, ranks=ranks)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/registry.h>
 #include <tread/geometry/measured_line.h>
 #include <tread/scene/sections/defect.h>
 
@@ -105,9 +106,8 @@ namespace tread
 
   std::shared_ptr<const Defect> DefectSection::make(const std::string &file) const
   {
-    const auto                    found  = std::find_if(defect_shapes().begin(), defect_shapes().end(),
-                                                        [&](const DefectShape &entry) { return entry.name == shape; });
-    const std::shared_ptr<Defect> defect = found->make(*this, file);
+    const std::shared_ptr<Defect> defect =
+      entry_named(defect_shapes(), shape, "defect shape").make(*this, file);
     if (!defect)
       return nullptr;
     if (length > 0.)
