@@ -49,8 +49,8 @@ namespace tread
       return std::remainder(angle, 2. * pi);
     }
 
-    /// wanted_cell_size around the axis. The box is moved to arc lengths symmetric to zero, so that the
-    /// shorter way around counts; distances along the arc are those at the point's own radius.
+    /// wanted_cell_size around the axis. The box, and the cubes in it, are moved to arc lengths symmetric to
+    /// zero, so that the shorter way around counts; distances along the arc are those at the point's own radius.
     std::function<double(const dealii::Point<3> &)> cell_size_around(const WheelAxis &axis,
                                                                      const double     radius,
                                                                      FineZone         zone)
@@ -62,6 +62,8 @@ namespace tread
         FineZone     local = zone;
         local.x_begin      = -half * r;
         local.x_end        = half * r;
+        local.cubes_begin  = (zone.cubes_begin / radius - center) * r;
+        local.cubes_end    = (zone.cubes_end / radius - center) * r;
         return local.wanted_size(wrap(axis.angle(p) - center) * r, p[1], radius - r);
       };
     }

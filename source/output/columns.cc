@@ -299,6 +299,40 @@ namespace tread
   }
 
 
+  const Columns<StressPeaks::Layer> &peak_columns()
+  {
+    using R = StressPeaks::Layer;
+    static const Columns<R> columns{{"depth", "mm",
+                                     [](const R &r) {
+                                       return r.peak.depth;
+                                     }},
+                                    {"von_mises", "MPa",
+                                     [](const R &r) {
+                                       return r.peak.value;
+                                     }},
+                                    {"x", "mm",
+                                     [](const R &r) {
+                                       return r.peak.x;
+                                     }},
+                                    {"y", "mm",
+                                     [](const R &r) {
+                                       return r.peak.y;
+                                     }},
+                                    {"time", "s",
+                                     [](const R &r) {
+                                       return r.peak.time;
+                                     }},
+                                    {"wheel_x", "mm",
+                                     [](const R &r) {
+                                       return r.peak.wheel_x;
+                                     }},
+                                    {"equivalent_strain", "percent", [](const R &r) {
+                                       return r.equivalent_strain;
+                                     }}};
+    return columns;
+  }
+
+
   const Columns<StripColumn> &strip_columns()
   {
     using R = StripColumn;

@@ -93,7 +93,7 @@ namespace tread
         static const std::regex own(
           "(summary\\.json|(history|patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|transient|"
           "rail_cells|"
-          "rail_surface|strip|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
+          "rail_surface|strip|peak_stress(_wheel)?|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
@@ -155,6 +155,16 @@ namespace tread
   void RunFolder::write_passages(const std::vector<Passage> &passages) const
   {
     write_table("passages.csv", passage_columns(), passages);
+  }
+
+
+  void RunFolder::write_peaks(const std::string &name, const StressPeaks::Answer &answer) const
+  {
+    std::vector<StressPeaks::Layer> rows;
+    if (answer.surface.peak.value > 0.)
+      rows.push_back(answer.surface);
+    rows.insert(rows.end(), answer.layers.begin(), answer.layers.end());
+    write_table(name, peak_columns(), rows);
   }
 
 

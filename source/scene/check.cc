@@ -28,6 +28,7 @@ namespace tread
     rail.check();
     check_surfaces();
     check_defect();
+    check_peak_stress();
     wheel.check();
     further_wheels.check(2. * wheel.radius);
     mesh.check();
@@ -101,15 +102,39 @@ namespace tread
     const char *of_width = defect.width > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
     for (const auto &[name, size] :
          {std::pair("'Defect/Length (mm)'", made.length), std::pair(of_width, made.width)})
-      require(size >= mesh.finest_cell, std::string(name) + " " + text_in_mm(size) +
-                                          " is lost between the nodes; at least 'Mesh/Finest cell (mm)', " +
-                                          text_in_mm(mesh.finest_cell));
+      require(size >= 2. * mesh.finest_cell,
+              std::string(name) + " " + text_in_mm(size) +
+                " is lost between the nodes; at least twice 'Mesh/Finest cell (mm)', " +
+                text_in_mm(2. * mesh.finest_cell));
     const double head =
       rail.is_block() ? rail.half_width() : rail.standard_profile().head_point(rail.half_width())[0];
     const double edge = std::isinf(made.width) ? 0. : std::abs(defect.lateral_position) + 0.5 * made.width;
     require(edge <= head, "the defect reaches to " + text_in_mm(edge) +
                             " mm beside the rail's middle and the top of the head only to " +
                             text_in_mm(head) + " mm: lower 'Defect/Width (mm)' or 'Lateral position (mm)'");
+  }
+
+
+  void Scene::check_peak_stress() const
+  {
+    if (!peak_stress.is_wanted())
+      return;
+    const Range region = peak_range();
+    if (peak_stress.place == PeakPlace::range)
+      require(peak_stress.from < peak_stress.to, "'Peak stress/From (mm)' " + text_in_mm(peak_stress.from) +
+                                                   " must be below 'To (mm)', " + text_in_mm(peak_stress.to));
+    const double last = path_end() + 0.5 * mesh.finest_cell;
+    require(region.begin >= path_begin() && region.end <= last,
+            "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " +
+              text_in_mm(region.end) + " mm, must lie on the path of the first wheel, which is from " +
+              text_in_mm(path_begin()) + " to " + text_in_mm(last) + " mm");
+    require(peak_stress.depth >= mesh.finest_cell,
+            "'Peak stress/Depth (mm)' " + text_in_mm(peak_stress.depth) +
+              " holds no layer of cells; at least 'Mesh/Finest cell (mm)', " + text_in_mm(mesh.finest_cell));
+    const double widest = std::min(rail.half_width(), wheel.half_width());
+    require(peak_stress.half_width <= widest, "'Peak stress/Half width (mm)' " +
+                                                text_in_mm(peak_stress.half_width) +
+                                                " exceeds that of rail or wheel, " + text_in_mm(widest));
   }
 
 

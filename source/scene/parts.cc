@@ -124,6 +124,44 @@ namespace tread
   }
 
 
+  PeakRegion peak_region(const Scene &scene, const unsigned int body)
+  {
+    // Twice this far from its middle, a patch causes a twentieth of its largest stress.
+    constexpr double              semi_axes = 3.;
+    const reference::HertzEllipse ellipse   = hertz(scene, scene.static_load());
+    const Scene::Range            range     = scene.peak_range();
+    const PeakStressSection      &section   = scene.peak_stress;
+    PeakRegion                    region;
+    region.x_begin     = range.begin;
+    region.x_end       = range.end;
+    region.y_middle    = scene.first_contact().y;
+    region.half_width  = section.half_width > 0. ? section.half_width : ellipse.semi_axis_y;
+    region.depth       = section.depth;
+    region.finest_cell = scene.mesh.finest_cell;
+    region.reach       = semi_axes * ellipse.semi_axis_x;
+    if (body == rail_body)
+      {
+        region.along = [](const dealii::Point<3> &p) {
+          return p[0];
+        };
+        region.depth_of = [&scene](const dealii::Point<3> &p) {
+          return scene.depth_in_rail(p);
+        };
+        return region;
+      }
+    const double begin = scene.path_begin(), height = scene.axle_height(), radius = scene.rolling_radius();
+    region.along = [=](const dealii::Point<3> &p) {
+      return begin + radius * std::atan2(p[0] - begin, height - p[2]);
+    };
+    region.depth_of = [&scene, begin, height](const dealii::Point<3> &p) {
+      const RunningSurfaces &surfaces = scene.surfaces();
+      const double           offset   = surfaces.tread_offset ? surfaces.tread_offset(p[1]) : 0.;
+      return surfaces.radius + offset - std::hypot(p[0] - begin, height - p[2]);
+    };
+    return region;
+  }
+
+
   WheelHubParameters hub_parameters(const Scene &scene)
   {
     WheelHubParameters p;

@@ -20,5 +20,6 @@ namespace tread
     time_stepping.declare(handler);
     start.declare(handler);
     output.declare(handler);
+    peak_stress.declare(handler);
   }
 } // namespace tread

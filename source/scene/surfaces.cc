@@ -197,6 +197,19 @@ namespace tread
   }
 
 
+  Scene::Range Scene::peak_range() const
+  {
+    if (peak_stress.place == PeakPlace::range)
+      return {peak_stress.from, peak_stress.to};
+    const double length = shapes->defect ? shapes->defect->length : defect.length;
+    require(length > 0.,
+            "'Peak stress/Region' trailing edge needs a defect, or its 'Defect/Length (mm)' where "
+            "'Defect/Shape' is none");
+    const double edge = defect.position + length;
+    return {edge - 0.5 * length, edge + hertz(*this, static_load()).semi_axis_x};
+  }
+
+
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
     const auto &height = surfaces().defect;

@@ -184,6 +184,38 @@ namespace tread
   }
 
 
+  void Simulation::add_peaks(Summary &summary, RunFolder &folder) const
+  {
+    if (!rail_peaks)
+      return;
+    const auto add = [&](const std::string &name, const Peak &peak, const bool with_depth) {
+      summary.set(name + "_Pa", peak.value);
+      summary.set(name + "_x_m", peak.x);
+      summary.set(name + "_y_m", peak.y);
+      if (with_depth)
+        summary.set(name + "_depth_m", peak.depth);
+      summary.set(name + "_time_s", peak.time);
+    };
+    for (const bool of_rail : {true, false})
+      {
+        const StressPeaks::Answer answer = (of_rail ? rail_peaks : wheel_peaks)->answer(dynamics);
+        const std::string         prefix = of_rail ? "peak_" : "wheel_peak_";
+        Peak                      highest;
+        for (const StressPeaks::Layer &layer : answer.layers)
+          highest = std::max(highest, layer.peak);
+        add(prefix + "von_mises", highest, true);
+        add(prefix + "surface_von_mises", answer.surface.peak, false);
+        if (of_rail)
+          {
+            add("peak_surface_von_mises_from_tractions", answer.from_tractions, false);
+            add("peak_pressure", answer.pressure, false);
+            add("peak_shear", answer.shear, false);
+          }
+        folder.write_peaks(of_rail ? "peak_stress.csv" : "peak_stress_wheel.csv", answer);
+      }
+  }
+
+
   void Simulation::finish(RunFolder &folder, const End end)
   {
     const bool          completed = end == End::complete;
@@ -228,6 +260,7 @@ namespace tread
     const std::string further_wheels = add_further_wheels(summary, patches);
     add_cost(summary);
     add_recorded(summary, folder);
+    add_peaks(summary, folder);
     folder.write("summary.json", summary.text());
     if (averaged)
       for (const RollingWheel &of_table : wheels)

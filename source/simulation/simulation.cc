@@ -82,6 +82,15 @@ namespace tread
 
     if (scene.output.strip_half_width > 0.)
       strip = std::make_unique<StressStrip>(mesh, rail_body, strip_extent(scene));
+    if (scene.peak_stress.is_wanted())
+      {
+        const auto record = [&](const Contact *slave, const unsigned int body) {
+          return std::make_unique<StressPeaks>(dynamics, slave, body, materials(scene)[body],
+                                               peak_region(scene, body));
+        };
+        rail_peaks  = record(&contact, rail_body);
+        wheel_peaks = record(nullptr, wheels.front().body);
+      }
     if (const auto points = scene.recorded_cells(); !points.empty())
       try
         {
@@ -99,6 +108,9 @@ namespace tread
     dynamics.serialize(archive); // and hubs, supports and contact, which are attached to it
     if (strip)
       strip->serialize(archive);
+    for (StressPeaks *peaks : {rail_peaks.get(), wheel_peaks.get()})
+      if (peaks)
+        peaks->serialize(archive);
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
     archive.same(torque_released, solution_taken, passages, interval_steps, interval_start_time, last_steps);
@@ -174,6 +186,21 @@ namespace tread
         for (RollingWheel &wheel : wheels)
           wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.time_step);
       }
+  }
+
+
+  void Simulation::look_for_peaks()
+  {
+    if (!rail_peaks)
+      return;
+    const auto near = std::find_if(wheels.begin(), wheels.end(), [&](const RollingWheel &wheel) {
+      return rail_peaks->concerns(wheel.hub.motion.x);
+    });
+    if (near == wheels.end())
+      return;
+    rail_peaks->sample(dynamics, contact.active_nodes(), near->hub.motion.x);
+    if (near == wheels.begin())
+      wheel_peaks->sample(dynamics, {}, position());
   }
 
 
@@ -379,6 +406,7 @@ namespace tread
         set_drive();
         dynamics.step();
         add_to_interval();
+        look_for_peaks();
         if (!dynamics.synchronised())
           continue;
         if (contact.contact_at_rim())

@@ -113,6 +113,14 @@ namespace tread
   }
 
 
+  std::vector<std::unique_ptr<const CellGroup>> Solid::groups_of(const Mesh                      &mesh,
+                                                                 const unsigned int               body,
+                                                                 const std::vector<unsigned int> &cells) const
+  {
+    return element_named(parameters.element).make(parameters)->make_groups(mesh, materials[body], cells);
+  }
+
+
   std::size_t Solid::memory_consumption() const
   {
     std::size_t bytes = plastic_cells.memory_consumption() + frequencies.size() * sizeof(frequencies[0]) +

@@ -79,9 +79,10 @@ namespace tread
       const double                    poisson;
     };
 
-    /// Stresses down to three times the smaller semi-axis, under the patch centre and at the x of the
-    /// largest von Mises stress, in both bodies; the largest go into the summary. They are those of the
-    /// tractions of first order, within 0.4 % from a twentieth of the smaller semi-axis on.
+    /// Stresses down to three times the smaller semi-axis in both bodies, under the patch centre, at the x of
+    /// the largest von Mises stress, and at each depth where this is largest on the plane y = 0; the largest
+    /// go into the summary. They are those of the tractions of first order, within 0.4 % from a twentieth of
+    /// the smaller semi-axis on.
     std::string depth_lines(const Scene &scene, Summary &summary)
     {
       const reference::RollingResult answer = reference::solve_rolling(half_space_case(scene));
@@ -102,22 +103,43 @@ namespace tread
           summary.set(name + "_max_von_mises_x_m", worst[0]);
           summary.show(name + "_max_von_mises_depth_m", "its depth, " + name + ", mm", 1e3, worst[2]);
           // On the surface stresses are singular on element edges, so lines go through element centres.
-          const double nearest = std::round(worst[0] / answer.element_size) * answer.element_size;
+          const double        nearest = std::round(worst[0] / answer.element_size) * answer.element_size;
+          std::vector<double> depths;
+          for (unsigned int k = 0; k <= 60; ++k)
+            depths.push_back(smaller * (k <= 40 ? 0.025 * k : 1. + 0.1 * (k - 40)));
+          const auto add_row = [&](const char *line, const Point &p, const Stress &s) {
+            table << name << ',' << line << ',' << 1e3 * p[0] << ',' << 1e3 * scene.first_contact().y << ','
+                  << 1e3 * p[2];
+            for (const double value : {s.von_mises(), s.mean(), s.xx, s.yy, s.zz, s.xy, s.xz, s.yz})
+              table << ',' << 1e-6 * value;
+            table << '\n';
+          };
           for (const auto &[line, x] : {std::pair<const char *, double>{"centre", 0.}, {"maximum", nearest}})
             {
               std::vector<Point> points;
-              for (unsigned int k = 0; k <= 60; ++k)
-                points.push_back({x, 0., smaller * (k <= 40 ? 0.025 * k : 1. + 0.1 * (k - 40))});
+              for (const double depth : depths)
+                points.push_back({x, 0., depth});
               const std::vector<Stress> stresses = stress.at(points);
               for (std::size_t k = 0; k < points.size(); ++k)
-                {
-                  const Stress &s = stresses[k];
-                  table << name << ',' << line << ',' << 1e3 * x << ',' << 1e3 * scene.first_contact().y
-                        << ',' << 1e3 * points[k][2];
-                  for (const double value : {s.von_mises(), s.mean(), s.xx, s.yy, s.zz, s.xy, s.xz, s.yz})
-                    table << ',' << 1e-6 * value;
-                  table << '\n';
-                }
+                add_row(line, points[k], stresses[k]);
+            }
+          // From one depth to the next the place moves by an element or two.
+          constexpr double two_and_a_half = 2.5;
+          double           around = 0., reach = a;
+          for (const double depth : depths)
+            {
+              std::vector<Point> points;
+              for (const double x : answer.x)
+                if (std::abs(x - around) <= reach)
+                  points.push_back({x, 0., depth});
+              const std::vector<Stress> stresses = stress.at(points);
+              const auto                most =
+                std::max_element(stresses.begin(), stresses.end(), [](const Stress &p, const Stress &q) {
+                  return p.von_mises() < q.von_mises();
+                });
+              around = points[most - stresses.begin()][0];
+              reach  = two_and_a_half * answer.element_size;
+              add_row("largest", points[most - stresses.begin()], *most);
             }
         }
       return table.str();

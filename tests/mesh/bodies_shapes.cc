@@ -506,6 +506,20 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check.absolute("wheel: size just before the zone, mm", 1e3 * size_at(pi * 0.46 - 0.0301), 2., 1e-12);
   check.that("wheel: coarse at the opposite end", size_at(0.) > 0.1);
 
+  // Cubes in a part of the path lie in that part of the tread, and nowhere else.
+  FineZone in_part;
+  in_part.x_begin     = -0.02;
+  in_part.x_end       = 0.30;
+  in_part.path_level  = 2;
+  in_part.cubes_begin = 0.20;
+  in_part.cubes_end   = 0.24;
+  const Body partly   = make_full_wheel(FullWheel(), in_part);
+  for (const auto &[arc, size] : {std::pair(0., 4.), {0.14, 4.}, {0.201, 1.}, {0.239, 1.}, {0.29, 4.}})
+    check.absolute("wheel: size at an arc of " + std::to_string(arc) + " m, cubes from 0.20 to 0.24 m, mm",
+                   1e3 * partly.wanted_cell_size(
+                           Point<3>(0.46 * std::sin(arc / 0.46), 0., 0.46 - 0.46 * std::cos(arc / 0.46))),
+                   size, 1e-12);
+
   // Impossible requests are refused.
   const auto refused = [](const auto &make) {
     return !tests::complaint<std::invalid_argument>(make).empty();

@@ -83,6 +83,9 @@ namespace tread
     /// strip.csv: one row for each column of cells under the path.
     void write_strip(const std::vector<StripColumn> &columns) const;
 
+    /// The largest stresses at the surface, depth 0, and in each layer of cells below it.
+    void write_peaks(const std::string &name, const StressPeaks::Answer &answer) const;
+
     /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
     /// row not later than time. @param n_wheels that the rows contain; @param supports numbers of those whose
     /// forces they contain.

@@ -3,6 +3,7 @@
 #define tread_scene_parts_h
 
 #include <tread/analysis/rail_stress.h>
+#include <tread/analysis/stress_peaks.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/body.h>
@@ -41,7 +42,9 @@ namespace tread
   Mesh::CellCost cell_cost(const Scene &scene);
   /// The cells of the rail whose largest stress is recorded, down to a depth below the maximum of the shear
   /// stress.
-  StripExtent        strip_extent(const Scene &scene);
+  StripExtent strip_extent(const Scene &scene);
+  /// Where the largest stresses of the rail, or of the tread of the first wheel, are looked for.
+  PeakRegion         peak_region(const Scene &scene, const unsigned int body);
   WheelHubParameters hub_parameters(const Scene &scene);
   DynamicsParameters dynamics_parameters(const Scene &scene);
   ContactParameters  contact_parameters(const Scene &scene);

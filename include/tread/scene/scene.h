@@ -10,6 +10,7 @@
 #include <tread/scene/sections/mesh.h>
 #include <tread/scene/sections/motion.h>
 #include <tread/scene/sections/output.h>
+#include <tread/scene/sections/peak_stress.h>
 #include <tread/scene/sections/rail.h>
 #include <tread/scene/sections/solid.h>
 #include <tread/scene/sections/start.h>
@@ -45,6 +46,7 @@ namespace tread
     TimeSteppingSection  time_stepping;
     StartSection         start;
     OutputSection        output;
+    PeakStressSection    peak_stress;
 
     /// Read a parameter file (none: all defaults) with those that its lines "include NAME" name, relative to
     /// its folder, then "Section/Name=value" settings in their order, and
@@ -152,6 +154,13 @@ namespace tread
     /// Lateral middle of the finely meshed path: the first contact, shifted by whole cells towards the middle
     /// of the patch, m.
     double path_y() const;
+    /// Where the largest stresses are looked for, x in m. @throws InputError if nothing says where the defect
+    /// ends.
+    struct Range
+    {
+      double begin, end;
+    };
+    Range peak_range() const;
     /// Depth below the running surface of a point in the reference configuration, m.
     double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
@@ -194,6 +203,7 @@ namespace tread
     void check_motion() const;
     void check_surfaces() const;
     void check_defect() const;
+    void check_peak_stress() const;
     void check_mesh() const;
     void check_track() const;
     void check_overhang() const;

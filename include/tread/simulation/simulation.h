@@ -4,6 +4,7 @@
 
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
+#include <tread/analysis/stress_peaks.h>
 #include <tread/base/archive.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
@@ -51,6 +52,7 @@ namespace tread
     void                                    set_drive();
     std::vector<SupportRecord>              support_records() const;
     void                                    add_to_interval();
+    void                                    look_for_peaks();
     void                                    end_interval(RunFolder &folder);
     /// The patch of each wheel. Collective.
     std::vector<std::vector<PatchNode>> patches_now() const;
@@ -113,6 +115,7 @@ namespace tread
                                    const std::vector<std::vector<PatchNode>> &patches) const;
     void        add_cost(Summary &summary) const;
     void        add_recorded(Summary &summary, RunFolder &folder) const;
+    void        add_peaks(Summary &summary, RunFolder &folder) const;
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
     bool   interrupted() const;
@@ -133,9 +136,10 @@ namespace tread
     std::vector<RollingWheel>    wheels; ///< of fixed number
     ExplicitDynamics             dynamics;
     Contact                      contact;
-    std::unique_ptr<Supports>    supports; ///< none: the rail's bottom is held
-    std::unique_ptr<StressStrip> strip;    ///< none: no table
-    std::unique_ptr<CellProbes>  probes;   ///< none: no table
+    std::unique_ptr<Supports>    supports;                ///< none: the rail's bottom is held
+    std::unique_ptr<StressStrip> strip;                   ///< none: no table
+    std::unique_ptr<CellProbes>  probes;                  ///< none: no table
+    std::unique_ptr<StressPeaks> rail_peaks, wheel_peaks; ///< none: no tables
 
     double end_position; ///< of the first wheel, m
     bool   torque_released = false, solution_taken = false;

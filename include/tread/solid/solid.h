@@ -97,6 +97,12 @@ namespace tread
       return cauchy_stress(x, virgin_history);
     }
 
+    /// Some cells of a body, none of a plastic zone, in groups of their own: for those who look at their
+    /// stresses in every step.
+    std::vector<std::unique_ptr<const CellGroup>> groups_of(const Mesh                      &mesh,
+                                                            const unsigned int               body,
+                                                            const std::vector<unsigned int> &cells) const;
+
     /// The cells that may yield.
     const PlasticCells &plastic() const
     {

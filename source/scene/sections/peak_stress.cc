@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/peak_stress.h>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<PeakPlace>> &choices()
+  {
+    static const std::vector<Choice<PeakPlace>> list{
+      {PeakPlace::none, "none", "stresses are not looked at in every step."},
+      {PeakPlace::trailing_edge, "trailing edge",
+       "from the middle of the defect to a semi-axis of the patch behind its trailing edge, and the same "
+       "place on a smooth rail with 'Defect/Shape' none, where 'Defect/Position' and 'Length' still count."},
+      {PeakPlace::range, "range", "between From and To."}};
+    return list;
+  }
+
+
+  void PeakStressSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    Section section(handler, "Peak stress");
+
+    section.choose("Region", place,
+                   "peak_stress.csv lists, for each layer of cells of the rail in a region and for the "
+                   "surface, the largest von Mises stress of all steps with its place and instant, "
+                   "peak_stress_wheel.csv those of the tread of the first wheel that rolls over it.");
+    section.add("From (mm)", from, "x of a range.", Double(-1e5, 1e5));
+    section.add("To (mm)", to, "The same.", Double(-1e5, 1e5));
+    section.add("Half width (mm)", half_width,
+                "To both sides of the first contact; 0: that of the patch under the static load.",
+                Double(0., 100.));
+    section.add("Depth (mm)", depth, "Down to here.", Double(0.1, 100.));
+  }
+} // namespace tread
