@@ -20,6 +20,17 @@ namespace tread
     /// traction 1 - (1 - creepage)^2 of the bound, a tenth of the length adheres here, and the last hundredth
     /// of traction is a tenth of the creepage.
     constexpr double nearly_sliding = 0.99;
+
+    /// @param stress Pa; @param x, y, depth m
+    std::string line_of_stress(const std::string &what,
+                               const double       stress,
+                               const double       x,
+                               const double       y,
+                               const double       depth)
+    {
+      return format("%-46s %7.1f MPa at x = %.2f mm, y = %.2f mm, depth %.2f mm\n", what.c_str(),
+                    1e-6 * stress, 1e3 * x, 1e3 * y, 1e3 * depth);
+    }
   } // namespace
 
 
@@ -154,8 +165,9 @@ namespace tread
   }
 
 
-  void Simulation::add_recorded(Summary &summary, RunFolder &folder) const
+  std::string Simulation::add_recorded(Summary &summary, RunFolder &folder) const
   {
+    std::string lines;
     if (strip)
       {
         const std::vector<StripColumn> columns = strip->columns(dynamics);
@@ -171,6 +183,9 @@ namespace tread
                  {"strip_max_von_mises_depth_m", most->depth},
                  {"strip_max_von_mises_time_s", most->largest.time}})
             summary.set(name, value);
+        if (most != columns.end() && !rail_peaks)
+          lines = line_of_stress("largest von Mises stress of the rail's cells", most->largest.stress,
+                                 most->x, most->y, most->depth);
         folder.write_strip(columns);
       }
     for (std::size_t i = 0; probes && i < probes->centres().size(); ++i)
@@ -181,13 +196,15 @@ namespace tread
         summary.set(name + "_y_m", centre[1]);
         summary.set(name + "_depth_m", scene.depth_in_rail(centre));
       }
+    return lines;
   }
 
 
-  void Simulation::add_peaks(Summary &summary, RunFolder &folder) const
+  std::string Simulation::add_peaks(Summary &summary, RunFolder &folder) const
   {
+    std::string lines;
     if (!rail_peaks)
-      return;
+      return lines;
     const auto add = [&](const std::string &name, const Peak &peak, const bool with_depth) {
       summary.set(name + "_Pa", peak.value);
       summary.set(name + "_x_m", peak.x);
@@ -211,8 +228,13 @@ namespace tread
             add("peak_pressure", answer.pressure, false);
             add("peak_shear", answer.shear, false);
           }
+        const std::string body = of_rail ? "of the rail's" : "of the wheel's";
+        for (const auto &[where, peak] : {std::pair(" surface", answer.surface.peak), {" cells", highest}})
+          lines += line_of_stress("largest von Mises stress " + body + where, peak.value, peak.x, peak.y,
+                                  peak.depth);
         folder.write_peaks(of_rail ? "peak_stress.csv" : "peak_stress_wheel.csv", answer);
       }
+    return lines;
   }
 
 
@@ -237,7 +259,9 @@ namespace tread
 
     std::string            note;
     std::vector<PatchNode> reference_patch;
-    if (completed && normal > 0.)
+    if (scene.has_defect())
+      summary.set("note", note = "no comparison with steady rolling: the wheel crosses a defect");
+    else if (completed && normal > 0.)
       try
         {
           reference_patch = compare_with_half_space(summary, answer);
@@ -256,11 +280,12 @@ namespace tread
     quality.contact_unconverged =
       dynamics.n_steps > 0 ? double(contact.n_unconverged_steps()) / dynamics.n_steps : 0.;
     quality.add_to(summary);
+    if (scene.has_impacts())
+      impacts.add_to(summary, scene.static_load());
     const Rolled      rolled         = add_size(summary, normal);
     const std::string further_wheels = add_further_wheels(summary, patches);
     add_cost(summary);
-    add_recorded(summary, folder);
-    add_peaks(summary, folder);
+    const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder);
     folder.write("summary.json", summary.text());
     if (averaged)
       for (const RollingWheel &of_table : wheels)
@@ -271,12 +296,17 @@ namespace tread
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s\n%s%s%s%s",
-                    1e-3 * normal, 100. * ripple, traction, summary.table().c_str(), further_wheels.c_str(),
-                    quality.lines().c_str(), note.c_str(), note.empty() ? "" : "\n");
+        if (scene.has_impacts())
+          std::printf("\n%s%s", impacts.lines(scene.static_load()).c_str(), stresses.c_str());
+        // Where nothing is steady, the figures of one instant say little.
+        if (!scene.has_defect())
+          std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s",
+                      1e-3 * normal, 100. * ripple, traction, summary.table().c_str());
+        std::printf("\n%s%s%s%s", further_wheels.c_str(), quality.lines().c_str(), note.c_str(),
+                    note.empty() ? "" : "\n");
         for (const std::string &warning : quality.warnings())
           std::printf("WARNING: %s\n", warning.c_str());
-        if (completed && !rolled.long_enough())
+        if (completed && !scene.has_defect() && !rolled.long_enough())
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
                       rolled.patch_lengths, torque_released ? "torque acts" : "start",
                       rolled.lengths_to_be_steady);

@@ -108,6 +108,7 @@ namespace tread
     dynamics.serialize(archive); // and hubs, supports and contact, which are attached to it
     if (strip)
       strip->serialize(archive);
+    impacts.serialize(archive);
     for (StressPeaks *peaks : {rail_peaks.get(), wheel_peaks.get()})
       if (peaks)
         peaks->serialize(archive);
@@ -240,6 +241,7 @@ namespace tread
       row.cells = probes->record(dynamics);
     if (strip)
       strip->sample(dynamics, position());
+    impacts.add(row, dynamics.time - interval_start_time, scene.recorded_supports());
     folder.append(row);
     interval_start_time = dynamics.time;
     interval_steps      = 0;

@@ -80,7 +80,8 @@ namespace tread
     };
 
     /// Stresses down to three times the smaller semi-axis in both bodies, under the patch centre, at the x of
-    /// the largest von Mises stress, and at each depth where this is largest on the plane y = 0; the largest
+    /// the largest von Mises stress, and, in a scene that looks for peaks, at each depth where this is
+    /// largest on the plane y = 0; the largest
     /// go into the summary. They are those of the tractions of first order, within 0.4 % from a twentieth of
     /// the smaller semi-axis on.
     std::string depth_lines(const Scene &scene, Summary &summary)
@@ -123,6 +124,8 @@ namespace tread
               for (std::size_t k = 0; k < points.size(); ++k)
                 add_row(line, points[k], stresses[k]);
             }
+          if (!scene.peak_stress.is_wanted())
+            continue;
           // From one depth to the next the place moves by an element or two.
           constexpr double two_and_a_half = 2.5;
           double           around = 0., reach = a;

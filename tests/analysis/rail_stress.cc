@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Largest von Mises stress under a path, and stress of chosen cells, in a block that is stretched by a known
-// field: cells of two sizes, on several ranks.
+// Largest von Mises stress under a path, in layers of a region and at its surface, and stress of chosen
+// cells, in a block that is stretched by a known field: cells of two sizes, on several ranks.
 #include <tread/analysis/rail_stress.h>
+#include <tread/analysis/stress_peaks.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -10,6 +11,7 @@
 #include "reopened.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -161,6 +163,91 @@ namespace
     });
     check.that("a point above the block is refused by its number", said == "2");
   }
+
+  void check_peaks(tests::Check &check, ExplicitDynamics &dynamics)
+  {
+    const MPI_Comm comm = dynamics.mesh.comm;
+    PeakRegion     region{0.02,
+                      0.04,
+                      0.,
+                      4e-3,
+                      10e-3,
+                      fine,
+                      5e-3,
+                      [](const Point<3> &p) { return p[0]; },
+                      [](const Point<3> &p) {
+                        return -p[2];
+                      }};
+    const Field    first{0.1, false}, second{0.09, true};
+    StressPeaks    peaks(dynamics, nullptr, 0, ElasticMaterial(), region);
+    check.that("peaks: a wheel is near up to the reach, and no farther",
+               peaks.concerns(0.0151) && peaks.concerns(0.0449) && !peaks.concerns(0.0149) &&
+                 !peaks.concerns(0.0451));
+    take(dynamics, first, 1.);
+    peaks.sample(dynamics, {}, 10.);
+    StressPeaks resumed(dynamics, nullptr, 0, ElasticMaterial(), region);
+    Archive     stored(comm);
+    peaks.serialize(stored);
+    Archive archive(comm, tests::parts_of(stored, comm));
+    resumed.serialize(archive);
+    take(dynamics, second, 2.);
+    peaks.sample(dynamics, {}, 20.);
+    resumed.sample(dynamics, {}, 20.);
+    const StressPeaks::Answer answer = peaks.answer(dynamics), again = resumed.answer(dynamics);
+
+    // The first field is the larger one, at the region's end; cells lie with their centres in it.
+    const double x_fine = 0.04 - 0.5 * fine, x_coarse = 0.04 - 0.5 * coarse;
+    check.that("peaks: three layers, two of them fine", answer.layers.size() == 3);
+    const double depths[3]   = {0.5 * fine, 1.5 * fine, 1.5 * coarse};
+    const double expected[3] = {first.von_mises(x_fine, -depths[0], fine),
+                                first.von_mises(x_fine, -depths[1], fine),
+                                first.von_mises(x_coarse, -depths[2], coarse)};
+    for (unsigned int k = 0; k < std::min<std::size_t>(3, answer.layers.size()); ++k)
+      {
+        const Peak       &peak = answer.layers[k].peak;
+        const std::string name = "peaks: layer " + std::to_string(k + 1) + ": ";
+        check.relative(name + "stress", peak.value, expected[k], 1e-9);
+        check.relative(name + "depth", peak.depth, depths[k], 1e-9);
+        check.relative(name + "x", peak.x, k < 2 ? x_fine : x_coarse, 1e-9);
+        check.that(name + "instant, and where the wheel was", peak.time == 1. && peak.wheel_x == 10.);
+        check.relative(name + "strain of Hooke's law", answer.layers[k].equivalent_strain,
+                       expected[k] / (3. * ElasticMaterial().shear_modulus()), 1e-9);
+        check.relative(name + "restored and gone on", again.layers[k].peak.value, peak.value, 1e-15);
+      }
+    // Stresses are linear in z but for products of the strain, 0.4 %, with its change over a cell, 10 %.
+    check.relative("peaks: extrapolated to the surface", answer.surface.peak.value,
+                   first.von_mises(x_fine, 0., fine), 1e-3);
+    check.that("peaks: not that of the first layer", answer.surface.peak.value < 0.96 * expected[0] ||
+                                                       answer.surface.peak.value > 1.04 * expected[0]);
+  }
+
+  /// Face of the surface in the plane z = 0, deformed by a known stretch and turned.
+  void check_face(tests::Check &check)
+  {
+    const ElasticMaterial  steel;
+    const double           mu = steel.shear_modulus(), lambda = steel.lame();
+    std::array<Vector3, 4> reference{
+      {{0., 0., 0., 0.}, {1e-3, 0., 0., 0.}, {1.2e-3, 0.8e-3, 0., 0.}, {0.2e-3, 0.8e-3, 0., 0.}}};
+    const double e1 = 2e-3, e2 = -3e-3, p = 1.2e9, q = 3e8;
+    // Principal logarithmic strains e1, e2 along x and y, then turned about x by a fifth and about z by a
+    // tenth.
+    std::array<Vector3, 4> current;
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        const double x = std::exp(e1) * reference[a][0], y = std::exp(e2) * reference[a][1];
+        const double turned_y = std::cos(0.2) * y, z = std::sin(0.2) * y;
+        current[a] = Vector3{std::cos(0.1) * x - std::sin(0.1) * turned_y,
+                             std::sin(0.1) * x + std::cos(0.1) * turned_y, z, 0.};
+      }
+    const double e3       = (-p - lambda * (e1 + e2)) / (lambda + 2. * mu);
+    const double expected = von_mises(
+      {{lambda * (e1 + e2 + e3) + 2. * mu * e1, lambda * (e1 + e2 + e3) + 2. * mu * e2, -p, 0., q, 0.}});
+    // To second order in strains of 0.3 %.
+    check.relative("face: stress from stretch, pressure and shear",
+                   von_mises_at_face(reference, current, steel, p, q), expected, 3e-5);
+    check.relative("face: nothing but shear", von_mises_at_face(reference, reference, steel, 0., q),
+                   std::sqrt(3.) * q, 1e-12);
+  }
 } // namespace
 
 void run_test(tests::Check &check, const tests::Arguments &)
@@ -178,4 +265,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
   check_strip(check, dynamics);
   check_probes(check, dynamics);
+  check_peaks(check, dynamics);
+  check_face(check);
 }

@@ -19,7 +19,7 @@ from unittest import mock
 import numpy as np
 
 import tread
-from tread import measured_runs, studies, tables
+from tread import limits, measured_runs, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch
 from tread.files import read_table
@@ -208,6 +208,44 @@ class Studies(InFolder):
         with open(self.path("results", "two", "study.csv"), encoding="utf-8") as stream:
             self.assertEqual(list(csv.reader(stream))[1:], [["0.001", "140000", "2", "complete"],
                                                             ["0.9", "", "", "failed: 'Motion/Creepage' cannot be '0.9'"]])
+
+
+    def test_where_a_figure_reaches_a_limit(self):
+        self.assertEqual(limits.crossing([4, 6, 8], [700, 800, 1000], 900), (8, 6, 7))
+        self.assertEqual(limits.crossing([8, 4, 6], [1000, None, 800], 900), (8, 6, 7))
+        self.assertEqual(limits.crossing([4, 6], [700, 800], 900), (None, 6, None))
+        self.assertEqual(limits.crossing([4, 6], [950, 980], 900), (4, None, None))
+        self.assertEqual(limits.crossing([4, 6, 8], [950, 800, 1000], 900), (4, None, None))
+
+    def limit_study(self, *entries, lengths="4 & 0.04 | 8 & 0.08"):
+        return write(self.path("limit.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\n" + "".join(e + "\n" for e in entries) +
+                     f"subsection Vary\n  set Mesh/Finest cell (mm) = 2 | 1\n  set Defect/Length (mm) & Defect/Depth (mm) = {lengths}\nend\n")
+
+    def perform(self, study):
+        return subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program], capture_output=True, text=True)
+
+    def test_a_limit(self):
+        study = studies.Study(self.limit_study("set Limit = f = 900 over Defect/Length (mm)", "set Mesh = Mesh/Finest cell (mm)"))
+        self.assertEqual([m["Defect/Depth (mm)"] for m in study.members], ["0.04", "0.08"] * 2)
+        limit = study.limits[0]
+        with mock.patch("builtins.print") as said:
+            rows = limit.rows(list(zip(study.members, [800, 1000, 850, 950], [700] * 4)))
+        self.assertEqual(rows, [["figure", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)"],
+                                ["f", 2., 700, 4., 8., "6"], ["f", 1., 700, 4., 8., "6"]])
+        self.assertIn("6 +- 0 by the two finest meshes", " ".join(str(call.args[0]) for call in said.call_args_list))
+        with mock.patch("builtins.print") as said:
+            limit.rows(list(zip(study.members, [1000] * 4, [910] * 4)))
+        self.assertIn("below what the smooth rail has, 910", " ".join(str(call.args[0]) for call in said.call_args_list))
+
+    def test_limits_that_cannot_be(self):
+        for entries, words in ((["set Limit = f over"], "FIGURE = VALUE over PARAMETER"), (["set Limit = f = 1 over Rail/Length (mm)"], "is not varied"),
+                               (["set Mesh = Mesh/Finest cell (mm)"], "there is none"),
+                               (["set Limit = f = 1 over Defect/Length (mm)", "set Mesh = Fine"], "is not varied")):
+            result = self.perform(self.limit_study(*entries))
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+            self.assertIn(words, result.stderr)
+        result = self.perform(self.limit_study(lengths="4 & 0.04 | 8"))
+        self.assertIn("must be 2 values with &", result.stderr)
 
 
 class Commands(unittest.TestCase):

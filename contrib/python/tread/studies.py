@@ -13,8 +13,13 @@ A study is a text file in the format of the scenes:
     set Directory   = results/my-study             # seen from where the study is started
     set Processes   = 1                            # runs at a time
     set Ranks       = 1                            # of each run
+    set Limit       =                              # FIGURE = VALUE over PARAMETER: at which value of a parameter the figure
+                                                   # reaches the limit, as in peak_pressure_Pa = 2e9 over Defect/Length (mm);
+                                                   # several separated by |
+    set Mesh        =                              # varied parameter, the smaller the finer, that tells how sure this is
     subsection Vary
       set Motion/Speed (km per h) = 70 | 100 | 140
+      set Defect/Length (mm) & Defect/Depth (mm) = 5 & 0.03 | 10 & 0.06     # vary together
     end
 
 Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv, or of another
@@ -39,11 +44,12 @@ import time
 
 from .commands import command_parser, run_command
 from .files import DataError, is_complete, texts_of
+from .limits import Limit
 from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
-            "Processes": "1", "Ranks": "1"}
+            "Processes": "1", "Ranks": "1", "Limit": "", "Mesh": ""}
 COMPLETE = "complete"
 
 
@@ -86,17 +92,24 @@ class Study:
         self.directory = entries["Directory"] or os.path.join(
             "results", os.path.splitext(os.path.basename(path))[0])
         self.processes, self.ranks = (self.count(path, entries, name) for name in ("Processes", "Ranks"))
-        lists = [values_of(text) for text in self.vary.values()]
-        for name, values in zip(self.vary, lists):
+        lists = [[split_together(value) for value in values_of(text)] for text in self.vary.values()]
+        names = [split_together(name) for name in self.vary]
+        for together, name, values in zip(names, self.vary, lists):
             if not values:
                 raise DataError(f"{path}: 'Vary/{name}' has no value")
+            for value in values:
+                if len(value) != len(together):
+                    raise DataError(f"{path}: 'Vary/{name}': '{' & '.join(value)}' must be {len(together)} values with & between them")
         if entries["Combination"] == "zip" and len({len(values) for values in lists}) > 1:
             raise DataError(f"{path}: 'Combination' zip needs as many values of each parameter; there are "
                             + ", ".join(f"{len(values)} of '{name}'" for name, values in zip(self.vary, lists)))
         if entries["Combination"] not in ("product", "zip"):
             raise DataError(f"{path}: 'Combination' cannot be '{entries['Combination']}'; allowed: product, zip")
         combined = itertools.product(*lists) if entries["Combination"] == "product" else zip(*lists)
-        self.members = [dict(zip(self.vary, values)) for values in combined]
+        self.members = [{name: value for pair in zip(names, values) for name, value in zip(*pair)} for values in combined]
+        self.limits = [Limit.read(path, text, entries["Mesh"], self) for text in values_of(entries["Limit"])]
+        if entries["Mesh"] and not self.limits:
+            raise DataError(f"{path}: 'Mesh' says how sure a 'Limit' is; there is none")
         seen = {}
         for member in self.members:
             for same in (folder_name(member), tuple(map(number_or_text, member.values()))):
@@ -142,6 +155,11 @@ class Study:
         if not re.fullmatch(r"[1-9]\d*", entries[name]):
             raise DataError(f"{path}: '{name}' cannot be '{entries[name]}'; allowed: 1, 2, ...")
         return int(entries[name])
+
+
+def split_together(text):
+    """Names, or values, that & holds together."""
+    return tuple(part.strip() for part in text.split("&"))
 
 
 def number_or_text(value):
@@ -279,6 +297,26 @@ def figure_of(run, figure):
     return force["oscillations"][0]["frequency_Hz"] if force["oscillations"] else float("nan")
 
 
+def figure_or_none(run, figure):
+    """Of a run that may not be complete."""
+    try:
+        return figure_of(run, figure) if run.state == COMPLETE else None
+    except DataError:
+        return None
+
+
+def report_limits(study, root, members):
+    """limit.csv, and the same on the terminal."""
+    table = []
+    for limit in study.limits:
+        heading, *rows = limit.rows([(values, figure_or_none(run, limit.figure), twin and figure_or_none(twin, limit.figure))
+                                     for values, (run, twin) in zip(study.members, members)])
+        table += rows if table and table[0] == heading else [heading] + rows
+    with open(os.path.join(root, "limit.csv"), "w", encoding="utf-8", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows(table)
+    print(f"Table in {os.path.join(root, 'limit.csv')}")
+
+
 def tabulate(study, root, runs):
     """study.csv, and the same on the terminal. @returns whether every figure of the complete runs was found."""
     rows, missing = [], []
@@ -291,7 +329,7 @@ def tabulate(study, root, runs):
                 figures.append("")
                 missing.append(str(error))
         rows.append(list(member.values()) + figures + [run.state or "not begun"])
-    header = list(study.vary) + study.figures + ["state"]
+    header = list(study.members[0]) + study.figures + ["state"]
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([header] + rows)
     part = os.path.join(root, "study.csv.part")
@@ -351,6 +389,8 @@ def main():
         print("INTERRUPTED: the same command goes on")
         return 130
     found = tabulate(study, root, [run for run, _ in members])
+    if study.limits:
+        report_limits(study, root, members)
     return 0 if found and all(run.state == COMPLETE for run, _ in members) else 1
 
 

@@ -125,6 +125,15 @@ namespace tread
     {
       return shapes->surfaces;
     }
+    bool has_defect() const
+    {
+      return shapes->defect != nullptr;
+    }
+    /// Whether forces vary along the path by the nature of the scene: a defect, or discrete supports.
+    bool has_impacts() const
+    {
+      return has_defect() || track.has_supports();
+    }
     /// Height above the rail's profile, in the rail's own axes: measured head and defect. Null: none. @see
     /// RailTop
     const std::function<double(double, double)> &rail_height() const

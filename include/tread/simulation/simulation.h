@@ -14,6 +14,7 @@
 #include <tread/output/summary.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
+#include <tread/simulation/impact_record.h>
 #include <tread/simulation/rolling_wheel.h>
 #include <tread/solid/solid.h>
 
@@ -114,8 +115,9 @@ namespace tread
     std::string add_further_wheels(Summary                                   &summary,
                                    const std::vector<std::vector<PatchNode>> &patches) const;
     void        add_cost(Summary &summary) const;
-    void        add_recorded(Summary &summary, RunFolder &folder) const;
-    void        add_peaks(Summary &summary, RunFolder &folder) const;
+    /// @returns lines about the largest stresses for the screen.
+    std::string add_recorded(Summary &summary, RunFolder &folder) const;
+    std::string add_peaks(Summary &summary, RunFolder &folder) const;
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
     bool   interrupted() const;
@@ -143,6 +145,8 @@ namespace tread
 
     double end_position; ///< of the first wheel, m
     bool   torque_released = false, solution_taken = false;
+
+    ImpactRecord impacts;
 
     // Sums since the last row of the history.
     unsigned int interval_steps      = 0;

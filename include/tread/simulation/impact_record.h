@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_simulation_impact_record_h
+#define tread_simulation_impact_record_h
+
+#include <tread/base/archive.h>
+#include <tread/output/records.h>
+#include <tread/output/summary.h>
+
+#include <string>
+#include <vector>
+
+namespace tread
+{
+  /// What a defect or a track does to the forces of a run: extremes over the rows of its history, in which
+  /// contact forces are means over the interval and those of supports are of its end.
+  class ImpactRecord
+  {
+  public:
+    /// @param seconds length of the interval; @param supports numbers of those in the row
+    void add(const HistoryRow &row, const double seconds, const std::vector<int> &supports);
+
+    /// Add the extremes to the figures. @param static_load of a wheel, N
+    void add_to(Summary &summary, const double static_load) const;
+
+    /// The same in words, a line each; empty if no row was added.
+    std::string lines(const double static_load) const;
+
+    void serialize(Archive &archive);
+
+  private:
+    struct Extreme
+    {
+      double value = 0., x = 0.; ///< and the position of the wheel, m
+      int    support = 0;
+    };
+
+    bool    has_rows = false, has_supports = false;
+    Extreme largest, least; ///< normal force of the first wheel, N
+    Extreme pad, ballast;   ///< largest forces of the supports recorded, N
+    double  airborne = 0.;  ///< how long the first wheel did not touch, s
+  };
+} // namespace tread
+
+#endif

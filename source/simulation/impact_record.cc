@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/simulation/impact_record.h>
+
+#include <utility>
+
+namespace tread
+{
+  void ImpactRecord::add(const HistoryRow &row, const double seconds, const std::vector<int> &supports)
+  {
+    const double force = row.wheels.front().force[2];
+    if (!has_rows || force > largest.value)
+      largest = {force, row.position, 0};
+    if (!has_rows || force < least.value)
+      least = {force, row.position, 0};
+    if (!(force > 0.))
+      airborne += seconds;
+    for (std::size_t i = 0; i < row.supports.size(); ++i)
+      {
+        if (!has_supports || row.supports[i].pad_force > pad.value)
+          pad = {row.supports[i].pad_force, row.position, supports[i]};
+        if (!has_supports || row.supports[i].ballast_force > ballast.value)
+          ballast = {row.supports[i].ballast_force, row.position, supports[i]};
+        has_supports = true;
+      }
+    has_rows = true;
+  }
+
+
+  void ImpactRecord::add_to(Summary &summary, const double static_load) const
+  {
+    if (!has_rows)
+      return;
+    for (const auto &[name, extreme] : {std::pair("largest", largest), std::pair("least", least)})
+      {
+        const std::string prefix = std::string(name) + "_normal_force_";
+        summary.set(prefix + "N", extreme.value);
+        summary.set(prefix + "x_m", extreme.x);
+        summary.set(prefix + "over_static", extreme.value / static_load);
+      }
+    summary.set("airborne_s", airborne);
+    if (!has_supports)
+      return;
+    for (const auto &[name, extreme] : {std::pair("pad", pad), std::pair("ballast", ballast)})
+      {
+        const std::string prefix = "largest_" + std::string(name) + "_force_";
+        summary.set(prefix + "N", extreme.value);
+        summary.set(prefix + "x_m", extreme.x);
+        summary.set(prefix + "support", extreme.support);
+      }
+  }
+
+
+  std::string ImpactRecord::lines(const double static_load) const
+  {
+    if (!has_rows)
+      return "";
+    const auto contact = [&](const char *name, const Extreme &e) {
+      return format("%s contact force %9.2f kN, %.3f of the static load, with the wheel at x = %.1f mm\n",
+                    name, 1e-3 * e.value, e.value / static_load, 1e3 * e.x);
+    };
+    const auto support = [](const char *name, const Extreme &e) {
+      return format("largest force of a %-7s %7.2f kN, at support %d, with the wheel at x = %.1f mm\n", name,
+                    1e-3 * e.value, e.support, 1e3 * e.x);
+    };
+    return contact("largest", largest) + contact("least  ", least) +
+           (airborne > 0. ? format("the wheel was in the air for %.3f ms\n", 1e3 * airborne) : "") +
+           (has_supports ? support("pad", pad) + support("ballast", ballast) : "");
+  }
+
+
+  void ImpactRecord::serialize(Archive &archive)
+  {
+    archive.same(has_rows, has_supports, largest, least, pad, ballast, airborne);
+  }
+} // namespace tread
