@@ -8,6 +8,7 @@
 import csv
 import glob
 import gzip
+import json
 import os
 import re
 import subprocess
@@ -24,6 +25,7 @@ from tread.comparison import compare
 from tread.patches import read_patch
 from tread.files import read_table
 from tread.runs import ROOT, arguments_of, command, environment
+from tread.wavelets import NOISE_95, Scalogram, band_pass
 
 REAL_PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
 
@@ -140,6 +142,83 @@ class Patches(InFolder):
         self.assertAlmostEqual(other["max_pressure_relative_difference"], 0.02)
         self.assertGreater(other["pressure_rms_over_max"], 0.005)
         self.assertAlmostEqual(compare(self.path("run"), contact, 1.02)["max_pressure_relative_difference"], 0)
+
+
+class Wavelets(InFolder):
+    STEP = 16e-6
+    time = STEP * np.arange(2000)
+
+    def burst(self, frequency, amplitude, middle, duration):
+        return amplitude * np.exp(-(((self.time - middle) / duration) ** 2)) * np.sin(2 * np.pi * frequency * (self.time - middle))
+
+    def test_bursts_are_found_where_they_are(self):
+        bursts = ((1500, 30.0, 10e-3, 4e-3), (300, 20.0, 20e-3, 10e-3))
+        scalogram = Scalogram(sum(self.burst(*burst) for burst in bursts), self.STEP, 50, 2000)
+        found = sorted(scalogram.maxima(), reverse=True)
+        self.assertEqual(len(found), 2)
+        for (frequency, amplitude, middle, duration), (f, n, _, a) in zip(bursts, found):
+            self.assertAlmostEqual(f / frequency, 1, delta=0.01)
+            self.assertAlmostEqual(self.time[n], middle, delta=0.05 / frequency)
+            # A wavelet as long as s (of exp(-t^2/2s^2)) sees the mean of an envelope of duration d: 1/sqrt(1 + 2 s^2/d^2) of its top.
+            s = 6.0828 / (2 * np.pi * frequency)
+            self.assertAlmostEqual(a / amplitude * np.sqrt(1 + 2 * (s / duration) ** 2), 1, delta=0.02)
+
+    def test_power_of_a_sine_and_of_white_noise(self):
+        sine = Scalogram(3 * np.sin(2 * np.pi * 700 * self.time), self.STEP, 100, 2000)
+        where = np.unravel_index(np.argmax(np.where(sine.reliable, sine.amplitude, 0)), sine.power.shape)
+        self.assertAlmostEqual(sine.amplitude[where] / 3, 1, delta=0.01)
+        noise = Scalogram(np.random.default_rng(1).normal(size=60000), self.STEP, 1000, 8000)
+        # So long a record has a thousand independent wavelets at 1 kHz and more above: 3 % of the mean.
+        self.assertAlmostEqual(noise.power[noise.reliable].mean(), 1, delta=0.05)
+        self.assertAlmostEqual((noise.power[noise.reliable] > NOISE_95).mean(), 0.05, delta=0.01)
+        with self.assertRaises(ValueError):
+            Scalogram(self.time, self.STEP, 50, 1 / self.STEP)
+
+    def test_band_pass(self):
+        tone = lambda frequency: np.sin(2 * np.pi * frequency * self.time)
+        passed = band_pass(tone(500) + tone(20000) + 5 + 100 * self.time, self.STEP, 50, 2000)
+        inner = slice(700, -700)  # half a period of 50 Hz from the ends
+        np.testing.assert_allclose(passed[inner], tone(500)[inner], atol=0.02)  # not even delayed
+        edge = band_pass(tone(2000), self.STEP, 50, 2000)
+        self.assertAlmostEqual(abs(edge[inner]).max(), 0.5, delta=0.01)
+
+    def write_run(self, name, burst, drift, parameters=""):
+        x = -500 + 0.5 * np.arange(1400)
+        time = 1e-3 * (x + 500) / 30
+        middle = 1e-3 * (-140 + 500) / 30
+        a = burst * np.exp(-(((time - middle) / 2e-3) ** 2)) * np.cos(2 * np.pi * 1200 * (time - middle)) + drift * np.sin(2 * np.pi * 400 * time)
+        rows = "".join(f"{t:.12g},{1e-3 * p:.12g},{v:.12g}\n" for t, p, v in zip(time, x, a))
+        write(self.path(name, "history.csv"), "time_s,position_m,axle_box_acceleration_m_per_s2\n" + rows)
+        write(self.path(name, "parameters.prm"), "subsection Defect\n  set Shape = dip\n  set Position (mm) = -150\n  set Length (mm) = 20\nend\n"
+              "subsection Motion\n  set Speed (km per h) = 108\nend\n" + parameters)
+
+    def test_the_axle_box_of_a_run(self):
+        command = os.path.join(ROOT, "contrib", "plot", "axle-box.py")
+        self.write_run("squat", 50, 200)
+        self.write_run("smooth", 0, 200)
+        result = subprocess.run([command, "squat", "--smooth-twin", "smooth"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertTrue(os.path.exists(self.path("squat", "axle-box.png")))
+        with open(self.path("squat", "axle-box.json"), encoding="utf-8") as stream:
+            figures = json.load(stream)
+        self.assertEqual(len(figures["dominant"]), 1)
+        line = figures["dominant"][0]
+        self.assertAlmostEqual(line["frequency_Hz"] / 1200, 1, delta=0.01)
+        self.assertAlmostEqual(line["wavelength_mm"], 25, delta=0.3)
+        self.assertAlmostEqual(line["behind_leading_edge_mm"], 10, delta=1)  # the middle of an interval, and two rows
+        self.assertAlmostEqual(figures["largest_m_per_s2"], 50 / (1 + 0.6**8), delta=0.3)  # 1200 Hz beside the edge of 2000 Hz
+        self.assertGreater(figures["energy_share"]["wavelengths of 20 to 40 mm, 750-1500 Hz"], 0.98)
+        self.assertLess(figures["energy_share"]["squats, 200-400 Hz"], 0.01)
+        # Not without its twin: there the 400 Hz are the louder.
+        self.assertEqual(subprocess.run([command, "squat"], capture_output=True).returncode, 0)
+        with open(self.path("squat", "axle-box.json"), encoding="utf-8") as stream:
+            self.assertAlmostEqual(json.load(stream)["dominant"][0]["frequency_Hz"] / 400, 1, delta=0.02)
+        self.write_run("other", 0, 200, "subsection Contact\n  set Friction coefficient = 0.1\nend\n")
+        for arguments, words in (([], "'Contact/Friction coefficient'"), (["--band", "2000", "50"], "--band 2000 50: must ascend"),
+                                 (["--from", "900"], "0 rows in between")):
+            result = subprocess.run([command, "squat", *(arguments or ["--smooth-twin", "other"]), *arguments], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+            self.assertIn(words, result.stderr)
 
 
 class Runs(InFolder):
