@@ -22,7 +22,7 @@ import numpy as np
 import tread
 from tread import measured_runs, studies, tables
 from tread.comparison import compare
-from tread.patches import read_patch
+from tread.patches import read_patch, read_patches
 from tread.files import read_table
 from tread.runs import ROOT, arguments_of, command, environment
 from tread.wavelets import NOISE_95, Scalogram, band_pass
@@ -217,6 +217,62 @@ class Wavelets(InFolder):
         for arguments, words in (([], "'Contact/Friction coefficient'"), (["--band", "2000", "50"], "--band 2000 50: must ascend"),
                                  (["--from", "900"], "0 rows in between")):
             result = subprocess.run([command, "squat", *(arguments or ["--smooth-twin", "other"]), *arguments], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+            self.assertIn(words, result.stderr)
+
+
+class Crossings(InFolder):
+    """A patch of 12 by 8 mm over a defect from 0 to 10 mm, whose pressure at the edges is twice what Hertz has there; shear stress
+    follows where the patch slips, which is its rear half."""
+
+    COMMAND = os.path.join(ROOT, "contrib", "plot", "plot-crossing.py")
+
+    def write_run(self, name, positions):
+        lines = ["time_s,position_mm,x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state"]
+        for i, position in enumerate(positions):
+            for x in np.arange(-30, 40.1, 0.5):
+                for y in np.arange(-4, 4.1, 0.5):
+                    square = 1 - ((x - position) / 6) ** 2 - (y / 4) ** 2
+                    if square <= 0 or (2 < x < 8 and abs(y) < 1.1):  # deep in the defect there is no contact
+                        continue
+                    p, slips = 1000 * np.sqrt(square) * (2 if x in (0, 10) else 1), x < position - 1
+                    lines.append(f"{1e-5 * i},{position},{x - position},{y},0,0.25,{p},{0.3 * p if slips else 0.05 * p},0,0,0,"
+                                 + ("slip" if slips else "adhesion"))
+        write(self.path(name, "patches.csv"), "\n".join(lines) + "\n")
+        write(self.path(name, "parameters.prm"), "subsection Defect\n  set Shape = dip\n  set Position (mm) = 0\n  set Length (mm) = 10\nend\n")
+
+    def test_instants(self):
+        positions = np.arange(-12, 22.1, 0.5)
+        self.write_run("run", positions)
+        rows = read_patches(self.path("run", "patches.csv"))
+        self.assertEqual([position for _, position, _ in rows], positions.tolist())
+        np.testing.assert_allclose(rows[0][2].centroid(), (-12, 0), atol=1e-9)
+
+    def test_edges(self):
+        self.write_run("run", np.arange(-12, 22.1, 0.5))
+        result = subprocess.run([self.COMMAND, "run", "--output", "pictures"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(sorted(os.listdir("pictures")), ["crossing-axis.png", "crossing-slip.png", "crossing-stress.png", "crossing.json"])
+        with open(self.path("pictures", "crossing.json"), encoding="utf-8") as stream:
+            figures = json.load(stream)
+        self.assertAlmostEqual(figures["smooth_rail_largest_pressure_MPa"], 1000)
+        for edge, place in (("leading_edge", 0), ("trailing_edge", 10)):
+            # Pressure with the wheel above the edge, shear stress when the edge has just begun to slip, 1.5 mm behind it.
+            for quantity, wheel, value in (("pressure", place, 2000), ("shear", place + 1.5, 600 * np.sqrt(1 - (1.5 / 6) ** 2))):
+                line = figures[f"largest_{quantity}_MPa"][edge]
+                self.assertEqual((line["wheel_mm"], line["x_mm"], line["y_mm"]), (wheel, place, 0))
+                self.assertAlmostEqual(line["value"], value, places=6)
+            # sqrt(1 - (x/6)^2) > 0.95 up to x = 1.87 mm.
+            self.assertEqual(figures["largest_pressure_MPa"][edge]["above_95_percent_from_to_mm"], [place - 1.5, place + 1.5])
+
+    def test_what_is_missing_is_said(self):
+        self.write_run("run", np.arange(-12, 22.1, 2))
+        self.write_run("short", np.arange(-12, 5.1, 2))
+        write(self.path("none", "parameters.prm"), "")
+        for arguments, words in ((["run", "--at", "50"], "--at 50: patches.csv has the wheel from -12.0 to 22.0 mm"),
+                                 (["short"], "short: the wheel does not cross the defect from 0 to 10 mm"),
+                                 (["none"], "none/patches.csv: No such file")):
+            result = subprocess.run([self.COMMAND, *arguments], capture_output=True, text=True)
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
             self.assertIn(words, result.stderr)
 
