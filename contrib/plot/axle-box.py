@@ -6,7 +6,8 @@ thesis.
     axle-box.py RUN [--smooth-twin TWIN] [--band 50 2000] [--from MM] [--to MM] [--output PNG]
 
 Written to RUN, or where --output says: axle-box.png and, beside it, axle-box.json with the dominant frequencies and the shares of
-the bands in which squats and welds were measured. With a twin the acceleration is that of the run less that of the twin: what the
+the bands in which squats and welds were measured. Force over acceleration is that of the contact: the unsprung mass where the wheel
+moves as one body, and little where it is the wheel itself that vibrates between hub and rim. With a twin the acceleration is that of the run less that of the twin: what the
 defect alone does. The twin must be the same scene but for the defect.
 """
 
@@ -14,6 +15,7 @@ import json
 import os
 
 import numpy as np
+from matplotlib.patheffects import Normal, Stroke
 
 from tread.commands import command_parser, run_command
 from tread.defects import extent_of_defect
@@ -22,7 +24,7 @@ from tread.plots import BLUE, GRID, ORANGE, RED, plt, save, use_style
 from tread.runs import Run
 from tread.wavelets import NOISE_95, Scalogram, band_pass, evenly_spaced
 
-ACCELERATION = "axle_box_acceleration_m_per_s2"
+ACCELERATION, FORCE = "axle_box_acceleration_m_per_s2", "normal_force_N"
 # Hz, where measured: squats Molodova et al. (2014), welds An et al. (2017).
 BANDS = {"squats, 200-400 Hz": (200, 400), "squats, 1060-1160 Hz": (1060, 1160),
          "welds, 350-500 Hz": (350, 500), "welds, 1000-1200 Hz": (1000, 1200)}
@@ -31,13 +33,14 @@ MEASURED_HZ, MEASURED_SPEED, WAVELENGTHS_MM = 1500, 110 / 3.6, (20, 40)
 
 
 def record(run):
-    """Times in the middle of the intervals that the rows are means over, positions there in mm, accelerations."""
-    history = run.table("history.csv", ("time_s", "position_m", ACCELERATION))
+    """Times in the middle of the intervals that the rows are means over, positions there in mm; accelerations and contact forces in
+    two rows."""
+    history = run.table("history.csv", ("time_s", "position_m", ACCELERATION, FORCE))
     time, x = history["time_s"], 1e3 * history["position_m"]
     if len(time) < 16:
         raise DataError(f"{run.path('history.csv')}: fewer than 16 rows")
     middle = lambda values: 0.5 * (values[1:] + values[:-1])
-    return middle(time), middle(x), history[ACCELERATION][1:]
+    return middle(time), middle(x), np.array([history[ACCELERATION][1:], history[FORCE][1:]])
 
 
 def must_be_twins(run, twin):
@@ -59,11 +62,11 @@ class AxleBox:
             must_be_twins(run, twin)
             twin_time, _, values = record(twin)
             within = (time >= twin_time[0]) & (time <= twin_time[-1])
-            time, x, own = time[within], x[within], own[within]
+            time, x, own = time[within], x[within], own[:, within]
             if len(time) < 16:
                 raise DataError(f"{twin.folder} ends before {run.folder} begins")
-            other = np.interp(time, twin_time, values)
-        time, self.x, own, other = evenly_spaced(time, x, own, other)
+            other = np.array([np.interp(time, twin_time, row) for row in values])
+        time, self.x, *rows = evenly_spaced(time, x, *own, *other)
         self.step = time[1] - time[0]
         self.speed = 1e-3 * (self.x[-1] - self.x[0]) / (time[-1] - time[0])
         low, high = band
@@ -72,9 +75,9 @@ class AxleBox:
         chosen = (self.x >= (self.x[0] if begin is None else begin)) & (self.x <= (self.x[-1] if end is None else end))
         if chosen.sum() < 16:
             raise Error(f"--from and --to: {chosen.sum()} rows in between; the run has {self.x[0]:.1f} to {self.x[-1]:.1f} mm")
-        self.own, self.twin = (band_pass(values, self.step, low, high)[chosen] for values in (own, other))
+        self.own, force, self.twin, twin_force = (band_pass(values, self.step, low, high)[chosen] for values in rows)
         self.x = self.x[chosen]
-        self.acceleration = self.own - self.twin
+        self.acceleration, self.force = self.own - self.twin, force - twin_force
         self.scalogram = Scalogram(self.acceleration, self.step, low, high)
         self.defect = extent_of_defect(run.parameters)
 
@@ -84,20 +87,29 @@ class AxleBox:
         frequency = np.fft.rfftfreq(len(self.acceleration), self.step)
         return float(energy[(frequency >= low) & (frequency <= high)].sum() / (energy.sum() or 1))
 
+    def dominant(self):
+        """The maxima of the wavelet power as entries of axle-box.json."""
+        force = Scalogram(self.force, self.step, *self.band)
+        entries = []
+        for f, n, power, amplitude in self.scalogram.maxima():
+            k = np.argmin(abs(np.log(self.scalogram.frequency / f)))
+            entries.append({"frequency_Hz": float(f), "wavelength_mm": float(1e3 * self.speed / f), "amplitude_m_per_s2": float(amplitude),
+                            "position_mm": float(self.x[n]), "behind_leading_edge_mm": float(self.x[n] - self.defect[0]) if self.defect else None,
+                            "power_over_white_noise": float(power),
+                            "force_over_acceleration_kg": float(force.amplitude[k, n] / self.scalogram.amplitude[k, n])})
+        return entries
+
     def figures(self):
         """What axle-box.json has."""
         wavelengths = [1e3 * self.speed / length for length in WAVELENGTHS_MM[::-1]]
         most = int(np.argmax(abs(self.acceleration)))
-        begin = None if self.defect is None else self.defect[0]
         return {
             "run": os.path.basename(os.path.normpath(self.run.folder)),
             "smooth_twin": None if self.twin_run is None else os.path.basename(os.path.normpath(self.twin_run.folder)),
             "speed_km_per_h": 3.6 * self.speed, "band_Hz": list(self.band), "from_mm": self.x[0], "to_mm": self.x[-1],
             "defect_mm": self.defect, "rms_m_per_s2": float(np.sqrt(np.mean(self.acceleration**2))),
             "largest_m_per_s2": float(self.acceleration[most]), "largest_at_mm": float(self.x[most]),
-            "dominant": [{"frequency_Hz": float(f), "wavelength_mm": float(1e3 * self.speed / f), "amplitude_m_per_s2": float(amplitude),
-                          "position_mm": float(self.x[n]), "behind_leading_edge_mm": None if begin is None else float(self.x[n] - begin),
-                          "power_over_white_noise": float(power)} for f, n, power, amplitude in self.scalogram.maxima()],
+            "dominant": self.dominant(),
             "energy_share": {**{name: self.energy_share(*band) for name, band in BANDS.items()},
                              f"wavelengths of 20 to 40 mm, {wavelengths[0]:.0f}-{wavelengths[1]:.0f} Hz": self.energy_share(*wavelengths)}}
 
@@ -106,12 +118,13 @@ def text_of(figures):
     """The figures as tables."""
     lines = [f"{figures['speed_km_per_h']:.1f} km/h, {figures['band_Hz'][0]:g} to {figures['band_Hz'][1]:g} Hz: RMS {figures['rms_m_per_s2']:.3g} m/s2, "
              f"largest {figures['largest_m_per_s2']:.4g} m/s2 at {figures['largest_at_mm']:.1f} mm", "",
-             "| frequency, Hz | wavelength, mm | amplitude, m/s2 | at, mm | behind the leading edge, mm | power over white noise |",
-             "|---|---|---|---|---|---|"]
-    for line in figures["dominant"]:
+             "| frequency, Hz | wavelength, mm | amplitude, m/s2 | at, mm | behind the leading edge, mm | power over white noise "
+             "| contact force over acceleration, kg |", "|---|---|---|---|---|---|---|"]
+    for i, line in enumerate(figures["dominant"]):
         behind = line["behind_leading_edge_mm"]
         lines.append(f"| {line['frequency_Hz']:.0f} | {line['wavelength_mm']:.1f} | {line['amplitude_m_per_s2']:.1f} | {line['position_mm']:.1f} "
-                     f"| {'-' if behind is None else format(behind, '.1f')} | {line['power_over_white_noise']:.1f} |")
+                     f"| {'-' if behind is None else format(behind, '.1f')} | {line['power_over_white_noise']:.1f} "
+                     f"| {line['force_over_acceleration_kg']:.0f} |")
     lines += ["", "| band | share of the squared acceleration |", "|---|---|"]
     lines += [f"| {name} | {100 * share:.1f} % |" for name, share in figures["energy_share"].items()]
     return "\n".join(lines)
@@ -140,8 +153,10 @@ def draw(box, figures):
     map_axis.fill_between(box.x, scalogram.frequency[0], cone, facecolor="#FFFFFF80", edgecolor="white", hatch="//", lw=0)
     for i, line in enumerate(figures["dominant"]):
         map_axis.plot(line["position_mm"], line["frequency_Hz"], "o", color=RED, ms=5, mec="white")
+        above_dot = i % 2 == 0 and line["frequency_Hz"] < 0.9 * box.band[1]
         map_axis.annotate(f"{line['frequency_Hz']:.0f} Hz, {line['wavelength_mm']:.0f} mm", (line["position_mm"], line["frequency_Hz"]),
-                          xytext=(7, 4), textcoords="offset points", fontsize=8, color="white", weight="bold")
+                          xytext=(7, 4 if above_dot else -12), textcoords="offset points", fontsize=8, color="white", weight="bold",
+                          path_effects=[Stroke(linewidth=1.5, foreground="#00000080"), Normal()])
     if abs(box.speed / MEASURED_SPEED - 1) < 0.02:
         for axis in (map_axis, beside):
             axis.axhline(MEASURED_HZ, color=RED, ls="--", lw=1.2)

@@ -187,8 +187,8 @@ class Wavelets(InFolder):
         time = 1e-3 * (x + 500) / 30
         middle = 1e-3 * (-140 + 500) / 30
         a = burst * np.exp(-(((time - middle) / 2e-3) ** 2)) * np.cos(2 * np.pi * 1200 * (time - middle)) + drift * np.sin(2 * np.pi * 400 * time)
-        rows = "".join(f"{t:.12g},{1e-3 * p:.12g},{v:.12g}\n" for t, p, v in zip(time, x, a))
-        write(self.path(name, "history.csv"), "time_s,position_m,axle_box_acceleration_m_per_s2\n" + rows)
+        rows = "".join(f"{t:.12g},{1e-3 * p:.12g},{v:.12g},{1e5 + 900 * v}\n" for t, p, v in zip(time, x, a))
+        write(self.path(name, "history.csv"), "time_s,position_m,axle_box_acceleration_m_per_s2,normal_force_N\n" + rows)
         write(self.path(name, "parameters.prm"), "subsection Defect\n  set Shape = dip\n  set Position (mm) = -150\n  set Length (mm) = 20\nend\n"
               "subsection Motion\n  set Speed (km per h) = 108\nend\n" + parameters)
 
@@ -205,6 +205,7 @@ class Wavelets(InFolder):
         line = figures["dominant"][0]
         self.assertAlmostEqual(line["frequency_Hz"] / 1200, 1, delta=0.01)
         self.assertAlmostEqual(line["wavelength_mm"], 25, delta=0.3)
+        self.assertAlmostEqual(line["force_over_acceleration_kg"], 900, delta=1)
         self.assertAlmostEqual(line["behind_leading_edge_mm"], 10, delta=1)  # the middle of an interval, and two rows
         self.assertAlmostEqual(figures["largest_m_per_s2"], 50 / (1 + 0.6**8), delta=0.3)  # 1200 Hz beside the edge of 2000 Hz
         self.assertGreater(figures["energy_share"]["wavelengths of 20 to 40 mm, 750-1500 Hz"], 0.98)
