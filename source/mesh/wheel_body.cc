@@ -62,6 +62,8 @@ namespace tread
         FineZone     local = zone;
         local.x_begin      = -half * r;
         local.x_end        = half * r;
+        local.cubes_begin  = (zone.cubes_begin / radius - center) * r;
+        local.cubes_end    = (zone.cubes_end / radius - center) * r;
         return local.wanted_size(wrap(axis.angle(p) - center) * r, p[1], radius - r);
       };
     }
