@@ -83,8 +83,9 @@ class AxleBox:
 
     def energy_share(self, low, high):
         """Of the squared acceleration: what lies between two frequencies."""
-        energy = abs(np.fft.rfft(self.acceleration)) ** 2
-        frequency = np.fft.rfftfreq(len(self.acceleration), self.step)
+        padded = 8 * len(self.acceleration)  # narrow bands contain several frequencies
+        energy = abs(np.fft.rfft(self.acceleration, padded)) ** 2
+        frequency = np.fft.rfftfreq(padded, self.step)
         return float(energy[(frequency >= low) & (frequency <= high)].sum() / (energy.sum() or 1))
 
     def dominant(self):
