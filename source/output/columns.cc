@@ -109,17 +109,25 @@ namespace tread
     }
 
     /// Add the columns of one of the parts of a row, with a prefix to their names. @param part of the row
-    template <typename Part, typename PartOf>
-    void add_columns(Columns<HistoryRow> &columns,
+    template <typename Row, typename Part, typename PartOf>
+    void add_columns(Columns<Row>        &columns,
                      const Columns<Part> &of_part,
                      const std::string   &prefix,
                      const PartOf        &part)
     {
       for (const Column<Part> &column : of_part)
-        columns.push_back(
-          {prefix + column.name, column.unit, [part, value = column.value](const HistoryRow &r) {
-             return value(part(r));
-           }});
+        {
+          Column<Row> own{prefix + column.name, column.unit, {}};
+          if (column.word)
+            own.word = [part, word = column.word](const Row &r) {
+              return word(part(r));
+            };
+          else
+            own.value = [part, value = column.value](const Row &r) {
+              return value(part(r));
+            };
+          columns.push_back(own);
+        }
     }
   } // namespace
 
@@ -245,6 +253,24 @@ namespace tread
                                     {"state", "", {}, [](const R &r) {
                                        return std::string(r.adhesion ? "adhesion" : "slip");
                                      }}};
+    return columns;
+  }
+
+
+  const Columns<PatchesRow> &patches_columns()
+  {
+    using R                         = PatchesRow;
+    static const Columns<R> columns = []() {
+      Columns<R> c{{"time", "s",
+                    [](const R &r) {
+                      return r.time;
+                    }},
+                   {"position", "mm", [](const R &r) {
+                      return r.position;
+                    }}};
+      add_columns(c, patch_columns(), "", [](const R &r) -> const PatchNode & { return r.node; });
+      return c;
+    }();
     return columns;
   }
 

@@ -91,7 +91,8 @@ namespace tread
       {
         const std::string       name = entry.path().filename();
         static const std::regex own(
-          "(summary\\.json|(history|patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|transient|"
+          "(summary\\.json|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
+          "transient|"
           "rail_cells|"
           "rail_surface|strip|peak_stress(_wheel)?|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
           "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
@@ -236,5 +237,33 @@ namespace tread
     append_to(history, of_history, "history.csv");
     if (!row.cells.empty())
       append_to(cell_history, of_cells, "cells.csv");
+  }
+
+
+  void RunFolder::open_patches(const bool resume, const double time, const unsigned int n_wheels)
+  {
+    if (!writes_tables)
+      return;
+    patch_histories.resize(n_wheels);
+    for (unsigned int wheel = 0; wheel < n_wheels; ++wheel)
+      open_table(patch_histories[wheel], table_of_wheel("patches", wheel), heading(patches_columns()), resume,
+                 time);
+  }
+
+
+  void RunFolder::append_patch(const unsigned int            wheel,
+                               const double                  time,
+                               const double                  position,
+                               const std::vector<PatchNode> &patch)
+  {
+    if (!writes_tables)
+      return;
+    std::ofstream &table = patch_histories.at(wheel);
+    for (const PatchNode &node : patch)
+      write_row(table, patches_columns(), {time, position, node});
+    table << std::flush;
+    if (!table)
+      throw std::runtime_error("cannot write '" + path(table_of_wheel("patches", wheel)) +
+                               "': is the disk full?");
   }
 } // namespace tread

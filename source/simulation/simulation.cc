@@ -347,6 +347,8 @@ namespace tread
     // Times are written with twelve digits.
     folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size(),
                           scene.recorded_supports(), probes ? probes->centres().size() : 0);
+    if (scene.output.surface_interval > 0.)
+      folder.open_patches(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size());
     checked_position = position();
 
     const End end = roll(folder, checkpoint, progress);
@@ -450,7 +452,12 @@ namespace tread
     if (interval_ended(scene.output.history_interval))
       end_interval(folder);
     if (interval_ended(scene.output.surface_interval))
-      folder.write_surface(dynamics, contact, rail_body);
+      {
+        folder.write_surface(dynamics, contact, rail_body);
+        const auto patches = patches_now();
+        for (const RollingWheel &wheel : wheels)
+          folder.append_patch(wheel.number, dynamics.time, wheel.hub.motion.x, patches[wheel.number]);
+      }
     if (scene.output.write_volume && interval_ended(scene.output.volume_interval))
       write_volume(folder);
     checked_position = position();

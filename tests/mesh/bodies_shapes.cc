@@ -506,19 +506,26 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check.absolute("wheel: size just before the zone, mm", 1e3 * size_at(pi * 0.46 - 0.0301), 2., 1e-12);
   check.that("wheel: coarse at the opposite end", size_at(0.) > 0.1);
 
-  // Cubes in a part of the path lie in that part of the tread, and nowhere else.
-  FineZone in_part;
-  in_part.x_begin     = -0.02;
-  in_part.x_end       = 0.30;
-  in_part.path_level  = 2;
-  in_part.cubes_begin = 0.20;
-  in_part.cubes_end   = 0.24;
-  const Body partly   = make_full_wheel(FullWheel(), in_part);
-  for (const auto &[arc, size] : {std::pair(0., 4.), {0.14, 4.}, {0.201, 1.}, {0.239, 1.}, {0.29, 4.}})
-    check.absolute("wheel: size at an arc of " + std::to_string(arc) + " m, cubes from 0.20 to 0.24 m, mm",
-                   1e3 * partly.wanted_cell_size(
-                           Point<3>(0.46 * std::sin(arc / 0.46), 0., 0.46 - 0.46 * std::cos(arc / 0.46))),
-                   size, 1e-12);
+  // Where only a part of the path is fine, that part is fine and no other.
+  FineZone partly;
+  partly.x_begin     = -0.01;
+  partly.x_end       = 0.2;
+  partly.path_level  = 2;
+  partly.cubes_begin = 0.02;
+  partly.cubes_end   = 0.05;
+  for (const auto &[name, body] : {std::pair("sector", make_wheel_sector(half_ring, partly)),
+                                   std::pair("wheel", make_full_wheel(FullWheel(), partly))})
+    for (const auto &[arc, cells] :
+         {std::pair(0.015, 4.), std::pair(0.0195, 2.), std::pair(0.0205, 1.), std::pair(0.035, 1.),
+          std::pair(0.0495, 1.), std::pair(0.0505, 2.), std::pair(0.06, 4.), std::pair(0.12, 4.)})
+      {
+        const double angle = arc / 0.46, r = 0.46 - 1e-6;
+        check.relative(std::string(name) + ": size " + std::to_string(1e3 * arc) +
+                         " mm along its path, finest cells",
+                       body.wanted_cell_size(Point<3>(r * std::sin(angle), 0., 0.46 - r * std::cos(angle))) /
+                         partly.finest_cell_size,
+                       cells, 1e-12);
+      }
 
   // Impossible requests are refused.
   const auto refused = [](const auto &make) {

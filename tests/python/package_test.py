@@ -8,6 +8,7 @@
 import csv
 import glob
 import gzip
+import json
 import os
 import re
 import subprocess
@@ -21,9 +22,10 @@ import numpy as np
 import tread
 from tread import limits, measured_runs, studies, tables
 from tread.comparison import compare
-from tread.patches import read_patch
+from tread.patches import read_patch, read_patches
 from tread.files import read_table
 from tread.runs import ROOT, arguments_of, command, environment
+from tread.wavelets import NOISE_95, Scalogram, band_pass
 
 REAL_PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
 
@@ -140,6 +142,140 @@ class Patches(InFolder):
         self.assertAlmostEqual(other["max_pressure_relative_difference"], 0.02)
         self.assertGreater(other["pressure_rms_over_max"], 0.005)
         self.assertAlmostEqual(compare(self.path("run"), contact, 1.02)["max_pressure_relative_difference"], 0)
+
+
+class Wavelets(InFolder):
+    STEP = 16e-6
+    time = STEP * np.arange(2000)
+
+    def burst(self, frequency, amplitude, middle, duration):
+        return amplitude * np.exp(-(((self.time - middle) / duration) ** 2)) * np.sin(2 * np.pi * frequency * (self.time - middle))
+
+    def test_bursts_are_found_where_they_are(self):
+        bursts = ((1500, 30.0, 10e-3, 4e-3), (300, 20.0, 20e-3, 10e-3))
+        scalogram = Scalogram(sum(self.burst(*burst) for burst in bursts), self.STEP, 50, 2000)
+        found = sorted(scalogram.maxima(), reverse=True)
+        self.assertEqual(len(found), 2)
+        for (frequency, amplitude, middle, duration), (f, n, _, a) in zip(bursts, found):
+            self.assertAlmostEqual(f / frequency, 1, delta=0.01)
+            self.assertAlmostEqual(self.time[n], middle, delta=0.05 / frequency)
+            # A wavelet as long as s (of exp(-t^2/2s^2)) sees the mean of an envelope of duration d: 1/sqrt(1 + 2 s^2/d^2) of its top.
+            s = 6.0828 / (2 * np.pi * frequency)
+            self.assertAlmostEqual(a / amplitude * np.sqrt(1 + 2 * (s / duration) ** 2), 1, delta=0.02)
+
+    def test_power_of_a_sine_and_of_white_noise(self):
+        sine = Scalogram(3 * np.sin(2 * np.pi * 700 * self.time), self.STEP, 100, 2000)
+        where = np.unravel_index(np.argmax(np.where(sine.reliable, sine.amplitude, 0)), sine.power.shape)
+        self.assertAlmostEqual(sine.amplitude[where] / 3, 1, delta=0.01)
+        noise = Scalogram(np.random.default_rng(1).normal(size=60000), self.STEP, 1000, 8000)
+        # So long a record has a thousand independent wavelets at 1 kHz and more above: 3 % of the mean.
+        self.assertAlmostEqual(noise.power[noise.reliable].mean(), 1, delta=0.05)
+        self.assertAlmostEqual((noise.power[noise.reliable] > NOISE_95).mean(), 0.05, delta=0.01)
+        with self.assertRaises(ValueError):
+            Scalogram(self.time, self.STEP, 50, 1 / self.STEP)
+
+    def test_band_pass(self):
+        tone = lambda frequency: np.sin(2 * np.pi * frequency * self.time)
+        passed = band_pass(tone(500) + tone(20000) + 5 + 100 * self.time, self.STEP, 50, 2000)
+        inner = slice(700, -700)  # half a period of 50 Hz from the ends
+        np.testing.assert_allclose(passed[inner], tone(500)[inner], atol=0.02)  # not even delayed
+        edge = band_pass(tone(2000), self.STEP, 50, 2000)
+        self.assertAlmostEqual(abs(edge[inner]).max(), 0.5, delta=0.01)
+
+    def write_run(self, name, burst, drift, parameters=""):
+        x = -500 + 0.5 * np.arange(1400)
+        time = 1e-3 * (x + 500) / 30
+        middle = 1e-3 * (-140 + 500) / 30
+        a = burst * np.exp(-(((time - middle) / 2e-3) ** 2)) * np.cos(2 * np.pi * 1200 * (time - middle)) + drift * np.sin(2 * np.pi * 400 * time)
+        rows = "".join(f"{t:.12g},{1e-3 * p:.12g},{v:.12g},{1e5 + 900 * v}\n" for t, p, v in zip(time, x, a))
+        write(self.path(name, "history.csv"), "time_s,position_m,axle_box_acceleration_m_per_s2,normal_force_N\n" + rows)
+        write(self.path(name, "parameters.prm"), "subsection Defect\n  set Shape = dip\n  set Position (mm) = -150\n  set Length (mm) = 20\nend\n"
+              "subsection Motion\n  set Speed (km per h) = 108\nend\n" + parameters)
+
+    def test_the_axle_box_of_a_run(self):
+        command = os.path.join(ROOT, "contrib", "plot", "axle-box.py")
+        self.write_run("squat", 50, 200)
+        self.write_run("smooth", 0, 200)
+        result = subprocess.run([command, "squat", "--smooth-twin", "smooth"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertTrue(os.path.exists(self.path("squat", "axle-box.png")))
+        with open(self.path("squat", "axle-box.json"), encoding="utf-8") as stream:
+            figures = json.load(stream)
+        self.assertEqual(len(figures["dominant"]), 1)
+        line = figures["dominant"][0]
+        self.assertAlmostEqual(line["frequency_Hz"] / 1200, 1, delta=0.01)
+        self.assertAlmostEqual(line["wavelength_mm"], 25, delta=0.3)
+        self.assertAlmostEqual(line["force_over_acceleration_kg"], 900, delta=1)
+        self.assertAlmostEqual(line["behind_leading_edge_mm"], 10, delta=1)  # the middle of an interval, and two rows
+        self.assertAlmostEqual(figures["largest_m_per_s2"], 50 / (1 + 0.6**8), delta=0.3)  # 1200 Hz beside the edge of 2000 Hz
+        self.assertGreater(figures["energy_share"]["wavelengths of 20 to 40 mm, 750-1500 Hz"], 0.98)
+        self.assertLess(figures["energy_share"]["squats, 200-400 Hz"], 0.01)
+        # Not without its twin: there the 400 Hz are the louder.
+        self.assertEqual(subprocess.run([command, "squat"], capture_output=True).returncode, 0)
+        with open(self.path("squat", "axle-box.json"), encoding="utf-8") as stream:
+            self.assertAlmostEqual(json.load(stream)["dominant"][0]["frequency_Hz"] / 400, 1, delta=0.02)
+        self.write_run("other", 0, 200, "subsection Contact\n  set Friction coefficient = 0.1\nend\n")
+        for arguments, words in (([], "'Contact/Friction coefficient'"), (["--band", "2000", "50"], "--band 2000 50: must ascend"),
+                                 (["--from", "900"], "0 rows in between")):
+            result = subprocess.run([command, "squat", *(arguments or ["--smooth-twin", "other"]), *arguments], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+            self.assertIn(words, result.stderr)
+
+
+class Crossings(InFolder):
+    """A patch of 12 by 8 mm over a defect from 0 to 10 mm, whose pressure at the edges is twice what Hertz has there; shear stress
+    follows where the patch slips, which is its rear half."""
+
+    COMMAND = os.path.join(ROOT, "contrib", "plot", "plot-crossing.py")
+
+    def write_run(self, name, positions):
+        lines = ["time_s,position_mm,x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state"]
+        for i, position in enumerate(positions):
+            for x in np.arange(-30, 40.1, 0.5):
+                for y in np.arange(-4, 4.1, 0.5):
+                    square = 1 - ((x - position) / 6) ** 2 - (y / 4) ** 2
+                    if square <= 0 or (2 < x < 8 and abs(y) < 1.1):  # deep in the defect there is no contact
+                        continue
+                    p, slips = 1000 * np.sqrt(square) * (2 if x in (0, 10) else 1), x < position - 1
+                    lines.append(f"{1e-5 * i},{position},{x - position},{y},0,0.25,{p},{0.3 * p if slips else 0.05 * p},0,0,0,"
+                                 + ("slip" if slips else "adhesion"))
+        write(self.path(name, "patches.csv"), "\n".join(lines) + "\n")
+        write(self.path(name, "parameters.prm"), "subsection Defect\n  set Shape = dip\n  set Position (mm) = 0\n  set Length (mm) = 10\nend\n")
+
+    def test_instants(self):
+        positions = np.arange(-12, 22.1, 0.5)
+        self.write_run("run", positions)
+        rows = read_patches(self.path("run", "patches.csv"))
+        self.assertEqual([position for _, position, _ in rows], positions.tolist())
+        np.testing.assert_allclose(rows[0][2].centroid(), (-12, 0), atol=1e-9)
+
+    def test_edges(self):
+        self.write_run("run", np.arange(-12, 22.1, 0.5))
+        result = subprocess.run([self.COMMAND, "run", "--output", "pictures"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(sorted(os.listdir("pictures")), ["crossing-axis.png", "crossing-slip.png", "crossing-stress.png", "crossing.json"])
+        with open(self.path("pictures", "crossing.json"), encoding="utf-8") as stream:
+            figures = json.load(stream)
+        self.assertAlmostEqual(figures["smooth_rail_largest_pressure_MPa"], 1000)
+        for edge, place in (("leading_edge", 0), ("trailing_edge", 10)):
+            # Pressure with the wheel above the edge, shear stress when the edge has just begun to slip, 1.5 mm behind it.
+            for quantity, wheel, value in (("pressure", place, 2000), ("shear", place + 1.5, 600 * np.sqrt(1 - (1.5 / 6) ** 2))):
+                line = figures[f"largest_{quantity}_MPa"][edge]
+                self.assertEqual((line["wheel_mm"], line["x_mm"], line["y_mm"]), (wheel, place, 0))
+                self.assertAlmostEqual(line["value"], value, places=6)
+            # sqrt(1 - (x/6)^2) > 0.95 up to x = 1.87 mm.
+            self.assertEqual(figures["largest_pressure_MPa"][edge]["above_95_percent_from_to_mm"], [place - 1.5, place + 1.5])
+
+    def test_what_is_missing_is_said(self):
+        self.write_run("run", np.arange(-12, 22.1, 2))
+        self.write_run("short", np.arange(-12, 5.1, 2))
+        write(self.path("none", "parameters.prm"), "")
+        for arguments, words in ((["run", "--at", "50"], "--at 50: patches.csv has the wheel from -12.0 to 22.0 mm"),
+                                 (["short"], "short: the wheel does not cross the defect from 0 to 10 mm"),
+                                 (["none"], "none/patches.csv: No such file")):
+            result = subprocess.run([self.COMMAND, *arguments], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+            self.assertIn(words, result.stderr)
 
 
 class Runs(InFolder):

@@ -102,6 +102,20 @@ def read_patch(path):
     return Patch(path, read_table(path, ("x_mm", "y_mm", "state") + names), names)
 
 
+def read_patches(path):
+    """patches.csv of a run: [(time in s, position of the wheel in mm, Patch)], x of the patches along the rail. Instants without
+    contact have none. @raises DataError"""
+    names = ("pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s")
+    table = read_table(path, ("time_s", "position_mm", "x_mm", "y_mm", "state") + names)
+    if not len(table["time_s"]):
+        raise DataError(f"{path}: no instant with contact")
+    table["x_mm"] = table["x_mm"] + table["position_mm"]
+    _, first = np.unique(table["time_s"], return_index=True)
+    bounds = [*sorted(first), len(table["time_s"])]
+    return [(table["time_s"][begin], table["position_mm"][begin], Patch(path, {name: values[begin:end] for name, values in table.items()}, names))
+            for begin, end in zip(bounds, bounds[1:])]
+
+
 def read_contact(path):
     """A surface file of CONTACT: elements that are not listed carry no traction."""
     names = ("pn_MPa", "px_MPa", "py_MPa", "sx_m_s", "sy_m_s")

@@ -69,6 +69,7 @@ namespace tread
   /// cells.csv. @param n_cells so many have columns
   Columns<HistoryRow>                cell_columns(std::size_t n_cells);
   const Columns<PatchNode>          &patch_columns();
+  const Columns<PatchesRow>         &patches_columns();
   const Columns<Passage>            &passage_columns();
   const Columns<StripColumn>        &strip_columns();
   const Columns<StressPeaks::Layer> &peak_columns();

@@ -39,6 +39,13 @@ namespace tread
     std::vector<CellRecord>    cells;    ///< likewise
   };
 
+  /// One row of patches.csv: a node in contact at one of the instants, SI units.
+  struct PatchesRow
+  {
+    double    time, position; ///< of the wheel
+    PatchNode node;
+  };
+
   /// Residual state of the rail after the first wheel, SI units: averages over the nodes in the middle of the
   /// rolled distance, 10 mm long and on the line y = 0, and the largest values of the cells below them.
   struct Passage

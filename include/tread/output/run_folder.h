@@ -96,6 +96,14 @@ namespace tread
                         const std::size_t       n_cells);
     void append(const HistoryRow &row);
 
+    /// Likewise one patches.csv for each wheel: the patch at chosen instants.
+    void open_patches(const bool resume, const double time, const unsigned int n_wheels);
+    /// @param wheel its number, from 0; @param position of the wheel, m
+    void append_patch(const unsigned int            wheel,
+                      const double                  time,
+                      const double                  position,
+                      const std::vector<PatchNode> &patch);
+
     /// Write the present state of the bodies: displacement without the hubs' rigid motion, velocity, stress.
     /// Collective. @param hubs of the bodies that are wheels
     void write_volume(const ExplicitDynamics &dynamics, const std::map<unsigned int, const WheelHub *> &hubs);
@@ -128,6 +136,7 @@ namespace tread
     bool                                        writes_tables;
     int                                         lock = -1; ///< file descriptor
     std::ofstream                               history, cell_history;
+    std::vector<std::ofstream>                  patch_histories; ///< of the wheels
     Columns<HistoryRow>                         of_history, of_cells;
     std::vector<std::pair<double, std::string>> volume_files, surface_files;
   };

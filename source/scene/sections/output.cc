@@ -28,7 +28,8 @@ namespace tread
       "first contact have seen along the path, looked at in each History interval. 0: no table.",
       Double(0.));
     section.add("Surface interval (mm)", surface_interval,
-                "Rolled distance between pictures of the contact surface; 0: the solution instant only.",
+                "Rolled distance between pictures of the contact surface, with a table of all their patches, "
+                "patches.csv; 0: a picture of the solution instant only.",
                 Double(0.));
     section.add("Volume interval (mm)", volume_interval,
                 "Rolled distance between pictures of the bodies; 0: the solution instant only.", Double(0.));
