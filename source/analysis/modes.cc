@@ -122,6 +122,7 @@ namespace tread
     check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
     check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
     check(MatMumpsSetIcntl(factor, 13, 1)); // no ScaLAPACK for the last block: it does not count pivots
+    check(MatMumpsSetIcntl(factor, 24, 1)); // without it PETSc trusts no inertia
     MatFactorInfo information;
     check(MatFactorInfoInitialize(&information));
     check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &information));
@@ -155,11 +156,14 @@ namespace tread
       }
     std::sort(found.begin(), found.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Vec product = system.new_vector();
-    for (const auto &[value, vector] : found)
+    for (const auto &found_mode : found)
       {
+        Vec vector = found_mode.second;
         check(MatMult(system.mass(), vector, product));
         check(VecScale(vector, 1. / std::sqrt(dot(vector, product))));
-        eigenvalues.push_back(value);
+        // Rayleigh's quotient: its error is of second order in that of the vector.
+        check(MatMult(system.stiffness(), vector, product));
+        eigenvalues.push_back(dot(vector, product));
         vectors.push_back(vector);
       }
     check(VecDestroy(&product));
