@@ -310,7 +310,7 @@ namespace
       {"over a sleeper: peak, rail on pads", &areas, 0., 700., 1000., 1., 871.},
       {"over a sleeper: pinned-pinned dip", &areas, 0., 1050., 1350., -1., 1214.},
       {"at mid-span: peak, rail on pads", &areas, .3, 700., 1000., 1., 883.},
-      {"at mid-span: pinned-pinned peak", &areas, .3, 1000., 1200., 1., 1101.},
+      {"at mid-span: pinned-pinned peak", &areas, .3, 1050., 1200., 1., 1101.},
       {"at mid-span, points: pinned-pinned peak", &points, .3, 950., 1150., 1., 1075.}};
     std::vector<std::complex<double>> omega;
     for (unsigned int k = 0; k < 160; ++k)
