@@ -14,7 +14,7 @@ program = sys.argv[1]
 check = Check()
 # A sector on a bar of three spans.
 SCENE = "tutorial/track.prm"
-COARSE = ["Mesh/Finest cell (mm)=5", "Mesh/Coarsest cell (mm)=50", "Rail/Begin (mm)=-1050", "Rail/Length (mm)=1800"]
+COARSE = ["Mesh/Finest cell (mm)=2.5", "Mesh/Coarsest cell (mm)=50", "Rail/Begin (mm)=-1050", "Rail/Length (mm)=1800"]
 SHARES = ["rail_share", "sleeper_share", "rim_share", "web_share", "hub_share", "sprung_share"]
 
 with tempfile.TemporaryDirectory() as folder:
