@@ -3,6 +3,7 @@
 #include <tread/scene/scene.h>
 #include <tread/simulation/simulation.h>
 #include <tread/tools/dynamic_force_files.h>
+#include <tread/tools/modes_files.h>
 #include <tread/tools/reference_only.h>
 
 #include <deal.II/base/mpi.h>
@@ -24,6 +25,7 @@ namespace
     std::vector<std::string>   settings;
     std::string                output;
     tread::DynamicForceRequest dynamic;
+    tread::ModesRequest        modes;
     bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
   };
 
@@ -46,8 +48,11 @@ namespace
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
     how->add_flag("--reference-only", line.reference_only,
                   "print and write the half-space answer of the scene in a second; roll nothing");
+    CLI::Option *modes = how->add_flag("--modes", line.modes.wanted,
+                                       "write eigenmodes and receptances of wheel and track; roll nothing");
     how->add_flag("--dry-run", line.dry_run, "print size and cost of the run; run and write nothing");
     how->require_option(0, 1);
+    app.add_option("--up-to", line.modes.up_to, "highest frequency of the modes, Hz (2000)")->needs(modes);
     CLI::Option *defect = app.add_option("--dynamic-force", line.dynamic.run,
                                          "folder of a run: what the defect adds to its forces, with spectra"),
                 *smooth = app.add_option("--smooth-twin", line.dynamic.smooth_twin,
@@ -73,9 +78,10 @@ namespace
       }
     if (!line.dynamic.run.empty() && !line.scene.empty())
       throw tread::InputError("--dynamic-force reads two runs; it takes no scene");
-    if (!line.dynamic.run.empty() && (line.resume || line.reference_only || line.dry_run))
-      throw tread::InputError(
-        "--dynamic-force reads what two runs left; --resume, --reference-only and --dry-run are for a scene");
+    if (!line.dynamic.run.empty() &&
+        (line.resume || line.reference_only || line.modes.wanted || line.dry_run))
+      throw tread::InputError("--dynamic-force reads what two runs left; --resume, --reference-only, --modes "
+                              "and --dry-run are for a scene");
     return line;
   }
 
@@ -107,6 +113,12 @@ namespace
         // beside the results of the run, never over them
         tread::run_reference_only(
           scene, line.output.empty() ? scene.output.directory + "-reference" : line.output, comm);
+        return 0;
+      }
+    if (line.modes.wanted)
+      {
+        tread::write_modes(scene, line.modes,
+                           line.output.empty() ? scene.output.directory + "-modes" : line.output, comm);
         return 0;
       }
     tread::Simulation simulation(scene, comm);

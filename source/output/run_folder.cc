@@ -94,8 +94,9 @@ namespace tread
           "(summary\\.json|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
           "transient|"
           "rail_cells|"
-          "rail_surface|strip|peak_stress(_wheel)?|cells|passages|dynamic|spectrum)\\.csv|dynamic\\.json|"
-          "checkpoint-[01]|checkpoint\\.last|(volume|surface)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
+          "rail_surface|strip|peak_stress(_wheel)?|cells|passages|dynamic|spectrum|modes|receptance)\\.csv|"
+          "dynamic\\.json|checkpoint-[01]|checkpoint\\.last|"
+          "(volume|surface|modes)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
       }

@@ -499,6 +499,24 @@ namespace tread
   }
 
 
+  std::vector<Supports::Link> Supports::links() const
+  {
+    std::vector<Link> list;
+    for (const Spring &spring : springs)
+      {
+        Link link{spring.stiffness, spring.damping, spring.support, spring.layer, {}, {}};
+        for (const auto &[point, sign] : {std::pair<int, double>{spring.a, 1.}, {spring.b, -1.}})
+          if (point >= static_cast<int>(n_sleepers))
+            for (const auto &[node, share] : ends[point - n_sleepers].nodes)
+              link.nodes.emplace_back(node, sign * share);
+          else if (point >= 0)
+            link.sleepers.emplace_back(point, sign);
+        list.push_back(link);
+      }
+    return list;
+  }
+
+
   void Supports::serialize(Archive &archive)
   {
     archive.same(displacement, velocity, spring_force, damper_work);

@@ -133,6 +133,23 @@ namespace tread
     /// freely. Collective.
     std::vector<unsigned int> guided_nodes(const unsigned int direction) const;
 
+    /// A spring with its damper, as it acts on the degrees of freedom: its elongation is the sum of the shares
+    /// times the vertical displacements of nodes of this rank and of rigid sleepers, over all ranks.
+    struct Link
+    {
+      double                                       stiffness, damping; ///< N/m, N s/m
+      unsigned int                                 support;
+      Layer                                        layer;
+      std::vector<std::pair<unsigned int, double>> nodes;    ///< of this rank, with their shares
+      std::vector<std::pair<unsigned int, double>> sleepers; ///< rigid ones by support, with their shares
+    };
+    /// All of them, in the same order on all ranks.
+    std::vector<Link> links() const;
+    unsigned int      n_rigid_sleepers() const
+    {
+      return n_sleepers;
+    }
+
     /// Store or restore the state: all but the forces of dampers and on sleepers, with which a step begins.
     void serialize(Archive &archive);
 

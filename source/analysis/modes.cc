@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/modes.h>
+#include <tread/base/format.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/lac/exceptions.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    /// Shift s of the stiffness, rad/s. Small beside the frequencies that are wanted, and large enough that
+    /// K + s^2 M of free bodies is not nearly singular: the ratio of its extreme eigenvalues is 1e8 for cells
+    /// of a centimetre. At half or double the value the modes agree to 1e-9.
+    constexpr double shift = 2. * dealii::numbers::PI * 20.;
+
+    /// Relative residual of the eigenvalues of the inverse; eigenvalues are more exact.
+    constexpr double       tolerance      = 1e-10;
+    constexpr unsigned int max_iterations = 1000;
+
+    /// Modes whose squared frequencies differ by less, relatively, count as equal.
+    constexpr double equal_frequencies = 1e-7;
+
+    /// Of a vector from which the part in a basis has been subtracted, less than this share of its size is
+    /// rounding.
+    constexpr double rounding_share = 1e-8;
+
+    /// Vectors of the Krylov space of the force that enter the reduced equations.
+    constexpr unsigned int n_krylov = 3;
+
+    void check(const PetscErrorCode error)
+    {
+      AssertThrow(error == 0, dealii::LACExceptions::ExcPETScError(error));
+    }
+
+    double dot(const Vec a, const Vec b)
+    {
+      PetscScalar value;
+      check(VecDot(a, b, &value));
+      return value;
+    }
+  } // namespace
+
+
+  Modes::Modes(const ElasticSystem &system, const double up_to)
+    : system(system)
+  {
+    check(MatDuplicate(system.stiffness(), MAT_COPY_VALUES, &shifted));
+    check(MatAXPY(shifted, shift * shift, system.mass(), DIFFERENT_NONZERO_PATTERN));
+    check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatSetOption(shifted, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+    check(MatSetOption(shifted, MAT_SPD, PETSC_TRUE));
+
+    check(EPSCreate(system.mesh.comm, &solver));
+    check(EPSSetOperators(solver, shifted, system.mass()));
+    check(EPSSetProblemType(solver, EPS_GHEP));
+    check(EPSSetType(solver, EPSKRYLOVSCHUR));
+    check(EPSSetTarget(solver, 0.));
+    check(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
+    check(EPSSetTolerances(solver, tolerance, max_iterations));
+    ST  transformation;
+    KSP linear;
+    PC  factors;
+    check(EPSGetST(solver, &transformation));
+    check(STSetType(transformation, STSINVERT));
+    check(STGetKSP(transformation, &linear));
+    check(KSPSetType(linear, KSPPREONLY));
+    check(KSPGetPC(linear, &factors));
+    check(PCSetType(factors, PCCHOLESKY));
+    check(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS));
+
+    const double       highest = std::pow(2. * dealii::numbers::PI * up_to, 2);
+    const unsigned int n       = number_below(highest);
+    if (n == 0)
+      {
+        // The reduced equations need the factors all the same.
+        check(STSetUp(transformation));
+        return;
+      }
+    // One starting vector finds one of several modes that are equal to the last digit, unless rounding brings
+    // in the others: then more are asked for.
+    for (unsigned int more = 0; more < 4; ++more)
+      {
+        solve(n + more * (2 + n / 10));
+        const auto n_found =
+          std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const double e) { return e < highest; });
+        if (n_found == n)
+          {
+            for (std::size_t k = n; k < vectors.size(); ++k)
+              check(VecDestroy(&vectors[k]));
+            vectors.resize(n);
+            eigenvalues.resize(n);
+            return;
+          }
+      }
+    throw std::runtime_error(
+      format("the iteration did not find all of the %u modes up to %g Hz; try another frequency", n, up_to));
+  }
+
+
+  Modes::~Modes()
+  {
+    for (Vec &vector : vectors)
+      VecDestroy(&vector);
+    EPSDestroy(&solver);
+    MatDestroy(&shifted);
+  }
+
+
+  unsigned int Modes::number_below(const double omega_squared) const
+  {
+    Mat matrix, factor;
+    check(MatDuplicate(system.stiffness(), MAT_COPY_VALUES, &matrix));
+    check(MatAXPY(matrix, -omega_squared, system.mass(), DIFFERENT_NONZERO_PATTERN));
+    check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+    check(MatMumpsSetIcntl(factor, 13, 1)); // no ScaLAPACK for the last block: it does not count pivots
+    check(MatMumpsSetIcntl(factor, 24, 1)); // without it PETSc trusts no inertia
+    MatFactorInfo information;
+    check(MatFactorInfoInitialize(&information));
+    check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &information));
+    check(MatCholeskyFactorNumeric(factor, matrix, &information));
+    PetscInt negative, zero, positive;
+    check(MatGetInertia(factor, &negative, &zero, &positive));
+    check(MatDestroy(&factor));
+    check(MatDestroy(&matrix));
+    return negative;
+  }
+
+
+  void Modes::solve(const unsigned int n)
+  {
+    for (Vec &vector : vectors)
+      check(VecDestroy(&vector));
+    vectors.clear();
+    eigenvalues.clear();
+    check(EPSSetDimensions(solver, std::min<std::uint64_t>(n, system.n_unknowns()), PETSC_DEFAULT,
+                           PETSC_DEFAULT));
+    check(EPSSolve(solver));
+    PetscInt n_converged;
+    check(EPSGetConverged(solver, &n_converged));
+    std::vector<std::pair<double, Vec>> found;
+    for (PetscInt k = 0; k < n_converged; ++k)
+      {
+        Vec         vector = system.new_vector();
+        PetscScalar value;
+        check(EPSGetEigenpair(solver, k, &value, nullptr, vector, nullptr));
+        found.emplace_back(value - shift * shift, vector);
+      }
+    std::sort(found.begin(), found.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    Vec product = system.new_vector();
+    for (const auto &found_mode : found)
+      {
+        Vec vector = found_mode.second;
+        check(MatMult(system.mass(), vector, product));
+        check(VecScale(vector, 1. / std::sqrt(dot(vector, product))));
+        // Rayleigh's quotient: its error is of second order in that of the vector.
+        check(MatMult(system.stiffness(), vector, product));
+        eigenvalues.push_back(dot(vector, product));
+        vectors.push_back(vector);
+      }
+    check(VecDestroy(&product));
+  }
+
+
+  double Modes::frequency(const unsigned int mode) const
+  {
+    return std::sqrt(std::max(eigenvalues[mode], 0.)) / (2. * dealii::numbers::PI);
+  }
+
+
+  double Modes::damping_share(const unsigned int mode) const
+  {
+    Vec product = system.new_vector();
+    check(MatMult(system.damping(), vectors[mode], product));
+    const double damping = dot(vectors[mode], product);
+    check(VecDestroy(&product));
+    return eigenvalues[mode] > 0. ? damping / (2. * std::sqrt(eigenvalues[mode])) : 0.;
+  }
+
+
+  double Modes::orthogonality_error() const
+  {
+    double                   largest = 0.;
+    Vec                      product = system.new_vector();
+    std::vector<PetscScalar> products(size());
+    for (unsigned int k = 0; k < size(); ++k)
+      {
+        check(MatMult(system.mass(), vectors[k], product));
+        check(VecMDot(product, size(), vectors.data(), products.data()));
+        products[k] -= 1.;
+        for (const double value : products)
+          largest = std::max(largest, std::abs(value));
+      }
+    check(VecDestroy(&product));
+    return largest;
+  }
+
+
+  void Modes::align(const ElasticSystem::Place &place)
+  {
+    const auto amplitude = [&](const unsigned int k) {
+      ElasticSystem::RigidParts parts;
+      return system.displacement_of(place, shape(k, parts));
+    };
+    Vec combined = system.new_vector();
+    for (unsigned int first = 0, end; first < size(); first = end)
+      {
+        end = first + 1;
+        while (end < size() && eigenvalues[end] - eigenvalues[first] <
+                                 equal_frequencies * (std::abs(eigenvalues[end]) + shift * shift))
+          ++end;
+        std::vector<double> u;
+        double              square = 0.;
+        for (unsigned int k = first; k < end; ++k)
+          {
+            u.push_back(amplitude(k));
+            square += u.back() * u.back();
+          }
+        if (square == 0.)
+          continue;
+        // Householder's reflection that makes of the amplitudes (-+|u|, 0, ...).
+        const double size_of_u = std::copysign(std::sqrt(square), u[0]);
+        if (end > first + 1)
+          {
+            std::vector<double> w = u;
+            w[0] += size_of_u;
+            double norm = 0.;
+            for (const double value : w)
+              norm += value * value;
+            check(VecSet(combined, 0.));
+            for (unsigned int k = first; k < end; ++k)
+              check(VecAXPY(combined, w[k - first], vectors[k]));
+            for (unsigned int k = first; k < end; ++k)
+              check(VecAXPY(vectors[k], -2. * w[k - first] / norm, combined));
+            u[0] = -size_of_u;
+          }
+        if (u[0] < 0.)
+          check(VecScale(vectors[first], -1.));
+      }
+    check(VecDestroy(&combined));
+  }
+
+
+  bool Modes::normalise_against(const std::vector<Vec> &basis, Vec vector) const
+  {
+    Vec        product = system.new_vector();
+    const auto size    = [&]() {
+      check(MatMult(system.mass(), vector, product));
+      return std::sqrt(std::max(0., dot(vector, product)));
+    };
+    const double             before = size();
+    std::vector<PetscScalar> shares(basis.size());
+    for (unsigned int pass = 0; pass < 2 && !basis.empty(); ++pass)
+      {
+        check(MatMult(system.mass(), vector, product));
+        check(VecMDot(product, basis.size(), basis.data(), shares.data()));
+        for (PetscScalar &share : shares)
+          share = -share;
+        check(VecMAXPY(vector, basis.size(), shares.data(), const_cast<Vec *>(basis.data())));
+      }
+    const double after   = size();
+    const bool   remains = after > rounding_share * before && after > 0.;
+    if (remains)
+      check(VecScale(vector, 1. / after));
+    check(VecDestroy(&product));
+    return remains;
+  }
+
+
+  std::vector<std::complex<double>> Modes::receptance(const ElasticSystem::Place              &place,
+                                                      const std::vector<std::complex<double>> &omega) const
+  {
+    ST  transformation;
+    KSP linear;
+    check(EPSGetST(solver, &transformation));
+    check(STGetKSP(transformation, &linear));
+    Vec              force = system.force_on(place), product = system.new_vector();
+    std::vector<Vec> loads = system.damper_forces(), basis = vectors;
+    const auto       add = [&](Vec load) {
+      Vec answer = system.new_vector();
+      check(KSPSolve(linear, load, answer));
+      if (normalise_against(basis, answer))
+        basis.push_back(answer);
+      else
+        check(VecDestroy(&answer));
+    };
+    for (Vec &load : loads)
+      {
+        add(load);
+        check(VecDestroy(&load));
+      }
+    Vec krylov = system.new_vector();
+    check(VecCopy(force, product));
+    for (unsigned int k = 0; k < n_krylov; ++k)
+      {
+        add(product);
+        check(KSPSolve(linear, product, krylov));
+        check(MatMult(system.mass(), krylov, product));
+        PetscReal size;
+        check(VecNorm(product, NORM_2, &size));
+        check(VecScale(product, 1. / size));
+      }
+    check(VecDestroy(&krylov));
+
+    const unsigned int         n = basis.size();
+    dealii::FullMatrix<double> stiffness(n, n), damping(n, n);
+    std::vector<PetscScalar>   products(n), forces(n);
+    check(VecMDot(force, n, basis.data(), forces.data()));
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        check(MatMult(system.damping(), basis[j], product));
+        check(VecMDot(product, n, basis.data(), products.data()));
+        for (unsigned int i = 0; i < n; ++i)
+          damping(i, j) = products[i];
+        if (j < vectors.size())
+          stiffness(j, j) = eigenvalues[j];
+        else
+          {
+            check(MatMult(system.stiffness(), basis[j], product));
+            check(VecMDot(product, n, basis.data(), products.data()));
+            for (unsigned int i = 0; i < n; ++i)
+              stiffness(i, j) = stiffness(j, i) = products[i];
+          }
+      }
+    for (std::size_t k = vectors.size(); k < n; ++k)
+      check(VecDestroy(&basis[k]));
+    check(VecDestroy(&product));
+    check(VecDestroy(&force));
+
+    // Each rank takes every n_ranks-th frequency.
+    using Complex              = std::complex<double>;
+    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(system.mesh.comm),
+                       n_ranks = dealii::Utilities::MPI::n_mpi_processes(system.mesh.comm);
+    std::vector<double> values(2 * omega.size(), 0.);
+    for (unsigned int line = rank; line < omega.size(); line += n_ranks)
+      {
+        dealii::LAPACKFullMatrix<Complex> matrix(n);
+        dealii::Vector<Complex>           answer(n);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            for (unsigned int j = 0; j < n; ++j)
+              matrix(i, j) = stiffness(i, j) + Complex(0., 1.) * omega[line] * damping(i, j);
+            matrix(i, i) -= omega[line] * omega[line];
+            answer(i) = forces[i];
+          }
+        matrix.compute_lu_factorization();
+        matrix.solve(answer);
+        Complex sum = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          sum += forces[i] * answer(i);
+        values[2 * line]     = sum.real();
+        values[2 * line + 1] = sum.imag();
+      }
+    dealii::Utilities::MPI::sum(values, system.mesh.comm, values);
+    std::vector<Complex> result;
+    for (unsigned int line = 0; line < omega.size(); ++line)
+      result.emplace_back(values[2 * line], values[2 * line + 1]);
+    return result;
+  }
+} // namespace tread
