@@ -5,6 +5,7 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
 #include <tread/output/records.h>
+#include <tread/track/rail_seats.h>
 
 #include <functional>
 #include <ostream>
@@ -66,10 +67,11 @@ namespace tread
   /// @param supports numbers of those that have columns
   Columns<HistoryRow> history_columns(const unsigned int n_wheels, const std::vector<int> &supports);
   /// cells.csv. @param n_cells so many have columns
-  Columns<HistoryRow>         cell_columns(std::size_t n_cells);
-  const Columns<PatchNode>   &patch_columns();
-  const Columns<Passage>     &passage_columns();
-  const Columns<StripColumn> &strip_columns();
+  Columns<HistoryRow>           cell_columns(std::size_t n_cells);
+  const Columns<PatchNode>     &patch_columns();
+  const Columns<Passage>       &passage_columns();
+  const Columns<StripColumn>   &strip_columns();
+  const Columns<RailSeatPoint> &rail_seat_columns();
 } // namespace tread
 
 #endif

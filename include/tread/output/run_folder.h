@@ -83,6 +83,9 @@ namespace tread
     /// strip.csv: one row for each column of cells under the path.
     void write_strip(const std::vector<StripColumn> &columns) const;
 
+    /// rail_seats.csv: one row for each part of a recorded support's pad.
+    void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
+
     /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
     /// row not later than time. @param n_wheels that the rows contain; @param supports numbers of those whose
     /// forces they contain.
