@@ -22,6 +22,7 @@
 #include <deal.II/numerics/vector_tools.h>
 
 #include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
 
 #include <algorithm>
 #include <array>
@@ -524,7 +525,7 @@ namespace tread
                       double internal = 0.;
                       for (unsigned int q = 0; q < in_cell.size(); ++q)
                         internal +=
-                          (stress_of(strains[q], lambda, mu)[c] * values.shape_grad(i, q)) * values.JxW(q);
+                          (stress_of(strains[q], lambda, mu) * values.shape_grad(i, q))[c] * values.JxW(q);
                       const Point<3> p =
                         mapping.transform_unit_to_real_cell(cell, element.unit_support_point(i));
                       force += c == 2 ? internal : 0.;
