@@ -5,6 +5,7 @@
 #include <tread/tools/dynamic_force_files.h>
 #include <tread/tools/modes_files.h>
 #include <tread/tools/reference_only.h>
+#include <tread/tools/sleeper_stress_files.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,11 +22,12 @@ namespace
 {
   struct CommandLine
   {
-    std::string                scene;
-    std::vector<std::string>   settings;
-    std::string                output;
-    tread::DynamicForceRequest dynamic;
-    tread::ModesRequest        modes;
+    std::string                 scene;
+    std::vector<std::string>    settings;
+    std::string                 output;
+    tread::DynamicForceRequest  dynamic;
+    tread::ModesRequest         modes;
+    tread::SleeperStressRequest sleeper;
     bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
   };
 
@@ -62,6 +64,15 @@ namespace
     app.add_option("--window", line.dynamic.window, "of the spectra: rectangular or Hann")->needs(defect);
     app.add_option("--from", line.dynamic.from_mm, "first position that counts, mm")->needs(defect);
     app.add_option("--to", line.dynamic.to_mm, "last position that counts, mm")->needs(defect);
+    CLI::Option *seat =
+      app.add_option("--sleeper-stress", line.sleeper.run,
+                     "folder of a run: static stress of a sleeper at the largest force in its pad");
+    seat->excludes(defect);
+    app.add_option("--support", line.sleeper.support, "its number; without it, that with the largest force")
+      ->needs(seat);
+    app.add_option("--bottom", line.sleeper.bottom, "of the sleeper: fixed or ballast")->needs(seat);
+    app.add_option("--cell-size", line.sleeper.cell_size_mm, "largest edge of the sleeper's cells, mm")
+      ->needs(seat);
     try
       {
         app.parse(argc, argv);
@@ -82,6 +93,12 @@ namespace
         (line.resume || line.reference_only || line.modes.wanted || line.dry_run))
       throw tread::InputError("--dynamic-force reads what two runs left; --resume, --reference-only, --modes "
                               "and --dry-run are for a scene");
+    if (!line.sleeper.run.empty() && !line.scene.empty())
+      throw tread::InputError("--sleeper-stress reads a run; it takes no scene");
+    if (!line.sleeper.run.empty() && (line.resume || line.reference_only || line.modes.wanted ||
+                                      line.dry_run || line.print_parameters || !line.settings.empty()))
+      throw tread::InputError("--sleeper-stress reads what a run left; -s, --print-parameters, --resume, "
+                              "--reference-only, --modes and --dry-run are for a scene");
     return line;
   }
 
@@ -96,6 +113,12 @@ namespace
       {
         line.dynamic.output = line.output;
         tread::write_dynamic_force(line.dynamic, comm);
+        return 0;
+      }
+    if (!line.sleeper.run.empty())
+      {
+        line.sleeper.output = line.output;
+        tread::write_sleeper_stress(line.sleeper, comm);
         return 0;
       }
     if (line.scene.empty() && !line.print_parameters)

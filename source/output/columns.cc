@@ -407,4 +407,34 @@ namespace tread
                                      }}};
     return columns;
   }
+
+
+  const Columns<RailSeatPoint> &rail_seat_columns()
+  {
+    using R = RailSeatPoint;
+    static const Columns<R> columns{{"support", "",
+                                     [](const R &r) {
+                                       return r.support;
+                                     }},
+                                    {"time", "s",
+                                     [](const R &r) {
+                                       return r.time;
+                                     }},
+                                    {"wheel_x", "mm",
+                                     [](const R &r) {
+                                       return r.wheel_x;
+                                     }},
+                                    {"x", "mm",
+                                     [](const R &r) {
+                                       return r.x;
+                                     }},
+                                    {"y", "mm",
+                                     [](const R &r) {
+                                       return r.y;
+                                     }},
+                                    {"pressure", "MPa", [](const R &r) {
+                                       return r.pressure;
+                                     }}};
+    return columns;
+  }
 } // namespace tread

@@ -94,8 +94,9 @@ namespace tread
           "(summary\\.json|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
           "transient|"
           "rail_cells|"
-          "rail_surface|strip|peak_stress(_wheel)?|cells|passages|dynamic|spectrum|modes|receptance)\\.csv|"
-          "dynamic\\.json|checkpoint-[01]|checkpoint\\.last|"
+          "rail_surface|strip|peak_stress(_wheel)?|rail_seats|cells|passages|dynamic|spectrum|modes|"
+          "receptance)\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
+          "checkpoint-[01]|checkpoint\\.last|"
           "(volume|surface|modes)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
         if (std::regex_match(name, own) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
@@ -173,6 +174,12 @@ namespace tread
   void RunFolder::write_strip(const std::vector<StripColumn> &columns) const
   {
     write_table("strip.csv", strip_columns(), columns);
+  }
+
+
+  void RunFolder::write_rail_seats(const std::vector<RailSeatPoint> &points) const
+  {
+    write_table("rail_seats.csv", rail_seat_columns(), points);
   }
 
 

@@ -188,6 +188,8 @@ namespace tread
                                  most->x, most->y, most->depth);
         folder.write_strip(columns);
       }
+    if (seats)
+      folder.write_rail_seats(seats->points());
     for (std::size_t i = 0; probes && i < probes->centres().size(); ++i)
       {
         const dealii::Point<3> &centre = probes->centres()[i];

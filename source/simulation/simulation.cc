@@ -64,6 +64,8 @@ namespace tread
                                               scene.track_parameters(), solid_sleepers(scene));
         for (const int number : scene.recorded_supports())
           supports->add_probe(mid_span_beside(scene, number));
+        if (!scene.recorded_supports().empty())
+          seats = std::make_unique<RailSeats>(*supports, scene.recorded_supports(), scene.first_support());
         dynamics.attach_supports(*supports, scene.rail.material.elastic());
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
         if (const AbsorbingEnds ends = scene.absorbing_ends(); ends.length > 0.)
@@ -106,6 +108,8 @@ namespace tread
   void Simulation::serialize(Archive &archive)
   {
     dynamics.serialize(archive); // and hubs, supports and contact, which are attached to it
+    if (seats)
+      seats->serialize(archive);
     if (strip)
       strip->serialize(archive);
     impacts.serialize(archive);
@@ -411,6 +415,8 @@ namespace tread
         dynamics.step();
         add_to_interval();
         look_for_peaks();
+        if (seats)
+          seats->record(dynamics.time, position());
         if (!dynamics.synchronised())
           continue;
         if (contact.contact_at_rim())

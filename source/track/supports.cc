@@ -385,20 +385,23 @@ namespace tread
   }
 
 
-  std::pair<double, double> Supports::pad_pressures(const unsigned int support) const
+  std::vector<double> Supports::seat_pressures(const unsigned int support) const
   {
-    std::pair<double, double> pressures(std::numeric_limits<double>::max(),
-                                        std::numeric_limits<double>::lowest());
-    const double              points_per_area =
+    const double points_per_area =
       parameters.points_along * parameters.points_across / (parameters.pad_length * parameters.pad_width);
+    std::vector<double> pressures;
     for (unsigned int i = 0; i < springs.size(); ++i)
       if (springs[i].support == support && springs[i].layer == pad)
-        {
-          const double pressure = -spring_force[i] * points_per_area;
-          pressures.first       = std::min(pressures.first, pressure);
-          pressures.second      = std::max(pressures.second, pressure);
-        }
+        pressures.push_back(-spring_force[i] * points_per_area);
     return pressures;
+  }
+
+
+  std::pair<double, double> Supports::pad_pressures(const unsigned int support) const
+  {
+    const std::vector<double> pressures = seat_pressures(support);
+    const auto [least, largest]         = std::minmax_element(pressures.begin(), pressures.end());
+    return {*least, *largest};
   }
 
 

@@ -6,6 +6,7 @@
 #include <tread/analysis/rail_stress.h>
 #include <tread/analysis/stress_peaks.h>
 #include <tread/output/records.h>
+#include <tread/track/rail_seats.h>
 
 #include <functional>
 #include <ostream>
@@ -73,6 +74,7 @@ namespace tread
   const Columns<Passage>            &passage_columns();
   const Columns<StripColumn>        &strip_columns();
   const Columns<StressPeaks::Layer> &peak_columns();
+  const Columns<RailSeatPoint>      &rail_seat_columns();
 } // namespace tread
 
 #endif

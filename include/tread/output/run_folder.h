@@ -86,6 +86,9 @@ namespace tread
     /// The largest stresses at the surface, depth 0, and in each layer of cells below it.
     void write_peaks(const std::string &name, const StressPeaks::Answer &answer) const;
 
+    /// rail_seats.csv: one row for each part of a recorded support's pad.
+    void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
+
     /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
     /// row not later than time. @param n_wheels that the rows contain; @param supports numbers of those whose
     /// forces they contain.

@@ -17,6 +17,7 @@
 #include <tread/simulation/impact_record.h>
 #include <tread/simulation/rolling_wheel.h>
 #include <tread/solid/solid.h>
+#include <tread/track/rail_seats.h>
 
 #include <mpi.h>
 
@@ -139,6 +140,7 @@ namespace tread
     ExplicitDynamics             dynamics;
     Contact                      contact;
     std::unique_ptr<Supports>    supports;                ///< none: the rail's bottom is held
+    std::unique_ptr<RailSeats>   seats;                   ///< none: no supports are recorded
     std::unique_ptr<StressStrip> strip;                   ///< none: no table
     std::unique_ptr<CellProbes>  probes;                  ///< none: no table
     std::unique_ptr<StressPeaks> rail_peaks, wheel_peaks; ///< none: no tables

@@ -110,6 +110,9 @@ namespace tread
     double force(const unsigned int support, const Layer layer) const;
     /// Smallest and largest pressure among the points of the pad, Pa; negative in tension.
     std::pair<double, double> pad_pressures(const unsigned int support) const;
+    /// Pressure on each part of the pad, Pa: parts behind each other along the rail, in each of these rows
+    /// side by side across it.
+    std::vector<double> seat_pressures(const unsigned int support) const;
     /// Mean displacement of the rail's foot over a support, upwards, m.
     double rail_displacement(const unsigned int support) const;
     double probe_displacement(const unsigned int probe) const;
