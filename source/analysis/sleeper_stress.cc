@@ -511,9 +511,9 @@ namespace tread
         if (cell->is_locally_owned())
           {
             cell->get_dof_indices(indices);
-            for (const types::global_dof_index i : indices)
-              if (element.system_to_component_index(&i - indices.data()).first == 2)
-                lowest = std::min<double>(lowest, displacement(i));
+            for (unsigned int i = 0; i < indices.size(); ++i)
+              if (element.system_to_component_index(i).first == 2)
+                lowest = std::min<double>(lowest, displacement(indices[i]));
             if (cell->at_boundary() && bedding == 0.)
               {
                 values.reinit(cell);

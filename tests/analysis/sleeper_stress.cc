@@ -43,7 +43,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
     uneven.pressure.push_back(1e6 * (1. + 0.2 * i + (i % 5 == 0 ? 0.7 : 0.)));
   const SleeperShape shape = SleeperShape::ns90();
   check.relative("half an NS90, kg", 2520. * shape.volume(), 140., 0.005);
-  unsigned int coarsest_iterations = 0;
+  unsigned int first_iterations = 0;
   for (const double cell : {0.04, 0.02, 0.01})
     {
       SleeperStressParameters p;
@@ -59,15 +59,17 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.relative(name + "moment on the bottom about y, N m", s.bottom_moment_y, -uneven.moment_y(), 1e-7);
       std::printf("%s%zu unknowns, %u iterations, largest von Mises stress %.9g MPa\n", name.c_str(),
                   s.unknowns, s.iterations, 1e-6 * s.max_von_mises);
-      if (coarsest_iterations == 0)
+      if (cell == 0.04)
         {
-          coarsest_iterations = s.iterations;
           // Found on one rank.
-          check.relative(name + "largest von Mises stress as on one rank, MPa", 1e-6 * s.max_von_mises, 1.,
-                         1e-8);
+          check.relative(name + "largest von Mises stress as on one rank, MPa", 1e-6 * s.max_von_mises,
+                         2.00090396, 1e-8);
+          continue; // two levels of the preconditioner, of which the lower one is solved directly
         }
-      check.that(name + "at most 1.3 times the iterations of the coarsest mesh",
-                 s.iterations <= 1.3 * coarsest_iterations);
+      if (first_iterations == 0)
+        first_iterations = s.iterations;
+      check.that(name + "at most 1.3 times the iterations with cells of 20 mm",
+                 s.iterations <= 1.3 * first_iterations);
     }
 
   check.refuses("a pad beyond the top", "longer than the sleeper's top is wide", [&] {

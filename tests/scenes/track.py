@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A wheel on a bar on sleepers, 20 mm of the tutorial scene: equilibrium at the start, steady rolling, ranks, resuming."""
 
+import json
 import os
 import subprocess
 import sys
@@ -64,4 +65,32 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("support_0_pad_N", "support_0_ballast_N", "support_1_rail_m", "normal_force_N"):
         check.relative(f"resumed on 2 ranks against never stopped: {name}", history(path("parts"))[-1][name], rows[-1][name], 1e-7)
     check.energy("resumed: ", resumed, 0.01)
+
+    # Half a sleeper under the pressures at the largest force of a pad, on 1 and 3 ranks.
+    seats = rows_of(path("1"), "rail_seats.csv")
+    of_parts = rows_of(path("parts"), "rail_seats.csv")
+    check.below("seats of the resumed run, largest difference (MPa)",
+                max(abs(a["pressure_MPa"] - b["pressure_MPa"]) for a, b in zip(seats, of_parts)), 1e-5)
+    largest = max(max(row[f"support_{i}_pad_N"] for row in rows) for i in SUPPORTS)
+
+    def sleeper(*more, ranks=1):
+        return subprocess.run(command(["--sleeper-stress", path("1"), *more], ranks, program), env=environment(), capture_output=True, text=True)
+
+    solved = sleeper("--cell-size", "30")
+    print(solved.stdout, solved.stderr)
+    with open(os.path.join(path("1"), "sleeper_stress.json"), encoding="utf-8") as stream:
+        stress = json.load(stream)
+    check.that("the seats of all recorded supports are kept", {row["support"] for row in seats} == set(SUPPORTS))
+    # Rows of the history are 0.25 mm apart; every step is looked at.
+    check.relative("seat force over the largest of the history's rows", stress["seat_force_N"] / largest, 1., 2e-3)
+    check.that("not below it", stress["seat_force_N"] >= largest * (1. - 1e-7))
+    check.that("von Mises stress of some MPa", 0.3e6 < stress["max_von_mises_Pa"] < 20e6)
+    check.that("3 ranks", sleeper("--cell-size", "30", "--output", path("sleeper"), ranks=3).returncode == 0)
+    with open(os.path.join(path("sleeper"), "sleeper_stress.json"), encoding="utf-8") as stream:
+        check.relative("3 ranks against 1: largest von Mises stress", json.load(stream)["max_von_mises_Pa"], stress["max_von_mises_Pa"], 1e-7)
+    for words, answer in ((["--support", "99"], "--support"), (["--cell-size", "-1"], "--cell-size"), (["--bottom", "sand"], "--bottom")):
+        refused = sleeper(*words)
+        check.that(" ".join(words) + ": " + refused.stderr.strip(), refused.returncode == 1 and answer in refused.stderr)
+    refused = subprocess.run(command(["--sleeper-stress", folder], program=program), env=environment(), capture_output=True, text=True)
+    check.that("a folder without seats: " + refused.stderr.strip(), refused.returncode == 1 and "rail_seats.csv" in refused.stderr)
 check.exit()
