@@ -99,7 +99,7 @@ PAIRS = [
     (BAR + DIP + ["Track/Points across=1", "Defect/Position (mm)=-30", "Defect/Lateral position (mm)=5"],
      ["Track/Points across", "at least 2", "defect"]),
     (DIP + ["Defect/Position (mm)=50"], ["Defect/Position (mm)", "50", "70", "outside the rail"]),
-    (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=0.5"], ["Defect/Width (mm)", "0.5", "Mesh/Finest cell (mm)", "0.63"]),
+    (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=0.5"], ["Defect/Width (mm)", "0.5", "Mesh/Finest cell (mm)", "1.26"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Length (mm)=0.4"], ["Defect/Length (mm)", "0.4", "Mesh/Finest cell (mm)"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Reversed=true"], ["Defect/Reversed", "profile", "edges exchanged"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=1.2"], ["Defect/Width (mm)", "1.2", "twice", "1.26"]),

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A verification scene against Kalker's CONTACT with elements of 0.1 mm, and the half-space solution of second order."""
 
+import csv
 import json
 import os
 import sys
@@ -33,7 +34,9 @@ with tempfile.TemporaryDirectory() as folder:
         stream.seek(0)
         m = json.load(stream)
     run(program, f"verification/{scene}.prm", os.path.join(folder, "half-space"), peaks, more=["--reference-only"])
-    peak_rows, depth_rows = rows_of(folder, "peak_stress.csv"), rows_of(os.path.join(folder, "half-space"), "subsurface.csv")
+    peak_rows = rows_of(folder, "peak_stress.csv")
+    with open(os.path.join(folder, "half-space", "subsurface.csv"), encoding="utf-8") as stream:
+        depth_rows = list(csv.DictReader(stream))
 half_space = {name: entry["half-space"]["value"] for name, entry in summary["reference"].items() if "half-space" in entry}
 check.relative("normal force, N", summary["normal_force_N"], scale * 127100., 0.003)
 check.below("maximum pressure, relative difference", m["max_pressure_relative_difference"], pressure)
@@ -48,13 +51,16 @@ check.below("largest slip in adhesion, m/s, at the solver's tolerance", m["max_s
 check.below("ripple of the normal force over the last 10 mm", summary["normal_force_ripple_share"], 0.002)
 check.below("contact steps not converged", summary["contact_unconverged_share"], 0.)
 # Largest von Mises stress by depth. Down to the second layer stress changes by a fifth from cell to cell, and the largest of
-# all instants is that of the cells that lie best: 1 to 4 % with cells of 0.63 mm, 2 % with 0.33 mm; half of that is allowed more.
-largest = [(row["depth_mm"], row["von_mises_MPa"]) for row in depth_rows if row["body"] == "rail" and row["line"] == "largest"]
+# all instants is that of the cells that lie best: 2 to 5 % with cells of 0.63 mm, 2 % with 0.33 mm. At the surface itself the
+# stress has a narrow peak where slip begins: 8 to 13 % of it are lost by extrapolating, 5 to 7 % by averaging over a face.
+largest = [(float(row["depth_mm"]), float(row["von_mises_MPa"])) for row in depth_rows if row["body"] == "rail" and row["line"] == "largest"]
 for row in peak_rows:
     depth = row["depth_mm"]
     above, below = max(p for p in largest if p[0] <= depth), min(p for p in largest if p[0] > depth)
     wanted = above[1] + (below[1] - above[1]) * (depth - above[0]) / (below[0] - above[0])
-    allowed = 0.12 if depth == 0. else 0.06 if depth < 1.2 else 0.02
+    allowed = 0.15 if depth == 0. else 0.06 if depth < 1.2 else 0.02
     check.relative(f"largest von Mises stress at a depth of {depth:.2f} mm, MPa", row["von_mises_MPa"], wanted, allowed)
+check.relative("largest von Mises stress of the surface from stretch and tractions, MPa",
+               1e-6 * summary["peak_surface_von_mises_from_tractions_Pa"], largest[0][1], 0.08)
 check.energy("", summary, energy)
 check.exit()
