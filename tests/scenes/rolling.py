@@ -285,7 +285,8 @@ with tempfile.TemporaryDirectory() as folder:
             kind = frozenset((key, value) for key, value in settings.items() if key.split("/")[-1] not in ignored)
             return not (kind in seen or seen.add(kind))
 
-        no_mesh = ("Title", "Creepage", "Friction coefficient", "Traction coefficient", "Yield stress (MPa)", "Tangent modulus (GPa)")
+        no_mesh = ("Title", "Rounded trailing edge (mm)", "Depth (mm)", "Creepage", "Friction coefficient", "Traction coefficient",
+                   "Yield stress (MPa)", "Tangent modulus (GPa)")
         start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "9", "Mesh/Fine layers": "2",
                  "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false"}
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
@@ -300,7 +301,7 @@ with tempfile.TemporaryDirectory() as folder:
                 dry = execute([scene, "--dry-run"], program=program)
                 check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
             if on_track and new_mesh:  # track.py rolls on one; a shorter run needs nothing but its length
-                cut = execute([scene, "--dry-run", "-s", "Motion/Rolled distance (mm)=20"], program=program)
+                cut = execute([scene, "--dry-run", "-s", "Motion/Rolled distance (mm)=20", "-s", "Peak stress/Region=none"], program=program)
                 if not check.that(f"{name}: can be cut short", cut.returncode == 0):
                     print(cut.stderr)
                 check.that(f"{name}: cut short it costs less", steps(cut.stdout) < 0.5 * steps(dry.stdout))
