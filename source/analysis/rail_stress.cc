@@ -20,14 +20,6 @@ namespace tread
     /// Reference positions are compared in whole nm, far below any cell and far above rounding.
     constexpr double per_nm = 1e9, nm = 1e-9;
 
-    dealii::Point<3> centre_of(const std::array<dealii::Point<3>, 8> &corners)
-    {
-      dealii::Point<3> centre;
-      for (const dealii::Point<3> &p : corners)
-        centre += p / 8.;
-      return centre;
-    }
-
     Archive::Key key_of(const unsigned int body, const dealii::Point<3> &p)
     {
       return {{body, std::llround(per_nm * p[0]), std::llround(per_nm * p[1]), std::llround(per_nm * p[2])}};

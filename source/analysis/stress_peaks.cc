@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/stress_peaks.h>
 #include <tread/base/gathered.h>
+#include <tread/solid/hexahedron.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,19 +14,6 @@ namespace tread
 {
   namespace
   {
-    dealii::Point<3> centre_of(const std::array<dealii::Point<3>, 8> &corners)
-    {
-      dealii::Point<3> centre;
-      for (const dealii::Point<3> &p : corners)
-        centre += p / 8.;
-      return centre;
-    }
-
-    double norm(const Vector3 a)
-    {
-      return std::sqrt(dot(a, a));
-    }
-
     /// Layers of an octree are one, two, four ... finest cells thick, and their centres lie at half of that
     /// or at whole numbers below the surface: a quarter of a cell more tells all of them apart.
     unsigned int layer_at(const double depth, const double finest_cell)

@@ -36,11 +36,6 @@ namespace tread
     /// ... and never more than this share of the searched reach: half of what faces that were not looked at
     /// are away at least.
     constexpr double most_travel = 0.5;
-
-    double norm(const Vector3 a)
-    {
-      return std::sqrt(dot(a, a));
-    }
   } // namespace
 
 

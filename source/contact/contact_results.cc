@@ -8,15 +8,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    double norm(const Vector3 a)
-    {
-      return std::sqrt(dot(a, a));
-    }
-  } // namespace
-
-
   Vector3 Contact::total_impulse() const
   {
     Vector3 sum{};

@@ -126,8 +126,8 @@ namespace tread
 
   PeakRegion peak_region(const Scene &scene, const unsigned int body)
   {
-    // Twice this far from its middle, a patch causes a twentieth of its largest stress.
-    constexpr double              semi_axes = 3.;
+    // This far from the middle of a patch, half a semi-axis from its edge, no stress is as large as under it.
+    constexpr double              semi_axes = 1.5;
     const reference::HertzEllipse ellipse   = hertz(scene, scene.static_load());
     const Scene::Range            range     = scene.peak_range();
     const PeakStressSection      &section   = scene.peak_stress;

@@ -2,6 +2,7 @@
 #ifndef tread_base_simd_h
 #define tread_base_simd_h
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -59,6 +60,11 @@ namespace tread
   {
     const Vector3 c = a * b;
     return c[0] + c[1] + c[2];
+  }
+
+  inline double norm(const Vector3 a)
+  {
+    return std::sqrt(dot(a, a));
   }
 
   inline Vector3 cross(const Vector3 a, const Vector3 b)

@@ -28,6 +28,15 @@ namespace tread
     explicit HexahedronIntegrals(const std::array<dealii::Point<3>, 8> &nodes);
   };
 
+  /// Mean of a cell's corners.
+  inline dealii::Point<3> centre_of(const std::array<dealii::Point<3>, 8> &corners)
+  {
+    dealii::Point<3> centre;
+    for (const dealii::Point<3> &p : corners)
+      centre += p / 8.;
+    return centre;
+  }
+
   /// Whether a cell with these corners is a box, sheared or turned: the sums of the positions times the
   /// hourglass patterns are below 1e-10 of its size, which is round-off of positions.
   bool is_parallelepiped(const std::array<dealii::Point<3>, 8> &corners);
