@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Error measures of a run of tread against a fine surface file of CONTACT: tread/comparison.py."""
+"""Error measures of a run of tread against CONTACT or the half-space solution: tread/comparison.py."""
 
 import json
 import os
@@ -28,12 +28,13 @@ LINES = (("largest pressure", "max_pressure_relative_difference", "{:+.2%}"),
 def main():
     parser = command_parser(comparison.__doc__)
     parser.add_argument("run", metavar="RUN_DIR")
-    parser.add_argument("contact", metavar="CONTACT.csv", help="surface file of CONTACT, also .csv.gz")
+    parser.add_argument("contact", metavar="CONTACT.csv", nargs="?",
+                        help="surface file of CONTACT, also .csv.gz; without it the run's half-space solution")
     parser.add_argument("--scale", metavar="S", type=float, default=1.0, help="of CONTACT's load; the default is 1")
     parser.add_argument("--json", metavar="FILE", help="write the measures to this file too")
     arguments = parser.parse_args()
     result = comparison.compare(arguments.run, arguments.contact, arguments.scale)
-    print(f"{arguments.run} against {os.path.basename(arguments.contact)}: {result['nodes_in_contact']} nodes in "
+    print(f"{arguments.run} against {os.path.basename(arguments.contact or "reference_patch.csv")}: {result['nodes_in_contact']} nodes in "
           f"contact, {result['node_distance_mm']:.3g} mm apart, shifted by "
           f"({result['shift_x_mm']:.3f}, {result['shift_y_mm']:.3f}) mm")
     for label, key, template in LINES:

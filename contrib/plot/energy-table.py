@@ -3,7 +3,8 @@
 """What every shipped scene does with its energy: the table 'energy' of doc/verification.md.
 
 Reads RESULTS/<folder>-<name of the parameter file>/summary.json of the scenes of prm/. With --run, scenes without results
-are run first, one after the other; --rolled shortens their paths (results of other lengths are run anew), --scenes chooses.
+are run first, one after the other; --rolled shortens their paths but for scenes that look
+for peaks of stress (results of other lengths are run anew), --scenes chooses.
 Scenes without results are named, and keep the row that they have in the table.
 """
 
@@ -37,7 +38,8 @@ def settings_of(scene, rolled):
     if rolled is None:
         return settings
     parameters = parameters_of(scene)
-    if float(parameters["Motion/Rolled distance (mm)"]) > rolled:
+    # Peaks of stress are looked for where the whole path leads.
+    if float(parameters["Motion/Rolled distance (mm)"]) > rolled and parameters["Peak stress/Region"] == "none":
         settings["Motion/Rolled distance (mm)"] = f"{rolled:g}"
         # The torque must set in on the way.
         if float(parameters["Motion/Hold distance (mm)"]) >= rolled:

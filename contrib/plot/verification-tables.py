@@ -11,6 +11,7 @@ import glob
 import math
 import os
 
+from tread.comparison import compare
 from tread.commands import command_parser, run_command
 from tread.measured_runs import contact_measures, run_scene
 from tread.patches import read_patch
@@ -182,7 +183,51 @@ def sensitivity_table(results):
                                   for label, key, _ in measures], rows)
 
 
+# Name, settings, of the scene creepage-spin-0.63.prm.
+CREEPAGE_SPIN = (("driven, to the side, with spin", {}),
+                 ("to the side", {"Motion/Creepage": 0, "Motion/Lateral creepage": 0.001, "Motion/Spin (1 per m)": 0}),
+                 ("spin", {"Motion/Creepage": 0, "Motion/Lateral creepage": 0, "Motion/Spin (1 per m)": 0.5}))
+CREEPAGE_SPIN_CELLS = (1.3, 0.63, 0.33)
+
+
+def creepage_spin_run(case, size):
+    return f"creepage-spin-{case}-{size:g}"
+
+
+def creepage_spin_table(results):
+    rows = []
+    for case, (name, _) in enumerate(CREEPAGE_SPIN):
+        reference = os.path.join(results, creepage_spin_run(case, 0))
+        if not is_complete(reference):
+            print(f"note: no results in {reference}")
+            return None
+        half_space = read_summary(reference)
+        for size in CREEPAGE_SPIN_CELLS:
+            run = os.path.join(results, creepage_spin_run(case, size))
+            if not is_complete(run):
+                continue
+            summary, fields = read_summary(run), compare(run)
+
+            def of_normal(key):
+                own, wanted = (s[key] / s["normal_force_N"] for s in (summary, half_space))
+                return signed(100 * (own / wanted - 1)) if abs(wanted) > 1e-3 else signed(100 * own) + " of the load"
+            rows.append([name, f"{size:g}", of_normal("longitudinal_force_N"), of_normal("lateral_force_N"),
+                         signed(100 * (summary["adhesion_share"] - half_space["adhesion_share"])),
+                         signed(100 * (summary["frictional_power_W"] / half_space["frictional_power_W"] - 1)),
+                         number(100 * fields["pressure_rms_over_max"]), number(100 * fields["shear_rms_over_max"]),
+                         number(100 * summary["energy_residual_of_dissipated"])])
+    return markdown(["case", "cells [mm]", "Fx/Fn [%]", "Fy/Fn [%]", "adhesion [points]", "frictional power [%]",
+                     "pressure, RMS [%]", "shear stress, RMS [%]", "energy residual [% of the dissipated]"], rows)
+
+
 def run_missing(results, tables):
+    if "creepage-spin" in tables:
+        for case, (_, settings) in enumerate(CREEPAGE_SPIN):
+            scene = "verification/creepage-spin-0.63.prm"
+            run_scene(scene, os.path.join(results, creepage_spin_run(case, 0)), settings, more=["--reference-only"])
+            for size in CREEPAGE_SPIN_CELLS:
+                run_scene(scene, os.path.join(results, creepage_spin_run(case, size)),
+                          {**settings, "Mesh/Finest cell (mm)": size})
     if "low-strain" in tables:
         for size in LOW_STRAIN:
             run_scene(f"verification/low-strain-{size:g}.prm", os.path.join(results, f"low-strain-{size:g}"))
@@ -267,7 +312,7 @@ def published_table(results):
 
 
 TABLES = {"half-space": half_space_table, "low-strain": low_strain_table, "strain": strain_table,
-          "sensitivity": sensitivity_table, "published": published_table}
+          "sensitivity": sensitivity_table, "creepage-spin": creepage_spin_table, "published": published_table}
 
 
 def main():

@@ -81,7 +81,8 @@ namespace tread
     if (n == 0)
       {
         // The reduced equations need the factors all the same.
-        check(STSetUp(transformation));
+        check(EPSSetDimensions(solver, 1, PETSC_DEFAULT, PETSC_DEFAULT));
+        check(EPSSetUp(solver));
         return;
       }
     // One starting vector finds one of several modes that are equal to the last digit, unless rounding brings

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/stress_peaks.h>
 #include <tread/base/gathered.h>
+#include <tread/base/input_error.h>
 #include <tread/solid/hexahedron.h>
 
 #include <deal.II/base/mpi.h>
@@ -72,6 +73,9 @@ namespace tread
     , material(material)
   {
     find_members(dynamics, body);
+    if (dealii::Utilities::MPI::sum(members.size(), comm) == 0)
+      throw InputError(std::string("the region of 'Peak stress' holds no middle of a cell of the ") +
+                       (contact ? "rail" : "wheel") + ": make it longer, wider or deeper");
     find_pairs();
     if (contact)
       find_faces(dynamics, *contact);

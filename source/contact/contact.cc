@@ -264,7 +264,8 @@ namespace tread
     predicted.assign(involved.size(), Vector3{});
     velocity_before.assign(involved.size(), Vector3{});
     mean_velocity.assign(involved.size(), Vector3{});
-    gap_rate.resize(problem.constraints.size());
+    offset.resize(problem.constraints.size());
+    imposed.assign(problem.constraints.size(), Vector3{});
     slips.assign(problem.constraints.size(), false);
     const unsigned int n_ranks = involved_of_rank.size();
     strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
@@ -361,7 +362,7 @@ namespace tread
     archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
                  corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
                  travelled, allowed_travel, unconverged_steps);
-    archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes);
+    archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes, work.imposed);
     std::vector<unsigned int> begin_of_strip = strips.begins();
     archive.same(begin_of_strip);
     if (archive.restores())
@@ -465,8 +466,17 @@ namespace tread
     for (const unsigned int i : swept_nodes)
       velocity[i] = predicted[i];
     for (unsigned int j = strips.begin; j < strips.end; ++j)
-      gap_rate[j] =
-        dot(problem.combine(problem.constraints[j], position), problem.constraints[j].normal) / time_step;
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        offset[j] =
+          (dot(problem.combine(constraint, position), constraint.normal) / time_step) * constraint.normal;
+        if (imposed_sliding)
+          {
+            const Vector3 sliding = imposed_sliding(surfaces.nodes[constraint.slave].reference, master_of[j]);
+            imposed[j]            = sliding - dot(sliding, constraint.normal) * constraint.normal;
+            offset[j] += imposed[j];
+          }
+      }
     // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       {
@@ -475,7 +485,7 @@ namespace tread
         if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
           impulse[j] = guess;
       }
-    const CoulombSolverResult result = solve_coulomb(problem, *friction, parameters.solver, strips, gap_rate,
+    const CoulombSolverResult result = solve_coulomb(problem, *friction, parameters.solver, strips, offset,
                                                      velocity, impulse, slips, given_ratio);
 
     if (result.change > parameters.solver.tolerance)
@@ -539,7 +549,9 @@ namespace tread
           continue;
         const Vector3 u          = problem.combine(constraint, mean_velocity);
         const Vector3 tangential = impulse[j] - normal * constraint.normal;
-        const double  lost       = -dot(tangential, u);
+        const double  put_in     = -dot(tangential, imposed[j]);
+        const double  lost       = put_in - dot(tangential, u);
+        work.imposed += put_in;
         work.normal -= normal * dot(u, constraint.normal);
         (slips[j] ? work.friction : work.adhesion) += lost;
       }

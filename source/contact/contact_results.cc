@@ -83,7 +83,7 @@ namespace tread
         state.normal      = constraint.normal;
         state.impulse     = impulse[j];
         const Vector3 u   = problem.combine(constraint, velocity);
-        state.slip        = u - dot(u, constraint.normal) * constraint.normal;
+        state.slip        = u - dot(u, constraint.normal) * constraint.normal + imposed[j];
         state.area        = constraint.area;
         state.gap         = dot(problem.combine(constraint, position), constraint.normal);
         state.adhesion    = !slips[j];

@@ -10,7 +10,7 @@ namespace tread
                                     const FrictionLaw             &friction,
                                     const CoulombSolverParameters &parameters,
                                     Strips                        &strips,
-                                    const std::vector<double>     &gap_rate,
+                                    const std::vector<Vector3>    &offset,
                                     std::vector<Vector3>          &velocity,
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
@@ -33,11 +33,11 @@ namespace tread
         {
           if (!all && waits[j])
             continue;
-          const ContactProblem::Constraint &constraint  = problem.constraints[j];
-          const Vector3                     u           = problem.combine(constraint, velocity);
-          const Vector3                     old         = impulse[j];
+          const ContactProblem::Constraint &constraint = problem.constraints[j];
+          const Vector3                     u   = problem.combine(constraint, velocity) + offset[j];
+          const Vector3                     old = impulse[j];
           const double                      old_normal  = dot(old, constraint.normal);
-          const double                      normal_rate = dot(u, constraint.normal) + gap_rate[j];
+          const double                      normal_rate = dot(u, constraint.normal);
           const double new_normal = std::max(0., old_normal - normal_rate / constraint.compliance);
           waits[j]                = new_normal == 0. && old_normal == 0.;
           if (waits[j])
@@ -46,7 +46,7 @@ namespace tread
           Vector3 tangential;
           if (given.empty())
             {
-              const Vector3 slip = u - dot(u, constraint.normal) * constraint.normal;
+              const Vector3 slip = u - normal_rate * constraint.normal;
               tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
               const double bound = static_coefficient * new_normal; // of adhesion
               const double size2 = dot(tangential, tangential);

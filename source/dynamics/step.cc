@@ -229,7 +229,9 @@ namespace tread
     const ContactWork work = contact->last_work();
     totals.friction += work.friction;
     totals.contact += work.normal + work.adhesion;
-    totals.contact_on_nodes += work.on_nodes;
+    totals.contact_on_nodes += work.on_nodes + work.imposed;
+    totals.external_work += work.imposed;
+    totals.gross_work += std::abs(work.imposed);
     times.contact += watch.lap();
   }
 

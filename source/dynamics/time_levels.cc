@@ -221,7 +221,7 @@ namespace tread
         shares.for_nodes_up_to(level - 1, [&](const std::size_t k, const double own) {
           Vector3      &here   = force[shares.nodes[k]];
           const Vector3 now    = (1. / factor) * (here - force_before[k]);
-          const Vector3 change = levels.slow_shares_known ? follow * (now - shares.steady[k]) : now;
+          const Vector3 change = (levels.slow_shares_known ? follow : 1.) * (now - shares.steady[k]);
           shares.steady[k] += change;
           // The steady part acts on average half of (factor - own) steps late: what that takes from a
           // force that changes is given at once, or motion would be fed with energy.

@@ -32,7 +32,6 @@ namespace tread
       summary.set("slip_chatter_share", *slip_chatter);
     else
       summary.set("slip_chatter_share", nullptr);
-    summary.set("warnings", warnings());
   }
 
 

@@ -21,6 +21,8 @@ namespace tread
     c.rail  = {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio};
     c.prescribe_force               = true;
     c.traction_coefficient          = traction_coefficient;
+    c.lateral_creepage              = scene.motion.lateral_creepage;
+    c.spin                          = scene.motion.spin;
     const RunningSurfaces &surfaces = scene.surfaces();
     const double           y_middle = scene.first_contact().y;
     if (!scene.rail.is_block() || surfaces.tread_offset)
@@ -196,6 +198,12 @@ namespace tread
     else
       with_half_space("traction_coefficient", "traction coefficient", 1., answer.force[0] / answer.force[2],
                       reference.force[0] / reference.force[2], half_space.traction_coefficient, 1e-3);
+    // Lateral creepage or spin: a prescribed one, or that of a tapered tread.
+    constexpr double no_lateral_force = 1e-3;
+    if (const double lateral = reference.force[1] / reference.force[2]; std::abs(lateral) > no_lateral_force)
+      with_half_space("lateral_coefficient", "lateral over normal force", 1.,
+                      answer.force[1] / answer.force[2], lateral,
+                      {lateral, half_space.lateral_force.uncertainty / reference.force[2]}, no_lateral_force);
     with_half_space("adhesion_share", "adhesion share, %", 1e2, answer.patch.adhesion_share,
                     reference.patch.adhesion_share, half_space.adhesion_share, 0.);
     with_half_space("max_shear_Pa", "maximum shear stress, MPa", 1e-6, answer.patch.max_shear,

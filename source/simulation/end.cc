@@ -75,7 +75,8 @@ namespace tread
                                                              const ContactAnswer &answer) const
   {
     const double normal = answer.force[2], traction = answer.force[0];
-    const bool all_slips = std::abs(traction) >= nearly_sliding * scene.contact.friction_coefficient * normal;
+    const bool   all_slips =
+      std::hypot(traction, answer.force[1]) >= nearly_sliding * scene.contact.friction_coefficient * normal;
     reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
     c.prescribe_force        = !all_slips;
     c.creepage               = -answer.creepage;
@@ -202,18 +203,25 @@ namespace tread
   }
 
 
-  std::string Simulation::add_peaks(Summary &summary, RunFolder &folder) const
+  std::string Simulation::add_peaks(Summary                  &summary,
+                                    RunFolder                &folder,
+                                    std::vector<std::string> &warnings) const
   {
     std::string lines;
     if (!rail_peaks)
       return lines;
-    const auto add = [&](const std::string &name, const Peak &peak, const bool with_depth) {
+    // Slow cells are looked at when all nodes are at the same instant.
+    const double last_instant =
+      dynamics.time - (std::uint64_t(1) << dynamics.max_level()) * dynamics.time_step;
+    bool       still_grows = false;
+    const auto add         = [&](const std::string &name, const Peak &peak, const bool with_depth) {
       summary.set(name + "_Pa", peak.value);
       summary.set(name + "_x_m", peak.x);
       summary.set(name + "_y_m", peak.y);
       if (with_depth)
         summary.set(name + "_depth_m", peak.depth);
       summary.set(name + "_time_s", peak.time);
+      still_grows = still_grows || peak.time >= last_instant;
     };
     for (const bool of_rail : {true, false})
       {
@@ -221,7 +229,10 @@ namespace tread
         const std::string         prefix = of_rail ? "peak_" : "wheel_peak_";
         Peak                      highest;
         for (const StressPeaks::Layer &layer : answer.layers)
-          highest = std::max(highest, layer.peak);
+          {
+            highest     = std::max(highest, layer.peak);
+            still_grows = still_grows || layer.peak.time >= last_instant;
+          }
         add(prefix + "von_mises", highest, true);
         add(prefix + "surface_von_mises", answer.surface.peak, false);
         if (of_rail)
@@ -236,6 +247,10 @@ namespace tread
                                   peak.depth);
         folder.write_peaks(of_rail ? "peak_stress.csv" : "peak_stress_wheel.csv", answer);
       }
+    if (still_grows)
+      warnings.push_back(
+        "a largest stress of the region of 'Peak stress' is that of the last instant of the run, and "
+        "grew until then: roll farther");
     return lines;
   }
 
@@ -287,7 +302,9 @@ namespace tread
     const Rolled      rolled         = add_size(summary, normal);
     const std::string further_wheels = add_further_wheels(summary, patches);
     add_cost(summary);
-    const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder);
+    std::vector<std::string> warnings = quality.warnings();
+    const std::string        stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
+    summary.set("warnings", warnings);
     folder.write("summary.json", summary.text());
     if (averaged)
       for (const RollingWheel &of_table : wheels)
@@ -306,7 +323,7 @@ namespace tread
                       1e-3 * normal, 100. * ripple, traction, summary.table().c_str());
         std::printf("\n%s%s%s%s", further_wheels.c_str(), quality.lines().c_str(), note.c_str(),
                     note.empty() ? "" : "\n");
-        for (const std::string &warning : quality.warnings())
+        for (const std::string &warning : warnings)
           std::printf("WARNING: %s\n", warning.c_str());
         if (completed && !scene.has_defect() && !rolled.long_enough())
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",

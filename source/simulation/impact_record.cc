@@ -24,6 +24,7 @@ namespace tread
         has_supports = true;
       }
     has_rows = true;
+    last_x   = row.position;
   }
 
 
@@ -37,6 +38,7 @@ namespace tread
         summary.set(prefix + "N", extreme.value);
         summary.set(prefix + "x_m", extreme.x);
         summary.set(prefix + "over_static", extreme.value / static_load);
+        summary.set(prefix + "at_end", is_at_end(extreme));
       }
     summary.set("airborne_s", airborne);
     if (!has_supports)
@@ -47,6 +49,7 @@ namespace tread
         summary.set(prefix + "N", extreme.value);
         summary.set(prefix + "x_m", extreme.x);
         summary.set(prefix + "support", extreme.support);
+        summary.set(prefix + "at_end", is_at_end(extreme));
       }
   }
 
@@ -55,22 +58,27 @@ namespace tread
   {
     if (!has_rows)
       return "";
-    const auto contact = [&](const char *name, const Extreme &e) {
-      return format("%s contact force %9.2f kN, %.3f of the static load, with the wheel at x = %.1f mm\n",
-                    name, 1e-3 * e.value, e.value / static_load, 1e3 * e.x);
+    const auto at = [&](const Extreme &e) {
+      return format("with the wheel at x = %.1f mm%s\n", 1e3 * e.x,
+                    is_at_end(e) ? ": the end of the run, no peak" : "");
     };
-    const auto support = [](const char *name, const Extreme &e) {
-      return format("largest force of a %-7s %7.2f kN, at support %d, with the wheel at x = %.1f mm\n", name,
-                    1e-3 * e.value, e.support, 1e3 * e.x);
+    const auto contact = [&](const char *name, const Extreme &e) {
+      return format("%s contact force %9.2f kN, %.3f of the static load, ", name, 1e-3 * e.value,
+                    e.value / static_load) +
+             at(e);
+    };
+    const auto support = [&](const char *name, const Extreme &e) {
+      return format("largest force in %-8s %7.2f kN, at support %d, ", name, 1e-3 * e.value, e.support) +
+             at(e);
     };
     return contact("largest", largest) + contact("least  ", least) +
            (airborne > 0. ? format("the wheel was in the air for %.3f ms\n", 1e3 * airborne) : "") +
-           (has_supports ? support("pad", pad) + support("ballast", ballast) : "");
+           (has_supports ? support("a pad", pad) + support("ballast", ballast) : "");
   }
 
 
   void ImpactRecord::serialize(Archive &archive)
   {
-    archive.same(has_rows, has_supports, largest, least, pad, ballast, airborne);
+    archive.same(has_rows, has_supports, largest, least, pad, ballast, airborne, last_x);
   }
 } // namespace tread

@@ -81,6 +81,14 @@ namespace tread
     for (RollingWheel &wheel : wheels)
       dynamics.attach_hub(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
     dynamics.attach_contact(contact);
+    if (scene.motion.lateral_creepage != 0. || scene.motion.spin != 0.)
+      contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
+        const auto wheel =
+          std::find_if(wheels.begin(), wheels.end(), [&](const RollingWheel &w) { return w.body == body; });
+        const double         x = place[0] - wheel->hub.motion.x, y = place[1] - this->scene.first_contact().y;
+        const MotionSection &motion = this->scene.motion;
+        return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
+      });
 
     if (scene.output.strip_half_width > 0.)
       strip = std::make_unique<StressStrip>(mesh, rail_body, strip_extent(scene));
@@ -118,7 +126,8 @@ namespace tread
         peaks->serialize(archive);
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
-    archive.same(torque_released, solution_taken, passages, interval_steps, interval_start_time, last_steps);
+    archive.same(torque_released, solution_taken, passages, next_wheel_due, interval_steps,
+                 interval_start_time, last_steps);
     archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
   }
 
@@ -354,6 +363,8 @@ namespace tread
     if (scene.output.surface_interval > 0.)
       folder.open_patches(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size());
     checked_position = position();
+    if (next_wheel_due && !begin_next_passage(progress))
+      return false;
 
     const End end = roll(folder, checkpoint, progress);
     if (end == End::between_passages)
@@ -430,10 +441,10 @@ namespace tread
         if (look_at_cells.due(dynamics.n_steps) || at_end)
           dynamics.check_cells();
 
-        // Before any checkpoint, so that none is made of a wheel at its end.
+        // Before any other checkpoint, so that none is made of a wheel at its end that does not know it.
         if (at_end && passages.size() + 1 < scene.motion.passages)
           {
-            if (!change_wheels(folder, progress))
+            if (!change_wheels(folder, checkpoint, progress))
               return End::between_passages;
             n_steps = dynamics.n_steps + remaining_steps();
           }
@@ -470,7 +481,7 @@ namespace tread
   }
 
 
-  bool Simulation::change_wheels(RunFolder &folder, Progress &progress)
+  bool Simulation::change_wheels(RunFolder &folder, Checkpoint &checkpoint, Progress &progress)
   {
     if (interval_steps > 0)
       end_interval(folder);
@@ -478,15 +489,24 @@ namespace tread
     progress.say(format("passage %u of %u: settlement %.2f um, largest plastic strain %.3f %%",
                         unsigned(passages.size()), scene.motion.passages, 1e6 * passages.back().settlement,
                         100. * passages.back().plastic_strain));
+    next_wheel_due = true;
+    checkpoint.write(*this); // the start of the next wheel may take long, and cannot be kept
+    return begin_next_passage(progress);
+  }
+
+
+  bool Simulation::begin_next_passage(Progress &progress)
+  {
     try
       {
         next_passage(progress);
       }
     catch (const Interruption &)
       {
-        progress.say("INTERRUPTED between two passages: --resume goes on from the last checkpoint");
+        progress.say("INTERRUPTED between two passages; go on with --resume");
         return false;
       }
+    next_wheel_due = false;
     return true;
   }
 

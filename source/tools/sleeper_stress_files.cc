@@ -99,6 +99,15 @@ namespace tread
       return seats;
     }
 
+    /// Whether the run ended with the largest force of its supports, on this one.
+    bool largest_force_at_end(const std::string &folder, const int support)
+    {
+      std::ifstream file(folder + "/summary.json");
+      const auto    summary = nlohmann::json::parse(file, nullptr, false);
+      return summary.is_object() && summary.value("largest_pad_force_at_end", false) &&
+             summary.value("largest_pad_force_support", support - 1) == support;
+    }
+
     const RecordedSeat &chosen(const std::vector<RecordedSeat> &seats, const SleeperStressRequest &request)
     {
       if (request.support.empty())
@@ -211,6 +220,7 @@ namespace tread
       {
         throw InputError(error.what());
       }
+    const bool at_end           = largest_force_at_end(request.run, seat.support);
     const auto [least, largest] = std::minmax_element(pressures.pressure.begin(), pressures.pressure.end());
 
     nlohmann::ordered_json json;
@@ -218,6 +228,7 @@ namespace tread
     json["support"]               = seat.support;
     json["time_s"]                = seat.time;
     json["wheel_x_m"]             = seat.wheel_x;
+    json["at_end_of_run"]         = at_end;
     json["bottom"]                = request.bottom;
     json["max_von_mises_Pa"]      = s.max_von_mises;
     json["max_von_mises_place_m"] = place_of(s.place);
@@ -252,17 +263,18 @@ namespace tread
     folder.write("sleeper_stress.json",
                  json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      std::printf("support %d of %s at %.6g s, wheel at %.2f mm: %.4g kN on the rail seat, %.4g to %.4g MPa\n"
-                  "half a sleeper of %.1f kg, bottom %s: %zu cells, %zu unknowns, %u iterations\n"
-                  "largest von Mises stress %.4g MPa at (%.1f, %.1f, %.1f) mm from the middle of the seat\n"
-                  "largest tension          %.4g MPa at (%.1f, %.1f, %.1f) mm\n"
-                  "force on the bottom %.6g kN\n"
-                  "Results in %s: sleeper_stress.json; for ParaView: sleeper_stress.vtu\n",
-                  seat.support, request.run.c_str(), seat.time, 1e3 * seat.wheel_x, 1e-3 * pressures.force(),
-                  1e-6 * *least, 1e-6 * *largest, mass, request.bottom == "fixed" ? "fixed" : "on ballast",
-                  s.cells, s.unknowns, s.iterations, 1e-6 * s.max_von_mises, 1e3 * s.place[0],
-                  1e3 * s.place[1], 1e3 * s.place[2], 1e-6 * s.max_tension, 1e3 * s.tension_place[0],
-                  1e3 * s.tension_place[1], 1e3 * s.tension_place[2], 1e-3 * s.bottom_force,
-                  folder.path("").c_str());
+      std::printf(
+        "%ssupport %d of %s at %.6g s, wheel at %.2f mm: %.4g kN on the rail seat, %.4g to %.4g MPa\n"
+        "half a sleeper of %.1f kg, bottom %s: %zu cells, %zu unknowns, %u iterations\n"
+        "largest von Mises stress %.4g MPa at (%.1f, %.1f, %.1f) mm from the middle of the seat\n"
+        "largest tension          %.4g MPa at (%.1f, %.1f, %.1f) mm\n"
+        "force on the bottom %.6g kN\n"
+        "Results in %s: sleeper_stress.json; for ParaView: sleeper_stress.vtu\n",
+        at_end ? "WARNING: the force on this support was still growing when the run ended\n" : "",
+        seat.support, request.run.c_str(), seat.time, 1e3 * seat.wheel_x, 1e-3 * pressures.force(),
+        1e-6 * *least, 1e-6 * *largest, mass, request.bottom == "fixed" ? "fixed" : "on ballast", s.cells,
+        s.unknowns, s.iterations, 1e-6 * s.max_von_mises, 1e3 * s.place[0], 1e3 * s.place[1],
+        1e3 * s.place[2], 1e-6 * s.max_tension, 1e3 * s.tension_place[0], 1e3 * s.tension_place[1],
+        1e3 * s.tension_place[2], 1e-3 * s.bottom_force, folder.path("").c_str());
   }
 } // namespace tread

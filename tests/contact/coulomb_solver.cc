@@ -34,7 +34,7 @@ namespace
   struct RandomProblem
   {
     ContactProblem       problem;
-    std::vector<double>  gap_rate;
+    std::vector<Vector3> offset;
     std::vector<Vector3> velocity;
   };
 
@@ -67,7 +67,9 @@ namespace
         for (unsigned int i = c.begin; i < c.end; ++i)
           c.compliance += r.problem.entries[i].coefficient * r.problem.entries[i].over_mass;
         r.problem.constraints.push_back(c);
-        r.gap_rate.push_back(between(-0.1, 1.)); // m/s
+        // m/s
+        r.offset.push_back(between(-0.1, 1.) * c.normal +
+                           cross(c.normal, Vector3{between(-0.1, 0.1), between(-0.1, 0.1), 0., 0.}));
       }
     for (unsigned int i = 0; i < 2 * n; ++i)
       {
@@ -120,8 +122,8 @@ namespace
     for (unsigned int j = 0; j < impulse.size(); ++j)
       {
         const auto   &c           = r.problem.constraints[j];
-        const Vector3 u           = r.problem.combine(c, velocity);
-        const double  rate        = dot(u, c.normal) + r.gap_rate[j];
+        const Vector3 u           = r.problem.combine(c, velocity) + r.offset[j];
+        const double  rate        = dot(u, c.normal);
         const Vector3 slip        = u - dot(u, c.normal) * c.normal;
         const double  normal      = dot(impulse[j], c.normal);
         const Vector3 tangential  = impulse[j] - normal * c.normal;
@@ -157,7 +159,7 @@ namespace
     std::vector<Vector3> velocity = r.velocity, impulse(n_constraints, Vector3{}), given;
     for (unsigned int j = 0; j < n_constraints; ++j)
       given.push_back(Vector3{0.2 * std::cos(j), 0.2 * std::sin(j), 0., 0.});
-    solve_coulomb(r.problem, CoulombFriction(0.1), solver_parameters(), whole, r.gap_rate, velocity, impulse,
+    solve_coulomb(r.problem, CoulombFriction(0.1), solver_parameters(), whole, r.offset, velocity, impulse,
                   slips, given);
     double       apart = 0., gap = 0., largest = 0.;
     unsigned int n_closed = 0;
@@ -166,7 +168,7 @@ namespace
         const ContactProblem::Constraint &constraint = r.problem.constraints[j];
         const Vector3                     n          = constraint.normal;
         const double                      normal     = dot(impulse[j], n);
-        const double rate = dot(r.problem.combine(constraint, velocity), n) + r.gap_rate[j];
+        const double rate = dot(r.problem.combine(constraint, velocity) + r.offset[j], n);
         apart   = std::max(apart, size(impulse[j] - normal * (n + given[j] - dot(given[j], n) * n)));
         gap     = std::max(gap, normal > 0. ? std::abs(rate) : -rate);
         largest = std::max(largest, normal);
@@ -191,7 +193,7 @@ namespace
     std::vector<char> slips;
     Solution          s{r.velocity, start, 0};
     s.sweeps =
-      solve_coulomb(r.problem, friction, solver_parameters(), whole, r.gap_rate, s.velocity, s.impulse, slips)
+      solve_coulomb(r.problem, friction, solver_parameters(), whole, r.offset, s.velocity, s.impulse, slips)
         .sweeps;
     return s;
   }
@@ -214,7 +216,7 @@ namespace
     std::vector<char>    slips;
     std::vector<Vector3> velocity = r.velocity, impulse(n_constraints, Vector3{});
     Strips               strips(r.problem, impulse, velocity.size(), MPI_COMM_WORLD);
-    solve_coulomb(r.problem, friction, solver_parameters(), strips, r.gap_rate, velocity, impulse, slips);
+    solve_coulomb(r.problem, friction, solver_parameters(), strips, r.offset, velocity, impulse, slips);
     strips.gather(impulse);
     double largest = 0., apart = 0.;
     for (unsigned int j = 0; j < n_constraints; ++j)

@@ -49,7 +49,7 @@ namespace
     std::vector<char>       slips;
     CoulombSolverParameters parameters;
     parameters.tolerance = 1e-15;
-    solve_coulomb(problem, law, parameters, strips, {0.}, velocity, impulse, slips);
+    solve_coulomb(problem, law, parameters, strips, {Vector3{}}, velocity, impulse, slips);
     return {velocity[1][0], -impulse[0][0], bool(slips[0])};
   }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Error measures of a run of tread against a fine surface file of CONTACT.
+"""Error measures of a run of tread against a fine surface file of CONTACT, or against the half-space solution of its own
+forces (reference_patch.csv) where no file is named.
 
 CONTACT's patch is shifted so that the centres of pressure coincide, and interpolated bilinearly at
 the nodes of the run. Root mean squares (RMS) are taken over all nodes that are in contact in the run
@@ -57,10 +58,10 @@ def hertz_axes(summary, contact):
     return [0.5 * np.ptp(contact.x), 0.5 * np.ptp(contact.y)]
 
 
-def compare(run, contact_file, scale=1.0):
+def compare(run, contact_file=None, scale=1.0):
     summary = read_summary(run)
     patch = read_patch(os.path.join(run, "patch.csv"))
-    contact = read_contact(contact_file)
+    contact = read_contact(contact_file) if contact_file else read_patch(os.path.join(run, "reference_patch.csv"))
     for field in contact.fields:
         setattr(contact, field, scale * getattr(contact, field))
     shift = [own - other for own, other in zip(patch.centroid(), contact.centroid())]
@@ -103,7 +104,8 @@ def compare(run, contact_file, scale=1.0):
     if abs(at_nodes.own["shear_x"].sum() + at_nodes.reference["shear_x"].sum()) \
             < 0.5 * abs(at_nodes.own["shear_x"].sum() - at_nodes.reference["shear_x"].sum()):
         print("note: the shear of the run and of CONTACT have opposite signs")
-    result.update(compare_forces(summary, contact_file, scale))
+    if contact_file:
+        result.update(compare_forces(summary, contact_file, scale))
     result.update(steadiness(run))
     return {key: value.item() if isinstance(value, np.generic) else value for key, value in result.items()}
 

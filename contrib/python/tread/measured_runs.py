@@ -21,14 +21,14 @@ def available_ranks():
     return min(2, os.cpu_count() or 1)
 
 
-def run_scene(scene, folder, settings=None, ranks=None):
+def run_scene(scene, folder, settings=None, ranks=None, more=()):
     """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command and
     the same scene.
 
     Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
     the memory of its largest process.
     """
-    line = command(arguments_of(shipped(scene), settings or {}, folder), ranks or available_ranks())
+    line = command([*arguments_of(shipped(scene), settings or {}, folder), *more], ranks or available_ranks())
     cost_file = os.path.join(folder, "cost.json")
     cost = {}
     if is_complete(folder) and os.path.exists(cost_file):

@@ -40,10 +40,10 @@ namespace tread
     bool    adhesion;
   };
 
-  /// Work of one step's impulses, J. The first three are computed from the pairs, with the mean of their
-  /// relative velocities before and after the step; the last one is computed from the nodes, with their own
+  /// Work of one step's impulses, J. All but on_nodes are computed from the pairs, with the mean of their
+  /// relative velocities before and after the step; on_nodes is computed from the nodes, with their own
   /// velocities and the forces applied to them. The energy lost by the pairs must equal that lost by the
-  /// nodes.
+  /// nodes and put in with imposed sliding.
   struct ContactWork
   {
     double friction = 0.; ///< lost by the tangential impulses of slipping pairs
@@ -52,6 +52,7 @@ namespace tread
     double adhesion =
       0.; ///< lost by the tangential impulses of adhering pairs: what stops those that slipped
     double on_nodes = 0.; ///< lost by what the forces on the nodes do
+    double imposed  = 0.; ///< put in by who imposes sliding; on_nodes + imposed is lost by the pairs
   };
 
   /// Contact between the surface of one body and those of others, each of which touches it in a place of its
@@ -83,6 +84,15 @@ namespace tread
     {
       given_tractions = std::move(over_pressure);
       time_to_refresh = 0.;
+    }
+
+    /// Impose sliding on the pairs: a velocity (m/s) of master over slave surface that adds to what their
+    /// nodes do, as if the surfaces themselves flowed; its part along the normal is left out. Lateral
+    /// creepage and spin of a wheel whose axle does neither. The function is given the position of a slave
+    /// node in the mesh (m) and the master body; an empty one imposes nothing.
+    void impose_sliding(std::function<Vector3(const Vector3, const unsigned int)> velocity)
+    {
+      imposed_sliding = std::move(velocity);
     }
 
     /// Distribute to all ranks the data that only the rank of a constraint or node has. Collective.
@@ -166,12 +176,13 @@ namespace tread
     /// strips are made.
     void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
-    MPI_Comm                              comm;
-    ContactParameters                     parameters;
-    std::shared_ptr<const FrictionLaw>    friction;
-    std::function<Vector3(const Vector3)> given_tractions;
-    std::vector<double>                   inverse_mass; ///< by surface node
-    double                                face_size;
+    MPI_Comm                                                  comm;
+    ContactParameters                                         parameters;
+    std::shared_ptr<const FrictionLaw>                        friction;
+    std::function<Vector3(const Vector3)>                     given_tractions;
+    std::function<Vector3(const Vector3, const unsigned int)> imposed_sliding;
+    std::vector<double>                                       inverse_mass; ///< by surface node
+    double                                                    face_size;
 
     ContactProblem                         problem;
     Strips                                 strips;
@@ -195,7 +206,8 @@ namespace tread
     std::vector<unsigned int> master_of;        ///< by constraint: the body of its master surface
     std::vector<Vector3>      previous_impulse; ///< by constraint, those that act on the strip
     std::vector<Vector3>      given_ratio;      ///< by constraint: of impulses, tangential over normal
-    std::vector<double>       gap_rate;         ///< by constraint of the strip
+    std::vector<Vector3>      offset;           ///< by constraint of the strip, see solve_coulomb()
+    std::vector<Vector3>      imposed;          ///< by constraint of the strip: sliding in the last step, m/s
     std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
     std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move

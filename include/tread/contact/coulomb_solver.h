@@ -28,7 +28,8 @@ namespace tread
   /// P_t = -f(|u_t|) P_n u_t/|u_t| with the coefficient f at the slip speed that this block then has itself.
   ///
   /// Collective: each rank changes the impulses of its strip.
-  /// @param gap_rate gap now over the time step, m/s, one a constraint.
+  /// @param offset one a constraint, m/s: what adds to the relative velocity of its nodes. Along the normal
+  /// the gap now over the time step, along the surface the sliding that is imposed.
   /// @param velocity compact nodes; holds the predictions with the impulses' effect on return, for the nodes
   /// of the strip.
   /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity. What acts on
@@ -39,7 +40,7 @@ namespace tread
                                     const FrictionLaw             &friction,
                                     const CoulombSolverParameters &parameters,
                                     Strips                        &strips,
-                                    const std::vector<double>     &gap_rate,
+                                    const std::vector<Vector3>    &offset,
                                     std::vector<Vector3>          &velocity,
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,

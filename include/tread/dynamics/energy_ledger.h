@@ -9,14 +9,15 @@ namespace tread
   /// Stored and dissipated energies since the start, J; sums over all ranks.
   struct EnergyLedger
   {
-    double external_work = 0.; ///< drive, guidance, suspension, weight, prescribed forces
+    double external_work = 0.; ///< drive, guidance, suspension, weight, prescribed forces, imposed sliding
     double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far
-    double plastic          = 0.;                     ///< work on plastic strain so far
-    double springs          = 0.;                     ///< of the supports, change since the start
-    double dampers          = 0.;                     ///< the supports' part of damping
-    double contact_on_nodes = 0.; ///< lost so far by the contact forces on the nodes: friction + contact
+    double plastic = 0.;                              ///< work on plastic strain so far
+    double springs = 0.;                              ///< of the supports, change since the start
+    double dampers = 0.;                              ///< the supports' part of damping
+    /// Lost so far by the contact forces on the nodes, and put in with imposed sliding: friction + contact.
+    double contact_on_nodes = 0.;
     double stored_strain = 0., stored_hourglass = 0.; ///< in the cells now
 
     double residual() const

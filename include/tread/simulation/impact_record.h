@@ -34,10 +34,17 @@ namespace tread
       int    support = 0;
     };
 
+    /// Whether it is that of the last row: a run that had gone on might have exceeded it.
+    bool is_at_end(const Extreme &e) const
+    {
+      return e.x == last_x;
+    }
+
     bool    has_rows = false, has_supports = false;
     Extreme largest, least; ///< normal force of the first wheel, N
     Extreme pad, ballast;   ///< largest forces of the supports recorded, N
     double  airborne = 0.;  ///< how long the first wheel did not touch, s
+    double  last_x   = 0.;  ///< position of the first wheel in the last row, m
   };
 } // namespace tread
 

@@ -78,7 +78,7 @@ namespace tread
     {
       complete,
       interrupted,      ///< by a signal
-      between_passages, ///< by a signal, with nothing to keep
+      between_passages, ///< by a signal; the checkpoint of the last passage's end is kept
       left_surface      ///< contact was about to leave the faces meshed for it
     };
     /// How fast steps are taken since the loop began, and when the last checkpoint was written.
@@ -92,8 +92,9 @@ namespace tread
     void announce(Progress &progress) const;
     End  roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);
     void write_what_is_due(RunFolder &folder);
-    /// @returns false when interrupted by a signal.
-    bool change_wheels(RunFolder &folder, Progress &progress);
+    /// End a passage and begin the next. @returns false when interrupted by a signal.
+    bool change_wheels(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);
+    bool begin_next_passage(Progress &progress);
     void keep_checkpoint(Checkpoint &checkpoint, const Progress &progress, Pace &pace);
     /// Not collective: only rank 0 has something to show.
     void show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const;
@@ -118,7 +119,7 @@ namespace tread
     void        add_cost(Summary &summary) const;
     /// @returns lines about the largest stresses for the screen.
     std::string add_recorded(Summary &summary, RunFolder &folder) const;
-    std::string add_peaks(Summary &summary, RunFolder &folder) const;
+    std::string add_peaks(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
     bool   interrupted() const;
@@ -157,6 +158,7 @@ namespace tread
 
     std::uint64_t        last_steps = 0; ///< in the end of the way before the solution instant
     std::vector<Passage> passages;
+    bool                 next_wheel_due     = false; ///< a passage has ended, the next wheel has not begun
     double               relaxation_seconds = 0., relaxation_iterations = 0.;
     double               wall_seconds   = 0.; ///< including the parts before resuming
     double               seconds_before = 0.; ///< those parts

@@ -47,6 +47,17 @@ namespace tread
                 "driving; or 'predicted': what "
                 "half-space theory gives for the traction coefficient.",
                 Double(-0.2, 0.2));
+    section.add(
+      "Lateral creepage", lateral_creepage,
+      "Lateral velocity of the wheel relative to the rail / speed, towards +y. The axle stays upright and on "
+      "its line: the surfaces slide over each other as if it did not (CONTACT's module 3).",
+      Double(-0.2, 0.2));
+    section.add(
+      "Spin (1 per m)", spin,
+      "Angular velocity of the wheel relative to the rail about z (upwards) / speed, imposed likewise: under "
+      "the middle of the wheel it slides by nothing, ahead of it towards +y if positive. The spin of a "
+      "tapered tread comes by itself.",
+      Double(-10., 10.));
     section.add("Hold distance (mm)", hold_distance,
                 "Rolled at the creepage above before the torque acts, so that no long run-in is paid for.",
                 Double(0., 10000.));

@@ -18,9 +18,11 @@ namespace tread
     double                rolled_distance      = 0.06;
     Drive                 drive                = Drive::creepage;
     double                traction_coefficient = 0.3;
-    std::optional<double> creepage;              ///< none: predicted by half-space theory
-    double                hold_distance = 0.015; ///< before a torque acts
-    unsigned int          passages      = 1;
+    std::optional<double> creepage;                 ///< none: predicted by half-space theory
+    double                lateral_creepage = 0.;    ///< of the wheel over the rail
+    double                spin             = 0.;    ///< of the wheel over the rail about z, 1/m
+    double                hold_distance    = 0.015; ///< before a torque acts
+    unsigned int          passages         = 1;
 
     void declare(dealii::ParameterHandler &handler);
     /// @throws InputError
