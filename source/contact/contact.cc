@@ -94,6 +94,15 @@ namespace tread
   }
 
 
+  template <typename Values>
+  void Contact::gather_strips(Values &values) const
+  {
+    // The strips follow each other as the ranks do.
+    if (!values.empty())
+      values = gathered(Values(values.begin() + strips.begin, values.begin() + strips.end), comm);
+  }
+
+
   void Contact::refresh(const Vector3 *x, const Vector3 *v, const double time_step)
   {
     std::vector<Vector3> all_x, all_v;
@@ -103,6 +112,15 @@ namespace tread
     std::vector<Vector3> impulse_of_node(surfaces.nodes.size(), Vector3{}); // the warm start
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       impulse_of_node[problem.constraints[j].slave] = impulse[j];
+
+    std::vector<double> coefficient_of_node;
+    if (friction->memory().distance > 0.)
+      {
+        coefficient_of_node.assign(surfaces.nodes.size(), friction->coefficient(0.));
+        gather_strips(coefficient);
+        for (unsigned int j = 0; j < coefficient.size(); ++j)
+          coefficient_of_node[problem.constraints[j].slave] = coefficient[j];
+      }
 
     const double         search_reach = searched * face_size, reach = coupled * face_size;
     const MortarCoupling coupling =
@@ -158,6 +176,10 @@ namespace tread
       if (gap[j] <= MortarCoupling::candidates * reach || norm(impulse_of_node[coupling.rows[j].slave]) > 0.)
         chosen.push_back(j);
     compact(coupling, chosen, impulse_of_node, all_x);
+    coefficient.clear();
+    if (!coefficient_of_node.empty())
+      for (const ContactProblem::Constraint &constraint : problem.constraints)
+        coefficient.push_back(coefficient_of_node[constraint.slave]);
   }
 
 
@@ -335,12 +357,8 @@ namespace tread
 
   void Contact::complete_state()
   {
-    // The strips follow each other as the ranks do.
-    const auto gather_strips = [&](auto &values) {
-      values = gathered(
-        std::decay_t<decltype(values)>(values.begin() + strips.begin, values.begin() + strips.end), comm);
-    };
     gather_strips(problem.constraints); // for their normals
+    gather_strips(coefficient);
     gather_strips(previous_impulse);
     gather_strips(slid);
 
@@ -361,7 +379,7 @@ namespace tread
       complete_state();
     archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
                  corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
-                 travelled, allowed_travel, unconverged_steps);
+                 travelled, allowed_travel, unconverged_steps, coefficient);
     archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes, work.imposed);
     std::vector<unsigned int> begin_of_strip = strips.begins();
     archive.same(begin_of_strip);
@@ -486,7 +504,7 @@ namespace tread
           impulse[j] = guess;
       }
     const CoulombSolverResult result = solve_coulomb(problem, *friction, parameters.solver, strips, offset,
-                                                     velocity, impulse, slips, given_ratio);
+                                                     velocity, impulse, slips, given_ratio, coefficient);
 
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;
@@ -501,6 +519,8 @@ namespace tread
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
         slid_enough = slid_enough || slid[j] > parameters.sliding_share * face_size;
       }
+    if (!coefficient.empty())
+      age_friction(time_step);
     if (strips.gather(impulse, slid_enough) > 0.)
       time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
 
@@ -536,6 +556,29 @@ namespace tread
       position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
     time_since_refresh += time_step;
     return result;
+  }
+
+
+  void Contact::age_friction(const double time_step)
+  {
+    const FrictionLaw::Memory memory       = friction->memory();
+    const double              without_slip = friction->coefficient(0.);
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        if (dot(impulse[j], constraint.normal) <= 0.)
+          {
+            coefficient[j] = without_slip;
+            continue;
+          }
+        const Vector3 u = problem.combine(constraint, velocity);
+        const double  speed =
+          slips[j] ? norm(u - dot(u, constraint.normal) * constraint.normal + imposed[j]) : 0.;
+        const double in_the_long_run = friction->coefficient(speed);
+        coefficient[j] =
+          in_the_long_run + (coefficient[j] - in_the_long_run) *
+                              std::exp(-std::max(speed, memory.speed) * time_step / memory.distance);
+      }
   }
 
 

@@ -100,6 +100,16 @@ namespace tread::reference
     return grid;
   }
 
+  namespace
+  {
+    /// Displacement of the layer at x in the row of an element with unit traction [m/Pa].
+    double layer_influence(const Influence kind, const ElasticPair &pair, const double dx, const double x)
+    {
+      constexpr double within = 0.5 * (1. - 1e-9); // elements do not overlap by rounding
+      return (kind == Influence::xx || kind == Influence::yy) && std::abs(x) < within * dx ? pair.layer : 0.;
+    }
+  } // namespace
+
   double influence_coefficient(const Influence    kind,
                                const ElasticPair &pair,
                                const double       dx,
@@ -110,7 +120,8 @@ namespace tread::reference
     const double x0 = x - 0.5 * dx, x1 = x + 0.5 * dx, y0 = y - 0.5 * dy, y1 = y + 0.5 * dy;
     return (primitive(kind, pair, x1, y1) - primitive(kind, pair, x0, y1) - primitive(kind, pair, x1, y0) +
             primitive(kind, pair, x0, y0)) /
-           (std::numbers::pi * pair.shear);
+             (std::numbers::pi * pair.shear) +
+           (std::abs(y) < 0.5 * dy ? layer_influence(kind, pair, dx, x) : 0.);
   }
 
   struct FourierGrid::Plans
@@ -205,6 +216,10 @@ namespace tread::reference
               values[static_cast<std::size_t>((j + rows) % rows) * columns + (i + columns) % columns] +=
                 scale * (c[corners_x + 1] - c[corners_x] - c[1] + c[0]);
             }
+        if (pair.layer != 0.)
+          for (int i = -n_x + 1; i < n_x; ++i)
+            values[(i + columns) % columns] +=
+              weight / static_cast<double>(n) * layer_influence(kind, pair, grid.dx, i * grid.dx + offset);
       }
     Spectrum spectrum(spectrum_size());
     fftw_execute_dft_r2c(plans->forward, values, reinterpret_cast<fftw_complex *>(spectrum.data()));

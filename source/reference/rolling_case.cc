@@ -5,6 +5,7 @@
 
 #include "require.h"
 #include "rolling_solve.h"
+#include "slip_friction.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,6 +23,9 @@ namespace tread::reference
     require_positive("element_size", c.element_size, "m");
     require_finite("lateral_creepage", c.lateral_creepage);
     require_finite("spin", c.spin);
+    require(std::isfinite(c.layer) && c.layer >= 0., "layer", c.layer, ">= 0 m/Pa");
+    require(!c.slip_friction || combine(c.wheel, c.rail).coupling == 0., "slip_friction with coupling",
+            combine(c.wheel, c.rail).coupling, "that of like bodies, 0");
     if (c.prescribe_force)
       require(std::abs(c.traction_coefficient) < c.friction ||
                 (c.friction == 0. && c.traction_coefficient == 0.),
@@ -284,6 +288,16 @@ namespace tread::reference
           if (known)
             contact.normal = by_elements;
         }
+      else if (c.slip_friction)
+        {
+          if (!known)
+            {
+              const FourierGrid fourier(grid);
+              contact.normal = solve_normal(fourier, NormalOperator(fourier, pair), normal);
+            }
+          contact.tangential = solve_with_slip_friction(grid, pair, contact.normal.pressure, tangential,
+                                                        *c.slip_friction, c.speed);
+        }
       else if (known)
         contact.tangential = solve_tangential(grid, pair, contact.normal.pressure, tangential);
       else
@@ -352,7 +366,8 @@ namespace tread::reference
   {
     const auto start = std::chrono::steady_clock::now();
     check_case(c);
-    const ElasticPair  pair = combine(c.wheel, c.rail);
+    ElasticPair pair = combine(c.wheel, c.rail);
+    pair.layer       = c.layer;
     const HertzEllipse hertz =
       hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
     require(3. * c.element_size <= std::min(hertz.semi_axis_x, hertz.semi_axis_y), "element_size",

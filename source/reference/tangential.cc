@@ -23,6 +23,11 @@ namespace tread::reference
       return problem.motion == Motion::shift ? 1. : problem.step > 0. ? problem.step : grid.dx;
     }
 
+    double friction_at(const TangentialProblem &problem, const std::size_t e)
+    {
+      return problem.friction * (problem.friction_share.empty() ? 1. : problem.friction_share[e]);
+    }
+
     void check(const Grid &grid, const Vector &pressure, const TangentialProblem &problem)
     {
       check_grid(grid);
@@ -36,6 +41,7 @@ namespace tread::reference
       sized("before_shear_x", problem.before_shear_x, true);
       sized("before_shear_y", problem.before_shear_y, true);
       sized("previous_pressure", problem.previous_pressure, true);
+      sized("friction_share", problem.friction_share, true);
       sized("initial_shear_x", problem.initial_shear_x, true);
       sized("initial_shear_y", problem.initial_shear_y, true);
       require(problem.order == 1 || (problem.order == 2 && problem.motion != Motion::shift), "order",
@@ -177,7 +183,7 @@ namespace tread::reference
       for (std::size_t k = 0; k < n; ++k)
         {
           const unsigned int e   = patch.outer[k];
-          equations.bound[k]     = problem.friction * bound[e];
+          equations.bound[k]     = friction_at(problem, e) * bound[e];
           const auto uneven      = problem.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
           equations.fixed[k]     = (equations.prescribed[0] ? 0. : problem.longitudinal) + uneven[0];
           equations.fixed[n + k] = (equations.prescribed[1] ? 0. : problem.lateral) + uneven[1];
@@ -248,6 +254,17 @@ namespace tread::reference
       coarse.problem.before_shear_x    = average(problem.before_shear_x);
       coarse.problem.before_shear_y    = average(problem.before_shear_y);
       coarse.problem.previous_pressure = average(problem.previous_pressure);
+      if (!problem.friction_share.empty())
+        {
+          // The mean friction bound of the elements, over the mean pressure.
+          Vector bound(pressure);
+          for (std::size_t e = 0; e < bound.size(); ++e)
+            bound[e] *= problem.friction_share[e];
+          coarse.problem.friction_share = average(bound);
+          for (std::size_t e = 0; e < coarse.pressure.size(); ++e)
+            coarse.problem.friction_share[e] =
+              coarse.pressure[e] > 0. ? coarse.problem.friction_share[e] / coarse.pressure[e] : 1.;
+        }
       coarse.problem.leading_edge.clear();
       // Rolling steps of an element are kept one element long; a transient step must remain the step asked
       // for.
@@ -283,7 +300,7 @@ namespace tread::reference
                 const std::size_t e = static_cast<std::size_t>(jj) * c_x + ii;
                 if (coarse.pressure[e] > 0.)
                   {
-                    const double share = w / (coarse.problem.friction * coarse.pressure[e]);
+                    const double share = w / (friction_at(coarse.problem, e) * coarse.pressure[e]);
                     sum += w;
                     x += share * shear_x[e];
                     y += share * shear_y[e];

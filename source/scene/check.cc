@@ -333,10 +333,11 @@ namespace tread
     list.push_back(start.tractions == StartTractions::predicted
                      ? "the start has the tractions that half-space theory predicts for steady rolling"
                      : "the start has no tractions; they build up while rolling");
-    if (const auto law = friction_law(); !law->is_constant())
-      list.push_back("half-space theory, of the references and of what is predicted, has the friction "
-                     "coefficient without slip, " +
-                     text_of(law->coefficient(0.)) + ", everywhere");
+    if (const auto law = friction_law(); !law->is_constant() && law->memory().distance == 0.)
+      list.push_back(
+        "friction follows the slip speed at once: where pressure times the fall of the coefficient "
+        "with slip is above half the shear impedance of the steel, slip oscillates by itself "
+        "('Contact/Friction memory (mm)' prevents it)");
     if (solid.stiffness_damping == 0.)
       list.push_back("no stiffness damping: micro-slip may chatter at the frequency of the cells");
     return list;

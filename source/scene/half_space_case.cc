@@ -17,6 +17,10 @@ namespace tread
     c.normal_force = normal_force;
     c.friction     = scene.friction_law()->coefficient(0.);
     c.speed        = scene.motion.speed;
+    if (const auto law = scene.friction_law(); !law->is_constant())
+      c.slip_friction = std::make_shared<const reference::RollingCase::SlipFriction>(
+        reference::RollingCase::SlipFriction{[law](const double s) { return law->coefficient(s); },
+                                             law->memory().distance, law->memory().speed});
     c.wheel = {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio};
     c.rail  = {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio};
     c.prescribe_force               = true;

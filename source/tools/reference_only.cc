@@ -159,7 +159,7 @@ namespace tread
       reference::TransientCase transient;
       transient.rolling = half_space_case(scene);
       const bool like   = reference::combine(transient.rolling.wheel, transient.rolling.rail).coupling == 0.;
-      if (scene.start.tractions != StartTractions::none || scene.motion.drive != Drive::creepage || !like ||
+      if (transient.rolling.slip_friction || scene.start.tractions != StartTractions::none || scene.motion.drive != Drive::creepage || !like ||
           !(scene.contact.friction_coefficient > 0.))
         return "";
       // Elements half as large again: some seconds of rolling, 0.1 % of the steady traction.

@@ -4,7 +4,7 @@
 // function, a block that slides to rest against its equation of motion, and what every law has to do that a
 // scene can name.
 #include <tread/contact/contact.h>
-#include <tread/contact/falling_friction.h>
+#include <tread/contact/exponential_friction.h>
 
 #include "boxes.h"
 #include "check.h"
@@ -68,7 +68,7 @@ namespace
 
   void check_one_node(Check &check)
   {
-    const FallingFriction law(static_coefficient, kinetic_coefficient, slip_speed);
+    const ExponentialFriction law(static_coefficient, kinetic_coefficient, slip_speed);
     unsigned int          n_adhere = 0, n_slip = 0, n_with_two_more = 0;
     double                slip_error = 0., impulse_error = 0., equation_error = 0., adhesion_error = 0.;
     bool                  states = true, same_from_anywhere = true;
@@ -220,7 +220,7 @@ namespace
 
   void check_block(Check &check)
   {
-    const FallingFriction law(static_coefficient, kinetic_coefficient, slip_speed);
+    const ExponentialFriction law(static_coefficient, kinetic_coefficient, slip_speed);
     Block                 block(law);
     const double          start = 1.; // m/s
     block.set_speed(start);
@@ -330,15 +330,22 @@ namespace
         check.that(name + "is described", !entry.description.empty());
         const auto law = make_friction_law(entry.name, static_coefficient, section);
         check.relative(name + "coefficient without slip", law->coefficient(0.), static_coefficient, 1e-15);
-        double error = 0.;
+        double error = 0., beyond_least = 0.;
         for (const double stopping : {1e-3, 1., 10., 100.})
           for (const double over_bound : {1.0001, 1.1, 10.})
             {
               const double free_slip = over_bound * stopping * static_coefficient;
               const double s         = law->slip(free_slip, stopping);
               error = std::max(error, std::abs(s + stopping * law->coefficient(s) - free_slip) / free_slip);
+              // No root before it: a law that is neither convex nor flat could have one.
+              constexpr unsigned int n_looks = 20000;
+              for (unsigned int k = 0; k < n_looks; ++k)
+                if (const double before = s * k / n_looks;
+                    before + stopping * law->coefficient(before) > free_slip * (1. + 1e-12))
+                  beyond_least = std::max(beyond_least, s - before);
             }
         check.below(name + "slip solves its equation, share", error, 1e-14);
+        check.below(name + "way from the least root, m/s", beyond_least, 1e-12);
         bool negative = false;
         for (double s = 0.; s < 10.; s += 0.01)
           negative = negative || law->coefficient(s) < 0.;

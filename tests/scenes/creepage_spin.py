@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Imposed lateral creepage and spin: forces beside the half-space's, mirrored, on ranks, and the energy put in by them."""
+"""Imposed lateral creepage and spin, and falling friction: forces beside the half-space's, mirrored, on ranks, and energy."""
 
 import os
 import sys
@@ -31,6 +31,21 @@ with tempfile.TemporaryDirectory() as folder:
     check.energy("", one, 0.004)
     # What the imposed sliding puts in is work from outside: without it a third of the friction would lack its source.
     check.relative("lateral coefficient in the summary", one["lateral_coefficient"], share(one, "lateral"), 1e-12)
+
+    # Friction that falls with slip and remembers: traction of the half-space, where the coefficient is that of the slip of each
+    # element (0.305 of 0.33), and the same on other ranks, which take over the nodes' memory.
+    falling = ["Contact/Friction law=falling", "Contact/Friction coefficient=0.33", "Contact/Kinetic friction coefficient=0.14",
+               "Contact/Falling slip speed (m per s)=1.8", "Contact/Friction memory (mm)=0.03", "Motion/Creepage=0.01",
+               "Motion/Lateral creepage=0", "Motion/Spin (1 per m)=0", "Output/Write volume=false", "Mesh/Finest cell (mm)=1.3",
+               "Motion/Rolled distance (mm)=12"]
+    falls = run(program, SCENE, path("falls"), falling)
+    wanted = run(program, SCENE, path("falls, half-space"), falling, more=["--reference-only"])
+    check.relative("falling friction: traction coefficient", share(falls, "longitudinal"), share(wanted, "longitudinal"), 0.005)
+    check.relative("falling friction: largest slip, m/s", falls["max_slip_m_per_s"], wanted["max_slip_m_per_s"], 0.02)
+    check.relative("falling friction: frictional power, W", falls["frictional_power_W"], wanted["frictional_power_W"], 0.01)
+    check.below("falling friction: chatter", falls["slip_chatter_share"], 0.05)
+    on_three = run(program, SCENE, path("falls on 3"), falling, 3)
+    check.relative("falling friction on 3 ranks", share(on_three, "longitudinal"), share(falls, "longitudinal"), 1e-8)
 
     coarse = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=8"]
     this_way = run(program, SCENE, path("this way"), coarse)

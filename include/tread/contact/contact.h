@@ -161,12 +161,17 @@ namespace tread
     const ContactSurfaces surfaces;
 
   private:
+    /// Let the coefficients of the strip's pairs follow their slip in this step.
+    void age_friction(const double time_step);
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
     /// Largest speeds of this rank's own slave and master nodes, m/s.
     std::array<double, 2> largest_speeds(const Vector3 *v) const;
     /// Rotate the normals with the slave faces between two refreshes.
     void update_normals();
+    /// Complete values by constraint that each rank has for its strip only. Collective.
+    template <typename Values>
+    void gather_strips(Values &values) const;
     void compact(const MortarCoupling            &coupling,
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Vector3>      &impulse_of_node,
@@ -207,10 +212,11 @@ namespace tread
     std::vector<Vector3>      previous_impulse; ///< by constraint, those that act on the strip
     std::vector<Vector3>      given_ratio;      ///< by constraint: of impulses, tangential over normal
     std::vector<Vector3>      offset;           ///< by constraint of the strip, see solve_coulomb()
-    std::vector<Vector3>      imposed;          ///< by constraint of the strip: sliding in the last step, m/s
-    std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
-    std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
-    std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
+    std::vector<double>       coefficient; ///< by constraint of the strip: of a law with a memory; or empty
+    std::vector<Vector3>      imposed;     ///< by constraint of the strip: sliding in the last step, m/s
+    std::vector<char>         slips;       ///< by constraint of the strip: as the last solve left it
+    std::vector<double>       slid;        ///< by constraint of the strip: since the last refresh, m
+    std::vector<unsigned int> swept_nodes; ///< compact numbers of those that the strip's sweeps move
     /// Effect of the constraints on a node of the strip or of this rank. It is summed in the same order on
     /// all ranks that know the node, so that its position is the same on all of them.
     struct NodeTerms

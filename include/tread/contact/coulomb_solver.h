@@ -35,6 +35,7 @@ namespace tread
   /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity. What acts on
   /// the nodes of the strip has to be there.
   /// @param slips one a constraint: whether those of the strip with an impulse slip now; others adhere.
+  /// @param coefficients one a constraint: that of friction in this step, of a law with a memory; or empty.
   /// @param given one a constraint: P_t over P_n where it is not for the friction law to find; or empty.
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
@@ -44,7 +45,8 @@ namespace tread
                                     std::vector<Vector3>          &velocity,
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
-                                    const std::vector<Vector3>    &given = {});
+                                    const std::vector<Vector3>    &given        = {},
+                                    const std::vector<double>     &coefficients = {});
 } // namespace tread
 
 #endif

@@ -9,53 +9,69 @@
 
 namespace tread
 {
-  /// A coefficient that falls with the slip speed s from f_0 to f_k, f(s) = f_k + (f_0 - f_k) exp(-s/s_c)
-  /// (Polach 2005, with f_k/f_0 = A and 1/s_c = B; Vollebregt & Schuttelaars 2012 on what it does to
-  /// rolling). Convex.
+  /// A coefficient that falls with the slip speed s from f_0 to f_k, f(s) = f_k + (f_0 - f_k) shape(s/s_c),
+  /// with shape(0) = 1 and no less than 0. @see the laws below, stribeck_friction.h
   class FallingFriction : public FrictionLaw
   {
   public:
-    static constexpr const char *name = "falling";
-    static constexpr const char *description =
-      "from the coefficient to the kinetic one, exponentially with the slip speed";
-
     static void declare(dealii::ParameterHandler &section)
     {
       using dealii::Patterns::Double;
       // Polach's A = 0.4 and B = 0.6 s/m for a dry rail, with the usual friction coefficient 0.5.
       section.declare_entry("Kinetic friction coefficient", "0.2", Double(0., 2.),
-                            "Of the falling law: at slip speeds far above the one below. Not above the "
+                            "Of laws that fall: at slip speeds far above the one below. Not above the "
                             "friction coefficient.");
-      section.declare_entry("Falling slip speed (m per s)", "1.67", Double(1e-6, 1e6),
-                            "Of the falling law: where 63 % of the fall is over.");
+      section.declare_entry(
+        "Falling slip speed (m per s)", "1.67", Double(1e-6, 1e6),
+        "Of laws that fall: where 63 % of the fall is over (falling, Stribeck), half of it "
+        "(rational) or all of it (linear).");
+      section.declare_entry(
+        "Friction memory (mm)", "0", Double(0., 10.),
+        "Of laws that fall: a node's coefficient follows its slip speed over this way of "
+        "slip. 0: at once, so that under high pressure slip begins to oscillate by itself.");
+      section.declare_entry("Least speed of memory (m per s)", "0.001", Double(0., 1e3),
+                            "Of laws that fall: nodes that slip more slowly forget at this speed.");
     }
 
-    static std::shared_ptr<const FrictionLaw> make(const double                    coefficient,
-                                                   const dealii::ParameterHandler &section)
+    double coefficient(const double slip_speed) const override
     {
-      return std::make_shared<FallingFriction>(coefficient,
-                                               section.get_double("Kinetic friction coefficient"),
-                                               section.get_double("Falling slip speed (m per s)"));
+      return kinetic + fall * shape(slip_speed / falling_speed);
     }
 
-    /// @param slip_speed s_c, m/s. @throws std::invalid_argument if the law would rise.
-    FallingFriction(const double coefficient, const double kinetic_coefficient, const double slip_speed)
+    Memory memory() const override
+    {
+      return kept;
+    }
+
+  protected:
+    /// @param falling_speed s_c, m/s. @throws std::invalid_argument if the law would rise.
+    FallingFriction(const double coefficient, const double kinetic_coefficient, const double falling_speed)
       : kinetic(kinetic_coefficient)
       , fall(coefficient - kinetic_coefficient)
-      , slip_speed(slip_speed)
+      , falling_speed(falling_speed)
     {
       if (!(fall >= 0.))
         throw std::invalid_argument(
           "'Contact/Kinetic friction coefficient' must not be above 'Contact/Friction coefficient'");
     }
 
-    double coefficient(const double slip_speed) const override
+    /// The law of this type with the values of the section.
+    template <typename Law>
+    static std::shared_ptr<const FrictionLaw> of_section(const double                    coefficient,
+                                                         const dealii::ParameterHandler &section)
     {
-      return kinetic + fall * std::exp(-slip_speed / this->slip_speed);
+      const auto law = std::make_shared<Law>(coefficient, section.get_double("Kinetic friction coefficient"),
+                                             section.get_double("Falling slip speed (m per s)"));
+      law->kept      = {1e-3 * section.get_double("Friction memory (mm)"),
+                        section.get_double("Least speed of memory (m per s)")};
+      return law;
     }
 
-  private:
-    double kinetic, fall, slip_speed;
+    /// What is left of the fall at a slip speed over s_c.
+    virtual double shape(const double speed) const = 0;
+
+    const double kinetic, fall, falling_speed;
+    Memory       kept;
   };
 } // namespace tread
 

@@ -13,7 +13,7 @@ namespace tread
   /// How much tangential impulse a contact can carry: a node adheres while it is below coefficient(0.) times
   /// the normal impulse, and a node that slips at the speed s has coefficient(s) times it, against the slip.
   ///
-  /// A new law is a header like falling_friction.h, its line in friction_law.cc and a test.
+  /// A new law is a header like exponential_friction.h, its line in friction_law.cc and a test.
   class FrictionLaw
   {
   public:
@@ -21,6 +21,19 @@ namespace tread
 
     /// Friction coefficient at a slip speed (m/s), which is never negative.
     virtual double coefficient(const double slip_speed) const = 0;
+
+    /// How the coefficient mu that a node has follows that of its slip speed s, d mu/dt = -max(s,
+    /// speed)/distance (mu - coefficient(s)), from coefficient(0.) when it comes to touch (Vollebregt &
+    /// Schuttelaars 2012).
+    struct Memory
+    {
+      double distance = 0.; ///< m; 0: at once
+      double speed    = 0.; ///< m/s
+    };
+    virtual Memory memory() const
+    {
+      return {};
+    }
 
     /// Whether it is the same at any slip speed.
     virtual bool is_constant() const
@@ -38,6 +51,11 @@ namespace tread
     /// @param free_slip its slip speed without tangential impulse, m/s; above stopping * coefficient(0.)
     /// @param stopping what a tangential impulse as large as the normal one would change it by, m/s
     virtual double slip(const double free_slip, const double stopping) const;
+
+  protected:
+    /// The root of s + stopping coefficient(s) = free_slip between two speeds of which the first is too low
+    /// and the second is not. @returns the nearest end if it is not between them.
+    double slip_between(double lower, double upper, const double free_slip, const double stopping) const;
   };
 
   /// One coefficient for adhesion and slip (Coulomb 1785).

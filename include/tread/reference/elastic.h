@@ -24,6 +24,9 @@ namespace tread::reference
     double shear    = 0.; ///< combined shear modulus G [Pa]
     double poisson  = 0.; ///< combined Poisson's ratio nu [-]
     double coupling = 0.; ///< difference parameter K [-]
+    /// Thickness over shear modulus of a layer between the bodies, which lets the surfaces shift by so much
+    /// for a unit of shear stress at the place [m/Pa] (Hou, Kalousek & Magel 1997); 0: none.
+    double layer = 0.;
 
     /// Hertz modulus E* = 1 / ((1 - nu1^2)/E1 + (1 - nu2^2)/E2) = G / (1 - nu) [Pa].
     double hertz_modulus() const;

@@ -63,7 +63,9 @@ namespace tread::reference
   {
     Motion motion   = Motion::steady;
     double friction = 0.; ///< f > 0
-    double step     = 0.; ///< distance rolled per step [m]; 0: the element edge dx
+    /// What is left of f at each element, in [0, 1], on the full grid; empty: all of it.
+    std::vector<double> friction_share;
+    double              step = 0.; ///< distance rolled per step [m]; 0: the element edge dx
 
     double longitudinal =
       0.; ///< xi [-] (shift: [m]); if Fx is prescribed: not used, or first guess with initial_shear

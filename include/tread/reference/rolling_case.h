@@ -5,6 +5,7 @@
 #include <tread/reference/elastic.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,22 @@ namespace tread::reference
     double spin                 = 0.; ///< [rad/m], always prescribed
     /// Rolling radius at y [m] over that at the origin, minus one; empty: 0. Of an upright cone spin y.
     std::function<double(double)> radius_change;
+
+    /// Friction that falls with the slip speed; null: `friction` at any speed.
+    struct SlipFriction
+    {
+      /// Coefficient at a slip speed [m/s] in the long run, never above `friction`, which is that without
+      /// slip.
+      std::function<double(double)> coefficient;
+      /// The coefficient mu that a particle has follows d mu/dt = -max(s, memory_speed)/memory_distance (mu -
+      /// coefficient(s)) from `friction` at the leading edge on (Vollebregt & Schuttelaars 2012). 0 m: at
+      /// once.
+      double memory_distance = 0.; ///< [m]
+      double memory_speed    = 0.; ///< [m/s]
+    };
+    std::shared_ptr<const SlipFriction> slip_friction;
+    /// Of a layer between the bodies: ElasticPair::layer [m/Pa].
+    double layer = 0.;
 
     double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
   };

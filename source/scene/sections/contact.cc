@@ -10,8 +10,7 @@ namespace tread
     Section section(handler, "Contact");
 
     section.add("Friction coefficient", friction_coefficient,
-                "Without slip; that of Coulomb's law is the same at any slip speed. 0 is frictionless. "
-                "Half-space references, the predicted start among them, know this number only.",
+                "Without slip; that of Coulomb's law is the same at any slip speed. 0 is frictionless.",
                 Double(0., 2.));
     section.choose("Friction law", friction_law, friction_laws(),
                    "How the friction coefficient depends on the slip speed of each node.");

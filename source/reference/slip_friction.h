@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_source_reference_slip_friction_h
+#define tread_source_reference_slip_friction_h
+
+#include <tread/reference/half_space.h>
+
+namespace tread::reference
+{
+  /// Steady rolling with friction that falls with the slip speed: the friction bound of each element is found
+  /// in turn with the slip, from that of the static coefficient down, until no coefficient changes by more
+  /// than 1e-5 of it. Where a law falls so steeply that there are several answers, this is the one with the
+  /// least slip that the turns find.
+  /// @param speed of rolling [m/s]
+  /// Throws std::runtime_error if the turns do not settle.
+  TangentialSolution solve_with_slip_friction(const Grid                      &grid,
+                                              const ElasticPair               &pair,
+                                              const std::vector<double>       &pressure,
+                                              TangentialProblem                problem,
+                                              const RollingCase::SlipFriction &law,
+                                              double                           speed);
+} // namespace tread::reference
+
+#endif

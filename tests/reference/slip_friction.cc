@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Friction that falls with slip in the half-space solver: creep curves of a locomotive, published with
+// CONTACT (E. Vollebregt, example "Eurosprinter", CONTACT 25; measured by Engel, Beck & Alders 1998; law of
+// Polach 2005), and what must hold of any law.
+#include <tread/reference/hertz.h>
+#include <tread/reference/rolling_case.h>
+
+#include "check.h"
+
+#include <cmath>
+#include <memory>
+
+using namespace tread::reference;
+
+namespace
+{
+  RollingCase locomotive(const double creepage, const double friction)
+  {
+    RollingCase c;
+    c.wheel = c.rail  = {2. * 82e9 * 1.28, 0.28};
+    c.curvature_x     = 0.8;
+    c.curvature_y     = 0.281417;
+    c.normal_force    = 106700.;
+    c.friction        = friction;
+    c.speed           = 10.;
+    c.prescribe_force = false;
+    c.creepage        = creepage;
+    c.element_size    = 0.29e-3;
+    return c;
+  }
+
+  /// The same with friction that falls by half over 1.25 m/s of slip, its memory and an interfacial layer.
+  RollingCase wet(const double creepage)
+  {
+    RollingCase c   = locomotive(creepage, 0.33);
+    c.layer         = 1.25e-3 / 8.2e9;
+    c.slip_friction = std::make_shared<RollingCase::SlipFriction>(RollingCase::SlipFriction{
+      [](const double s) { return 0.14 + 0.19 * std::exp2(-s / 1.25); }, 3e-6, 1e-3});
+    return c;
+  }
+
+  struct Point
+  {
+    double creepage, traction;
+  };
+} // namespace
+
+void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+{
+  // Square elements of 0.29 mm beside 0.289 x 0.63 mm there, and printed with four digits.
+  for (const auto &[creepage, traction] :
+       {Point{0.0008, 0.15651}, {0.0016, 0.25839}, {0.0024, 0.31237}, {0.0032, 0.32924}, {0.0056, 0.32990}})
+    check.relative("constant friction, traction at a creepage of " + std::to_string(creepage),
+                   -solve_rolling(locomotive(creepage, 0.33)).traction_coefficient, traction, 0.003);
+  for (const auto &[creepage, traction] : {Point{0.002, 0.11537},
+                                           {0.004, 0.20131},
+                                           {0.006, 0.25539},
+                                           {0.008, 0.28557},
+                                           {0.010, 0.30094},
+                                           {0.012, 0.30825},
+                                           {0.016, 0.31172},
+                                           {0.020, 0.30993},
+                                           {0.040, 0.29278},
+                                           {0.075, 0.26579},
+                                           {0.125, 0.23524},
+                                           {0.175, 0.21218}})
+    {
+      const RollingResult r = solve_rolling(wet(creepage));
+      check.relative("falling friction with memory and layer, creepage " + std::to_string(creepage),
+                     -r.traction_coefficient, traction, 0.005);
+      // Each element that slips has the coefficient of its own slip, without memory.
+      RollingCase at_once       = wet(creepage);
+      auto        law           = *at_once.slip_friction;
+      law.memory_distance       = 0.;
+      at_once.slip_friction     = std::make_shared<RollingCase::SlipFriction>(law);
+      const RollingResult own   = solve_rolling(at_once);
+      double              worst = 0.;
+      for (std::size_t e = 0; e < own.pressure.size(); ++e)
+        if (own.state[e] == ElementState::slip)
+          worst = std::max(worst, std::abs(std::hypot(own.shear_x[e], own.shear_y[e]) / own.pressure[e] -
+                                           law.coefficient(std::hypot(own.slip_x[e], own.slip_y[e]))));
+      check.below("without memory: coefficient of slipping elements off the law at their slip", worst, 1e-4);
+    }
+}
