@@ -34,7 +34,8 @@ def main():
     parser.add_argument("--json", metavar="FILE", help="write the measures to this file too")
     arguments = parser.parse_args()
     result = comparison.compare(arguments.run, arguments.contact, arguments.scale)
-    print(f"{arguments.run} against {os.path.basename(arguments.contact or "reference_patch.csv")}: {result['nodes_in_contact']} nodes in "
+    reference = os.path.basename(arguments.contact or "reference_patch.csv")
+    print(f"{arguments.run} against {reference}: {result['nodes_in_contact']} nodes in "
           f"contact, {result['node_distance_mm']:.3g} mm apart, shifted by "
           f"({result['shift_x_mm']:.3f}, {result['shift_y_mm']:.3f}) mm")
     for label, key, template in LINES:
