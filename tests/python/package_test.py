@@ -279,6 +279,17 @@ class Crossings(InFolder):
             self.assertIn(words, result.stderr)
 
 
+class ModesTable(InFolder):
+    def test_the_mode_that_moves_the_contact_most_is_first(self):
+        columns = ("number,frequency_Hz,body,vertical_share,lateral_share,longitudinal_share,contact_amplitude_per_sqrt_kg,damping_share,description")
+        write(self.path("run", "modes.csv"), columns + "\n1,0,track,1,0,0,0.1,0,rigid motion\n2,100,track,1,0,0,0.01,0,low\n3,1000,track,1,0,0,0.2,0,high\n")
+        result = subprocess.run([os.path.join(ROOT, "contrib", "plot", "plot-modes.py"), "run"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = [row.split(" | ") for row in result.stdout.splitlines()[2:]]
+        # An amplitude q with the energy (omega q)^2 / 2 of 1 J.
+        self.assertEqual([(row[3], row[5]) for row in rows], [("high", f"{0.2e6 * 2**0.5 / (2000 * np.pi):.1f}"), ("low", f"{0.01e6 * 2**0.5 / (200 * np.pi):.1f}")])
+
+
 class Runs(InFolder):
     def test_command_line(self):
         shipped = os.path.join(ROOT, "prm", "smooth-rolling.prm")
