@@ -15,12 +15,14 @@ import json
 import os
 
 import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch as Swatch
 from matplotlib.patheffects import Normal, Stroke
 
 from tread.commands import command_parser, run_command
 from tread.defects import extent_of_defect
 from tread.files import DataError, Error
-from tread.plots import BLUE, GRID, ORANGE, RED, plt, save, use_style
+from tread.plots import BLUE, GREEN, ORANGE, RED, plt, save, use_style
 from tread.runs import Run
 from tread.wavelets import NOISE_95, Scalogram, band_pass, evenly_spaced
 
@@ -28,6 +30,7 @@ ACCELERATION, FORCE = "axle_box_acceleration_m_per_s2", "normal_force_N"
 # Hz, where measured: squats Molodova et al. (2014), welds An et al. (2017).
 BANDS = {"squats, 200-400 Hz": (200, 400), "squats, 1060-1160 Hz": (1060, 1160),
          "welds, 350-500 Hz": (350, 500), "welds, 1000-1200 Hz": (1000, 1200)}
+BAND_COLOURS = {"squats": ORANGE, "welds": GREEN}
 # Zhao's thesis, section 4.2.4: seen at a squat by a train at 110 km/h; predicted wavelengths at any speed.
 MEASURED_HZ, MEASURED_SPEED, WAVELENGTHS_MM = 1500, 110 / 3.6, (20, 40)
 
@@ -131,12 +134,32 @@ def text_of(figures):
     return "\n".join(lines)
 
 
+def label_maxima(figure, axis, dominant):
+    """Frequency and wavelength at each maximum, where they cover neither another label nor another maximum."""
+    figure.canvas.draw()  # lays out the axes, which labels are measured in
+    points = [axis.transData.transform((line["position_mm"], line["frequency_Hz"])) for line in dominant]
+    placed = []
+    for point, line in zip(points, dominant):
+        for dx, dy in ((7, 4), (7, -12), (7, 14), (7, -22), (-7, 4), (-7, -12)):
+            label = axis.annotate(f"{line['frequency_Hz']:.0f} Hz, {line['wavelength_mm']:.0f} mm", (line["position_mm"], line["frequency_Hz"]),
+                                  xytext=(dx, dy), textcoords="offset points", ha="left" if dx > 0 else "right", fontsize=8, color="white",
+                                  weight="bold", path_effects=[Stroke(linewidth=1.5, foreground="#00000080"), Normal()])
+            extent = label.get_window_extent()
+            if (axis.bbox.contains(*extent.min) and axis.bbox.contains(*extent.max) and not any(extent.overlaps(other) for other in placed)
+                    and not any(extent.padded(5).contains(*other) for other in points if other is not point)):
+                break
+            label.remove()
+        else:
+            continue
+        placed.append(extent)
+
+
 def draw(box, figures):
     use_style({"legend.fontsize": 8, "lines.linewidth": 1.2})
     figure, axes = plt.subplots(2, 2, figsize=(11, 7), sharex="col", sharey="row", width_ratios=(4, 1), height_ratios=(1, 1.6),
                                 constrained_layout=True)
     above, map_axis, beside = axes[0, 0], axes[1, 0], axes[1, 1]
-    axes[0, 1].remove()
+    axes[0, 1].axis("off")
     beside.xaxis.set_tick_params(labelbottom=True)
     scalogram = box.scalogram
     if box.twin_run is not None:
@@ -152,17 +175,17 @@ def draw(box, figures):
     map_axis.contour(box.x, scalogram.frequency, scalogram.power, levels=[NOISE_95], colors="white", linewidths=0.9)
     cone = np.clip(scalogram.edge, scalogram.frequency[0], scalogram.frequency[-1])
     map_axis.fill_between(box.x, scalogram.frequency[0], cone, facecolor="#FFFFFF80", edgecolor="white", hatch="//", lw=0)
-    for i, line in enumerate(figures["dominant"]):
+    for line in figures["dominant"]:
         map_axis.plot(line["position_mm"], line["frequency_Hz"], "o", color=RED, ms=5, mec="white")
-        above_dot = i % 2 == 0 and line["frequency_Hz"] < 0.9 * box.band[1]
-        map_axis.annotate(f"{line['frequency_Hz']:.0f} Hz, {line['wavelength_mm']:.0f} mm", (line["position_mm"], line["frequency_Hz"]),
-                          xytext=(7, 4 if above_dot else -12), textcoords="offset points", fontsize=8, color="white", weight="bold",
-                          path_effects=[Stroke(linewidth=1.5, foreground="#00000080"), Normal()])
+    legend = []
+    for name, (low, high) in BANDS.items():
+        colour = BAND_COLOURS[name.split(",")[0]]
+        beside.axhspan(low, high, color=colour, alpha=0.3, lw=0)
+        legend.append(Swatch(fc=colour, alpha=0.3, label=name))
     if abs(box.speed / MEASURED_SPEED - 1) < 0.02:
         for axis in (map_axis, beside):
             axis.axhline(MEASURED_HZ, color=RED, ls="--", lw=1.2)
-        beside.annotate("measured at a\nsquat, 110 km/h", (1, MEASURED_HZ), xycoords=("axes fraction", "data"), xytext=(0, 3),
-                        textcoords="offset points", ha="right", fontsize=8, color=RED)
+        legend.append(Line2D([], [], color=RED, ls="--", lw=1.2, label=f"thesis: measured at\na squat, {MEASURED_HZ} Hz"))
     ticks = [f for f in (20, 50, 100, 200, 300, 500, 700, 1000, 1500, 2000, 3000, 5000) if box.band[0] <= f <= box.band[1]]
     map_axis.set_yscale("log")
     map_axis.set_yticks(ticks, [str(f) for f in ticks])
@@ -183,10 +206,12 @@ def draw(box, figures):
     above.set_xlim(box.x[0], box.x[-1])
     beside.plot(scalogram.global_spectrum(), scalogram.frequency, color=BLUE)
     beside.axvline(1, color="black", ls=":", lw=1)
-    beside.set(xlabel="mean power", title="whole record", xlim=(0, None))
+    beside.set(xlabel="mean power", title="whole record", xlim=(0, None), ylim=box.band)
+    axes[0, 1].legend(handles=legend, loc="lower left", title="published bands", borderaxespad=0)
     figure.colorbar(filled, ax=map_axis, orientation="horizontal", aspect=50, pad=0.02,
                     ticks=[t for t in 2.0 ** np.arange(-2, 12) if levels[0] <= t <= levels[-1]], format="%g",
                     label="power over that of white noise of the same variance; white line: above 95 % of noise")
+    label_maxima(figure, map_axis, figures["dominant"])
     return figure
 
 

@@ -40,13 +40,15 @@ use_style({"legend.fontsize": 8, "lines.linewidth": 1.3})
 class Instant:
     """A patch over the rail's x."""
 
-    def __init__(self, time, position, patch, y):
-        self.time, self.position, self.patch, self.y = time, position, patch, y
+    def __init__(self, time, position, patch):
+        self.time, self.position, self.patch = time, position, patch
 
-    def line(self, values):
-        """(x, values) of the row of nodes nearest to y, with zeros where contact ends."""
+    def line(self, values, y):
+        """(x, values) of the row of nodes at y, with zeros where contact ends; nothing where the row has no contact."""
         patch, gap = self.patch, self.patch.size_x
-        row = abs(patch.y - patch.y[np.argmin(abs(patch.y - self.y))]) < 0.5 * patch.size_y
+        row = abs(patch.y - y) < 0.5 * patch.size_y
+        if not row.any():
+            return [], []
         order = np.argsort(patch.x[row])
         x, values = patch.x[row][order], values[row][order]
         parts = np.split(np.arange(len(x)), np.nonzero(np.diff(x) > 1.5 * gap)[0] + 1)
@@ -74,9 +76,19 @@ class Crossing:
         self.edges = dict(zip(("leading", "trailing"), extent))
         self.width = float(run.parameters.get("Defect/Width (mm)", 0)) or extent[1] - extent[0]
         self.middle_y = float(run.parameters.get("Defect/Lateral position (mm)", 0))
-        self.instants = [Instant(*row, self.middle_y if y is None else y) for row in read_patches(run.path("patches.csv"))]
+        self.instants = [Instant(*row) for row in read_patches(run.path("patches.csv"))]
+        self.y = self.row(self.middle_y if y is None else y)
         if not self.instants[0].position < extent[0] or not self.instants[-1].position > extent[1]:
             raise DataError(f"{run.folder}: the wheel does not cross the defect from {extent[0]:g} to {extent[1]:g} mm in patches.csv")
+
+    def row(self, y):
+        """Where the row of nodes nearest to y lies. @raises Error if that is farther than the distance of two rows"""
+        rows = np.concatenate([instant.patch.y for instant in self.instants])
+        nearest = rows[np.argmin(abs(rows - y))]
+        spacing = np.median([instant.patch.size_y for instant in self.instants])
+        if abs(nearest - y) > spacing:
+            raise Error(f"--y {y:g}: no nodes there; patches.csv has rows from {rows.min():.2f} to {rows.max():.2f} mm")
+        return np.median(rows[abs(rows - nearest) < 0.5 * spacing])
 
     def nearest(self, position):
         return min(self.instants, key=lambda instant: abs(instant.position - position))
@@ -132,14 +144,14 @@ def draw_axis(crossing, positions):
     for axis, quantity, field, label in ((axes[0], "pressure", "pressure", "pressure [MPa]"),
                                          (axes[1], "shear", "shear_x", "longitudinal shear stress\non the wheel [MPa]")):
         instants = [crossing.nearest(at) for at in positions] if positions else [instant for _, instant in crossing.chosen(quantity)]
-        at = {crossing.at_edge(edge, quantity).position: f", largest at the {edge} edge" for edge in crossing.edges}
+        at = {crossing.at_edge(edge, quantity).position: f", largest of all rows at the {edge} edge" for edge in crossing.edges}
         for i, instant in enumerate(instants):
-            x, values = instant.line(getattr(instant.patch, field))
+            x, values = instant.line(getattr(instant.patch, field), crossing.y)
             axis.plot(x, values, "o-", ms=3, color=COLOURS[i % len(COLOURS)], label=f"wheel at {instant.position:.2f} mm{at.get(instant.position, '')}")
         mark_edges(axis, crossing)
         axis.set_ylabel(label)
         axis.legend(loc="upper left", bbox_to_anchor=(1, 1))
-    axes[0].set_title(f"along the rail at y = {crossing.instants[0].y:g} mm; shaded: the defect; the wheel rolls to the right", loc="left")
+    axes[0].set_title(f"along the rail, row of nodes at y = {crossing.y:.2f} mm; shaded: the defect; the wheel rolls to the right", loc="left")
     axes[1].set_xlabel("position on the rail [mm]")
     return figure
 
@@ -220,7 +232,7 @@ def main():
     parser = command_parser(__doc__)
     parser.add_argument("run", metavar="RUN")
     parser.add_argument("--at", type=float, nargs="+", metavar="MM", help="positions of the wheel in crossing-axis.png")
-    parser.add_argument("--y", type=float, metavar="MM", help="of the line along the rail; default: the middle of the defect")
+    parser.add_argument("--y", type=float, metavar="MM", help="the nearest row of nodes is drawn; default: the middle of the defect")
     parser.add_argument("--output", metavar="DIR", help="default: pictures/ in RUN")
     arguments = parser.parse_args()
     crossing = Crossing(Run(arguments.run), arguments.y)

@@ -35,6 +35,7 @@ def main():
         axis.axhline(arguments.strength, color="0.4", linestyle="--", linewidth=1)
         axis.annotate("strength", (axis.get_xlim()[1], arguments.strength), ha="right", va="bottom", color="0.4")
     axis.set(xlabel="depth, mm", ylabel="largest von Mises stress, MPa", xlim=(0., None))
+    axis.plot([], [], marker="s", markersize=7, fillstyle="none", linestyle="none", color="0.4", label="surface, from stretch and tractions")
     axis.legend()
     save(figure, arguments.output, dpi=110, bbox_inches="tight")
 

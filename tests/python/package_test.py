@@ -270,12 +270,24 @@ class Crossings(InFolder):
         self.write_run("run", np.arange(-12, 22.1, 2))
         self.write_run("short", np.arange(-12, 5.1, 2))
         write(self.path("none", "parameters.prm"), "")
-        for arguments, words in ((["run", "--at", "50"], "--at 50: patches.csv has the wheel from -12.0 to 22.0 mm"),
+        for arguments, words in ((["run", "--y", "400"], "--y 400: no nodes there; patches.csv has rows from -3.50 to 3.50 mm"),
+                                 (["run", "--at", "50"], "--at 50: patches.csv has the wheel from -12.0 to 22.0 mm"),
                                  (["short"], "short: the wheel does not cross the defect from 0 to 10 mm"),
                                  (["none"], "none/patches.csv: No such file")):
             result = subprocess.run([self.COMMAND, *arguments], capture_output=True, text=True)
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
             self.assertIn(words, result.stderr)
+
+
+class ModesTable(InFolder):
+    def test_the_mode_that_moves_the_contact_most_is_first(self):
+        columns = ("number,frequency_Hz,body,vertical_share,lateral_share,longitudinal_share,contact_amplitude_per_sqrt_kg,damping_share,description")
+        write(self.path("run", "modes.csv"), columns + "\n1,0,track,1,0,0,0.1,0,rigid motion\n2,100,track,1,0,0,0.01,0,low\n3,1000,track,1,0,0,0.2,0,high\n")
+        result = subprocess.run([os.path.join(ROOT, "contrib", "plot", "plot-modes.py"), "run"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = [row.split(" | ") for row in result.stdout.splitlines()[2:]]
+        # An amplitude q with the energy (omega q)^2 / 2 of 1 J.
+        self.assertEqual([(row[3], row[5]) for row in rows], [("high", f"{0.2e6 * 2**0.5 / (2000 * np.pi):.1f}"), ("low", f"{0.01e6 * 2**0.5 / (200 * np.pi):.1f}")])
 
 
 class Runs(InFolder):
@@ -349,6 +361,7 @@ class Studies(InFolder):
     def test_where_a_figure_reaches_a_limit(self):
         self.assertEqual(limits.crossing([4, 6, 8], [700, 800, 1000], 900), (8, 6, 7))
         self.assertEqual(limits.crossing([8, 4, 6], [1000, None, 800], 900), (8, 6, 7))
+        self.assertEqual(limits.crossing([8, 4, 6], [1000, 800, None], 900), (8, 4, None))
         self.assertEqual(limits.crossing([4, 6], [700, 800], 900), (None, 6, None))
         self.assertEqual(limits.crossing([4, 6], [950, 980], 900), (4, None, None))
         self.assertEqual(limits.crossing([4, 6, 8], [950, 800, 1000], 900), (4, None, None))
@@ -361,23 +374,45 @@ class Studies(InFolder):
         return subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program], capture_output=True, text=True)
 
     def test_a_limit(self):
-        study = studies.Study(self.limit_study("set Limit = f = 900 over Defect/Length (mm)", "set Mesh = Mesh/Finest cell (mm)"))
-        self.assertEqual([m["Defect/Depth (mm)"] for m in study.members], ["0.04", "0.08"] * 2)
-        limit = study.limits[0]
-        with mock.patch("builtins.print") as said:
-            rows = limit.rows(list(zip(study.members, [800, 1000, 850, 950], [700] * 4)))
-        self.assertEqual(rows, [["figure", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)"],
-                                ["f", 2., 700, 4., 8., "6"], ["f", 1., 700, 4., 8., "6"]])
-        self.assertIn("6 +- 0 by the two finest meshes", " ".join(str(call.args[0]) for call in said.call_args_list))
-        with mock.patch("builtins.print") as said:
-            limit.rows(list(zip(study.members, [1000] * 4, [910] * 4)))
-        self.assertIn("below what the smooth rail has, 910", " ".join(str(call.args[0]) for call in said.call_args_list))
+        study = studies.Study(self.limit_study("set Figures = f", "set Limit = f = 900 over Defect/Length (mm)", "set Mesh = Mesh/Finest cell (mm)",
+                                               lengths="4 & 0.04 | 6 & 0.06 | 8 & 0.08"))
+        self.assertEqual([m["Defect/Depth (mm)"] for m in study.members], ["0.04", "0.06", "0.08"] * 2)
+
+        def rows_and_words(figures, smooth=700):
+            with mock.patch("builtins.print") as said:
+                heading, *rows = study.limits[0].rows(list(zip(study.members, figures, [smooth] * 6)))
+            self.assertEqual(heading, ["figure", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)", "uncertainty"])
+            return rows, "\n".join(str(call.args[0]) for call in said.call_args_list)
+
+        rows, words = rows_and_words([750, 850, 950, 850, 950, 980])
+        self.assertEqual(rows, [["f", 2., 700, 6., 8., "7", ""], ["f", 1., 700, 4., 6., "5", "2"]])
+        self.assertIn("5 +- 2 by the two finest meshes", words)
+        # The smooth rail has more than the limit: no size.
+        rows, words = rows_and_words([890, 1000, 1000] * 2, smooth=910)
+        self.assertEqual([row[3:] for row in rows], [["", "", "", ""]] * 2)
+        self.assertIn("below what the smooth rail has, 910", words)
+        self.assertNotIn("+-", words)
+        # The finest mesh does not reach the limit between two sizes.
+        for figures, finest in (([950, 960, 970], "below 4"), ([700, 710, 720], "above 8"), ([None] * 3, "no figures")):
+            rows, words = rows_and_words([750, 850, 950] + figures)
+            self.assertIn(f"7 with Mesh/Finest cell (mm) 2, {finest} with 1: not settled", words)
+            self.assertEqual(rows[1][5:], ["", ""])
+        # A run without a figure between two sizes; one that is smaller than both is named.
+        for missing in (None, float("nan")):
+            rows, words = rows_and_words([800, missing, 1000, missing, 850, 950])
+            self.assertEqual([row[3:] for row in rows], [[4., 8., "", ""], [6., 8., "7", ""]])
+            self.assertIn("between 4 and 8; no figure at 6", words)
+            self.assertIn("7, between 6 and 8; no figure at 4", words)
+            self.assertIn("between 4 and 8 with Mesh/Finest cell (mm) 2, 7 with 1: not settled", words)
 
     def test_limits_that_cannot_be(self):
         for entries, words in ((["set Limit = f over"], "FIGURE = VALUE over PARAMETER"), (["set Limit = f = 1 over Rail/Length (mm)"], "is not varied"),
                                (["set Mesh = Mesh/Finest cell (mm)"], "there is none"),
-                               (["set Limit = f = 1 over Defect/Length (mm)", "set Mesh = Fine"], "is not varied")):
-            result = self.perform(self.limit_study(*entries))
+                               (["set Limit = f = 1 over Defect/Length (mm)", "set Mesh = Fine"], "is not varied"),
+                               (["set Limit = g = 1 over Defect/Length (mm)"], "'g' is not among 'Figures': f"),
+                               *(([f"set Limit = f = {value} over Defect/Length (mm)"], f"'{value}'; allowed: numbers above 0")
+                                 for value in ("nan", "inf", "-9e8", "0"))):
+            result = self.perform(self.limit_study("set Figures = f", *entries))
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
             self.assertIn(words, result.stderr)
         result = self.perform(self.limit_study(lengths="4 & 0.04 | 8"))

@@ -148,6 +148,8 @@ with tempfile.TemporaryDirectory() as folder:
     refused("an unknown kind of figure", write(path("bad.study"), vary, Figures="mean(normal_force_N)"), ["mean", "max, min"])
     refused("a place without its column", write(path("bad.study"), vary, Figures="at(strip.csv:x_mm)"), ["at(TABLE.csv:COLUMN:OTHER"])
     refused("a dynamic force without a twin", write(path("bad.study"), vary, Figures="dynamic(normal_force_N)"), ["Smooth twin"])
+    refused("a limit that cannot be", write(path("bad.study"), vary, Limit="normal_force_N = nan over Motion/Creepage"), ["Limit", "nan", "above 0"])
+    refused("a limit of another figure", write(path("bad.study"), vary, Limit="force = 1 over Motion/Creepage"), ["Limit", "'force'", "Figures"])
     # Without its site packages a Python has no numpy.
     bare = subprocess.run([sys.executable, "-S"] + line(path("bad.study"))[1:], env=environment(), capture_output=True, text=True)
     check.that("a Python without numpy: one line", bare.returncode == 1 and bare.stderr.count("\n") == 1

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """At which value of a parameter a figure of a study reaches a limit: the size from which a defect grows, for example."""
 
+import math
 import re
 
 from .files import DataError
@@ -8,18 +9,55 @@ from .files import DataError
 
 def crossing(sizes, figures, limit):
     """Where the straight lines between the points reach the limit first: (smallest size above, or None; largest size below it
-    among those smaller, or None; the crossing, or None unless both are known). Points without a figure are left out."""
-    points = sorted((size, figure) for size, figure in zip(sizes, figures) if figure is not None)
+    among those smaller, or None; the crossing, or None unless both are known and no point between them is without a figure)."""
+    points = sorted(zip(sizes, figures), key=lambda point: point[0])
     below = above = None
+    gap = False
     for size, figure in points:
-        if figure >= limit:
+        if figure is None:
+            gap = True
+        elif figure >= limit:
             above = (size, figure)
             break
-        below = (size, figure)
-    if not below or not above:
+        else:
+            below, gap = (size, figure), False
+    if not below or not above or gap:
         return above and above[0], below and below[0], None
     share = (limit - below[1]) / (above[1] - below[1])
     return above[0], below[0], below[0] + share * (above[0] - below[0])
+
+
+class Answer:
+    """What the runs of one mesh tell: the size at which the limit is reached (None if there is none), the sizes around it, and the
+    same in a few words and in a sentence."""
+
+    def __init__(self, points, limit):
+        """@param points (size, figure or None, figure of the smooth twin or None) of each run"""
+        known = lambda figure: figure if figure is not None and math.isfinite(figure) else None
+        sizes, figures = [p[0] for p in points], [known(p[1]) for p in points]
+        self.smooth = max((p[2] for p in points if known(p[2]) is not None), default=None)
+        self.above, self.below, self.at = crossing(sizes, figures, limit)
+        missing = sorted(size for size, figure in zip(sizes, figures) if figure is None)
+        if self.smooth is not None and self.smooth >= limit:
+            self.above = self.below = self.at = None
+            self.words = "no defect is needed"
+            self.sentence = f"the limit {limit:g} is below what the smooth rail has, {self.smooth:.4g}: no defect is needed to reach it"
+            return
+        if self.at is not None:
+            self.words = f"{self.at:.3g}"
+            self.sentence = f"{self.words}, between {self.below:g} and {self.above:g}"
+        elif self.above is not None and self.below is not None:
+            self.words = self.sentence = f"between {self.below:g} and {self.above:g}"
+        elif self.below is not None:
+            self.words = f"above {self.below:g}"
+            self.sentence = self.words + ", the largest with a figure"
+        elif self.above is not None:
+            self.words = f"below {self.above:g}"
+            self.sentence = self.words + ", the smallest with a figure"
+        else:
+            self.words = self.sentence = "no figures"
+        if missing:
+            self.sentence += "; no figure at " + ", ".join(f"{size:g}" for size in missing)
 
 
 class Limit:
@@ -36,6 +74,10 @@ class Limit:
             limit = cls(found[1], float(found[2]), found[3].strip(), mesh)
         except (TypeError, ValueError):
             raise DataError(f"{path}: 'Limit' cannot be '{text}'; it must be FIGURE = VALUE over PARAMETER") from None
+        if not 0 < limit.value < math.inf:
+            raise DataError(f"{path}: 'Limit' of {limit.figure} cannot be '{found[2]}'; allowed: numbers above 0")
+        if limit.figure not in study.figures:
+            raise DataError(f"{path}: 'Limit': '{limit.figure}' is not among 'Figures': {' | '.join(study.figures)}")
         for what, name in (("Limit", limit.parameter), ("Mesh", limit.mesh)):
             if name and name not in study.members[0]:
                 raise DataError(f"{path}: '{what}': '{name}' is not varied; varied are {', '.join(study.members[0])}")
@@ -59,33 +101,26 @@ class Limit:
             groups.setdefault(key, {}).setdefault(size, []).append((float(values[self.parameter]), figure, smooth))
         rows, lines = [], []
         for key, by_mesh in groups.items():
-            label = ", ".join(f"{name} {value}" for name, value in key)
-            found = {}
-            for size, points in sorted(by_mesh.items(), reverse=True):
-                smooth = [p[2] for p in points if p[2] is not None]
-                above, below, at = crossing([p[0] for p in points], [p[1] for p in points], self.value)
-                found[size] = at
+            label = "".join(f"{name} {value}, " for name, value in key)[:-2]
+            label = (label and label + ": ") + self.parameter
+            found = {size: Answer(points, self.value) for size, points in sorted(by_mesh.items(), reverse=True)}
+            lines += [f"{label}{f' with {self.mesh} {size:g}' if self.mesh else ''}: {answer.sentence}" for size, answer in found.items()]
+            coarse, fine = list(found)[-2:] if len(found) > 1 else (None, None)
+            uncertainty = None
+            if fine is not None and None not in (found[fine].at, found[coarse].at):
+                uncertainty = abs(found[fine].at - found[coarse].at)
+                lines.append(f"{label}: {found[fine].words} +- {uncertainty:.2g} by the two finest meshes")
+            elif fine is not None and found[fine].words != found[coarse].words:
+                lines.append(f"{label}: {found[coarse].words} with {self.mesh} {coarse:g}, {found[fine].words} with {fine:g}: not settled")
+            for size, answer in found.items():
                 rows.append([self.figure] + [value for _, value in key] + ([size] if self.mesh else [])
-                            + [max(smooth) if smooth else "", below if below is not None else "", above if above is not None else "",
-                               f"{at:.4g}" if at is not None else ""])
-                where = f" with {self.mesh} {size:g}" if self.mesh else ""
-                if smooth and max(smooth) >= self.value:
-                    text = f"the limit {self.value:g} is below what the smooth rail has, {max(smooth):.4g}: no defect is needed to reach it"
-                elif at is not None:
-                    text = f"{at:.3g}, between {below:g} and {above:g}"
-                elif above is None and below is None:
-                    text = "no figures"
-                else:
-                    text = f"above {below:g}, the largest tried" if above is None else f"below {above:g}, the smallest tried"
-                lines.append(f"{label + ': ' if label else ''}{self.parameter}{where}: {text}")
-            finest = [found[size] for size in sorted(found)[:2]]
-            if len(finest) == 2 and None not in finest:
-                lines.append(f"{label + ': ' if label else ''}{self.parameter}: {finest[0]:.3g} +- {abs(finest[0] - finest[1]):.2g} "
-                             "by the two finest meshes")
+                            + ["" if value is None else value for value in (answer.smooth, answer.below, answer.above)]
+                            + ["" if value is None else f"{value:.{digits}g}"
+                               for value, digits in ((answer.at, 4), (uncertainty if size == fine else None, 2))])
         names = ["figure"] + [name for name, _ in next(iter(groups))] + ([self.mesh] if self.mesh else [])
         print(f"\n{self.figure} reaches {self.value:g} at")
         print("\n".join("  " + line for line in lines))
-        return [names + ["smooth", "largest_below", "smallest_above", self.parameter]] + rows
+        return [names + ["smooth", "largest_below", "smallest_above", self.parameter, "uncertainty"]] + rows
 
     def follows(self, name, answers):
         """Whether a parameter has one value for each value of the limit's parameter, and several of them."""

@@ -15,7 +15,7 @@ A study is a text file in the format of the scenes:
     set Ranks       = 1                            # of each run
     set Limit       =                              # FIGURE = VALUE over PARAMETER: at which value of a parameter the figure
                                                    # reaches the limit, as in peak_pressure_Pa = 2e9 over Defect/Length (mm);
-                                                   # several separated by |
+                                                   # several separated by |; the figure is one of 'Figures'
     set Mesh        =                              # varied parameter, the smaller the finer, that tells how sure this is
     subsection Vary
       set Motion/Speed (km per h) = 70 | 100 | 140
@@ -301,7 +301,7 @@ def figure_or_none(run, figure):
     """Of a run that may not be complete."""
     try:
         return figure_of(run, figure) if run.state == COMPLETE else None
-    except DataError:
+    except (DataError, OSError):
         return None
 
 
