@@ -117,9 +117,9 @@ namespace tread
     if (friction->memory().distance > 0.)
       {
         coefficient_of_node.assign(surfaces.nodes.size(), friction->coefficient(0.));
-        gather_strips(coefficient);
-        for (unsigned int j = 0; j < coefficient.size(); ++j)
-          coefficient_of_node[problem.constraints[j].slave] = coefficient[j];
+        gather_strips(pair_friction.coefficient);
+        for (unsigned int j = 0; j < pair_friction.coefficient.size(); ++j)
+          coefficient_of_node[problem.constraints[j].slave] = pair_friction.coefficient[j];
       }
 
     const double         search_reach = searched * face_size, reach = coupled * face_size;
@@ -176,10 +176,10 @@ namespace tread
       if (gap[j] <= MortarCoupling::candidates * reach || norm(impulse_of_node[coupling.rows[j].slave]) > 0.)
         chosen.push_back(j);
     compact(coupling, chosen, impulse_of_node, all_x);
-    coefficient.clear();
+    pair_friction.coefficient.clear();
     if (!coefficient_of_node.empty())
       for (const ContactProblem::Constraint &constraint : problem.constraints)
-        coefficient.push_back(coefficient_of_node[constraint.slave]);
+        pair_friction.coefficient.push_back(coefficient_of_node[constraint.slave]);
   }
 
 
@@ -251,6 +251,10 @@ namespace tread
     if (given_tractions)
       for (const ContactProblem::Constraint &constraint : problem.constraints)
         given_ratio.push_back(given_tractions(surfaces.nodes[constraint.slave].reference));
+    pair_friction.factor.clear();
+    if (friction_factor)
+      for (const ContactProblem::Constraint &constraint : problem.constraints)
+        pair_friction.factor.push_back(friction_factor(surfaces.nodes[constraint.slave].reference));
     make_room();
   }
 
@@ -358,7 +362,7 @@ namespace tread
   void Contact::complete_state()
   {
     gather_strips(problem.constraints); // for their normals
-    gather_strips(coefficient);
+    gather_strips(pair_friction.coefficient);
     gather_strips(previous_impulse);
     gather_strips(slid);
 
@@ -379,7 +383,8 @@ namespace tread
       complete_state();
     archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
                  corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
-                 travelled, allowed_travel, unconverged_steps, coefficient);
+                 travelled, allowed_travel, unconverged_steps, pair_friction.coefficient,
+                 pair_friction.factor);
     archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes, work.imposed);
     std::vector<unsigned int> begin_of_strip = strips.begins();
     archive.same(begin_of_strip);
@@ -504,7 +509,7 @@ namespace tread
           impulse[j] = guess;
       }
     const CoulombSolverResult result = solve_coulomb(problem, *friction, parameters.solver, strips, offset,
-                                                     velocity, impulse, slips, given_ratio, coefficient);
+                                                     velocity, impulse, slips, given_ratio, pair_friction);
 
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;
@@ -519,7 +524,7 @@ namespace tread
         slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
         slid_enough = slid_enough || slid[j] > parameters.sliding_share * face_size;
       }
-    if (!coefficient.empty())
+    if (!pair_friction.coefficient.empty())
       age_friction(time_step);
     if (strips.gather(impulse, slid_enough) > 0.)
       time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
@@ -568,15 +573,15 @@ namespace tread
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         if (dot(impulse[j], constraint.normal) <= 0.)
           {
-            coefficient[j] = without_slip;
+            pair_friction.coefficient[j] = without_slip;
             continue;
           }
         const Vector3 u = problem.combine(constraint, velocity);
         const double  speed =
           slips[j] ? norm(u - dot(u, constraint.normal) * constraint.normal + imposed[j]) : 0.;
         const double in_the_long_run = friction->coefficient(speed);
-        coefficient[j] =
-          in_the_long_run + (coefficient[j] - in_the_long_run) *
+        pair_friction.coefficient[j] =
+          in_the_long_run + (pair_friction.coefficient[j] - in_the_long_run) *
                               std::exp(-std::max(speed, memory.speed) * time_step / memory.distance);
       }
   }

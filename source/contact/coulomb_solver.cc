@@ -15,7 +15,7 @@ namespace tread
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
                                     const std::vector<Vector3>    &given,
-                                    const std::vector<double>     &coefficients)
+                                    const PairFriction            &pairs)
   {
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
@@ -49,21 +49,22 @@ namespace tread
             {
               const Vector3 slip = u - normal_rate * constraint.normal;
               tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
-              const double bound =
-                (coefficients.empty() ? static_coefficient : coefficients[j]) * new_normal; // of adhesion
+              const double factor = pairs.factor.empty() ? 1. : pairs.factor[j];
+              const double at_rest = pairs.coefficient.empty() ? static_coefficient : pairs.coefficient[j];
+              const double bound = factor * at_rest * new_normal; // of adhesion
               const double size2 = dot(tangential, tangential);
               slips[j]           = !(size2 < bound * bound);
               if (size2 > bound * bound)
                 {
                   const double size = std::sqrt(size2);
-                  if (!coefficients.empty())
+                  if (!pairs.coefficient.empty())
                     tangential *= bound / size;
                   else
                     {
                       const double speed =
                         friction.slip(constraint.compliance * size, // at the end of the step
-                                               constraint.compliance * new_normal);
-                      tangential *= friction.coefficient(speed) * new_normal / size;
+                                               constraint.compliance * factor * new_normal);
+                      tangential *= friction.coefficient(speed) * factor * new_normal / size;
                     }
                 }
             }

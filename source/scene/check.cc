@@ -50,15 +50,17 @@ namespace tread
             "'Scene/Density scale' " + text_of(general.density_scale) + " at " + text_of(3.6 * motion.speed) +
               " km/h makes an inertia error of about " + text_of(100. * inertia_error_estimate()) +
               " %; at most " + text_of(100. * largest_inertia_error) + " % is allowed");
+    contact.check();
     motion.check();
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
           traction != 0. && !(motion.drive == Drive::creepage && motion.creepage))
-        require(std::abs(traction) < contact.friction_coefficient,
+        require(std::abs(traction) < contact.friction_coefficient * contact.friction_factor(path_begin(k)),
                 (k == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
                   text_of(traction) + " must be below 'Contact/Friction coefficient' " +
-                  text_of(contact.friction_coefficient) + " in size");
+                  text_of(contact.friction_coefficient * contact.friction_factor(path_begin(k))) +
+                  " in size where the wheel begins");
     friction_law();
   }
 

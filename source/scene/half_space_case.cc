@@ -15,12 +15,8 @@ namespace tread
     c.curvature_x  = 0.5 / scene.rolling_radius();
     c.curvature_y  = 0.5 / scene.lateral_radius();
     c.normal_force = normal_force;
-    c.friction     = scene.friction_law()->coefficient(0.);
     c.speed        = scene.motion.speed;
-    if (const auto law = scene.friction_law(); !law->is_constant())
-      c.slip_friction = std::make_shared<const reference::RollingCase::SlipFriction>(
-        reference::RollingCase::SlipFriction{[law](const double s) { return law->coefficient(s); },
-                                             law->memory().distance, law->memory().speed});
+    set_friction(c, scene, scene.path_end());
     c.wheel = {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio};
     c.rail  = {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio};
     c.prescribe_force               = true;
@@ -58,6 +54,19 @@ namespace tread
     if (creepage_given)
       c.creepage = -*scene.motion.creepage;
     return c;
+  }
+
+
+  void set_friction(reference::RollingCase &c, const Scene &scene, const double x)
+  {
+    const double factor = scene.contact.friction_factor(x);
+    const auto   law    = scene.friction_law();
+    c.friction          = factor * law->coefficient(0.);
+    c.slip_friction.reset();
+    if (!law->is_constant())
+      c.slip_friction = std::make_shared<const reference::RollingCase::SlipFriction>(
+        reference::RollingCase::SlipFriction{[=](const double s) { return factor * law->coefficient(s); },
+                                             law->memory().distance, law->memory().speed});
   }
 
 

@@ -76,7 +76,8 @@ namespace tread
   {
     const double normal = answer.force[2], traction = answer.force[0];
     const bool   all_slips =
-      std::hypot(traction, answer.force[1]) >= nearly_sliding * scene.contact.friction_coefficient * normal;
+      std::hypot(traction, answer.force[1]) >= nearly_sliding * scene.contact.friction_coefficient *
+                                                 scene.contact.friction_factor(scene.path_end()) * normal;
     reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
     c.prescribe_force        = !all_slips;
     c.creepage               = -answer.creepage;

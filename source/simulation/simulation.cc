@@ -81,6 +81,9 @@ namespace tread
     for (RollingWheel &wheel : wheels)
       dynamics.attach_hub(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
     dynamics.attach_contact(contact);
+    if (!scene.contact.friction_places.empty())
+      contact.vary_friction(
+        [this](const Vector3 place) { return this->scene.contact.friction_factor(place[0]); });
     if (scene.motion.lateral_creepage != 0. || scene.motion.spin != 0.)
       contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
         const auto wheel =

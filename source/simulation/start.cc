@@ -129,9 +129,10 @@ namespace tread
     const bool predicts_tractions = scene.start.tractions == StartTractions::predicted;
     if (!scene.motion.creepage)
       {
-        const reference::RollingEstimate estimate =
-          reference::estimate_rolling(half_space_case(scene, wheel.number));
-        wheel.target_creepage = -estimate.creepage.value;
+        reference::RollingCase c = half_space_case(scene, wheel.number);
+        set_friction(c, scene, scene.path_begin(wheel.number));
+        const reference::RollingEstimate estimate = reference::estimate_rolling(c);
+        wheel.target_creepage                     = -estimate.creepage.value;
         return predicts_tractions ? std::make_optional(estimate.fields) : std::nullopt;
       }
     wheel.target_creepage = *scene.motion.creepage;
@@ -141,6 +142,7 @@ namespace tread
           reference::RollingCase c = half_space_case(scene, wheel.number);
           c.prescribe_force        = false;
           c.creepage               = -wheel.target_creepage;
+          set_friction(c, scene, scene.path_begin(wheel.number));
           return reference::estimate_rolling(c).fields;
         }
       catch (const std::exception &error)

@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 from tread.comparison import compare
-from tread_runner import Check, run
+from tread_runner import Check, rows_of, run
 
 program = sys.argv[1]
 SCENE = "verification/creepage-spin-0.63.prm"
@@ -46,6 +46,15 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("falling friction: chatter", falls["slip_chatter_share"], 0.05)
     on_three = run(program, SCENE, path("falls on 3"), falling, 3)
     check.relative("falling friction on 3 ranks", share(on_three, "longitudinal"), share(falls, "longitudinal"), 1e-8)
+
+    # The wheel slides onto a spot with half the friction: all of the patch has it at the end.
+    run(program, SCENE, path("spot"), ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=26",
+                                        "Motion/Creepage=0.05", "Motion/Lateral creepage=0", "Motion/Spin (1 per m)=0",
+                                        "Contact/Friction places (mm)=-14, -10", "Contact/Friction factors=1, 0.5"], 2)
+    rows = rows_of(path("spot"), "history.csv")
+    # A share of 1e-3 acts on slopes of the crown.
+    check.relative("sliding before the spot: traction over friction", rows[2]["traction_coefficient"] / 0.3, 1., 0.003)
+    check.relative("sliding on the spot: traction over friction", rows[-1]["traction_coefficient"] / 0.3, 0.5, 0.003)
 
     coarse = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=8"]
     this_way = run(program, SCENE, path("this way"), coarse)

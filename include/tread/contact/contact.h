@@ -95,6 +95,14 @@ namespace tread
       imposed_sliding = std::move(velocity);
     }
 
+    /// Friction differs from place to place: a factor of the law's coefficient at the position of a slave
+    /// node in the mesh (m), from the next refresh on.
+    void vary_friction(std::function<double(const Vector3)> factor)
+    {
+      friction_factor = std::move(factor);
+      time_to_refresh = 0.;
+    }
+
     /// Distribute to all ranks the data that only the rank of a constraint or node has. Collective.
     void complete_state();
 
@@ -185,6 +193,7 @@ namespace tread
     ContactParameters                                         parameters;
     std::shared_ptr<const FrictionLaw>                        friction;
     std::function<Vector3(const Vector3)>                     given_tractions;
+    std::function<double(const Vector3)>                      friction_factor;
     std::function<Vector3(const Vector3, const unsigned int)> imposed_sliding;
     std::vector<double>                                       inverse_mass; ///< by surface node
     double                                                    face_size;
@@ -212,11 +221,11 @@ namespace tread
     std::vector<Vector3>      previous_impulse; ///< by constraint, those that act on the strip
     std::vector<Vector3>      given_ratio;      ///< by constraint: of impulses, tangential over normal
     std::vector<Vector3>      offset;           ///< by constraint of the strip, see solve_coulomb()
-    std::vector<double>       coefficient; ///< by constraint of the strip: of a law with a memory; or empty
-    std::vector<Vector3>      imposed;     ///< by constraint of the strip: sliding in the last step, m/s
-    std::vector<char>         slips;       ///< by constraint of the strip: as the last solve left it
-    std::vector<double>       slid;        ///< by constraint of the strip: since the last refresh, m
-    std::vector<unsigned int> swept_nodes; ///< compact numbers of those that the strip's sweeps move
+    PairFriction              pair_friction;    ///< coefficients by constraint of the strip, factors of all
+    std::vector<Vector3>      imposed;          ///< by constraint of the strip: sliding in the last step, m/s
+    std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
+    std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
+    std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
     /// Effect of the constraints on a node of the strip or of this rank. It is summed in the same order on
     /// all ranks that know the node, so that its position is the same on all of them.
     struct NodeTerms

@@ -22,6 +22,13 @@ namespace tread
     double       change; ///< of the last sweep, share of the largest impulse
   };
 
+  /// Friction of single constraints, beside the law that all have.
+  struct PairFriction
+  {
+    std::vector<double> coefficient; ///< in this step, of a law with a memory; empty: that of the law
+    std::vector<double> factor;      ///< of the law's coefficient, by the place; empty: 1
+  };
+
   /// Block Gauss-Seidel on the impulses (Moreau 1988; Jean 1999): each block is solved exactly,
   /// as the compliance of one constraint is the same in all directions:
   /// P_n >= 0, gap >= 0 at the step's end, P_n gap = 0; u_t = 0 where |P_t| <= f(0) P_n allows it, else
@@ -35,7 +42,7 @@ namespace tread
   /// @param impulse one a constraint, N s; the warm start, whose effect is not yet in velocity. What acts on
   /// the nodes of the strip has to be there.
   /// @param slips one a constraint: whether those of the strip with an impulse slip now; others adhere.
-  /// @param coefficients one a constraint: that of friction in this step, of a law with a memory; or empty.
+  /// @param pairs what friction has of its own at each constraint.
   /// @param given one a constraint: P_t over P_n where it is not for the friction law to find; or empty.
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
@@ -45,8 +52,8 @@ namespace tread
                                     std::vector<Vector3>          &velocity,
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
-                                    const std::vector<Vector3>    &given        = {},
-                                    const std::vector<double>     &coefficients = {});
+                                    const std::vector<Vector3>    &given = {},
+                                    const PairFriction            &pairs = {});
 } // namespace tread
 
 #endif

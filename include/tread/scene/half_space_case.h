@@ -12,7 +12,8 @@
 
 namespace tread
 {
-  /// The scene as the half-space solver sees it, at a given force. A rail head has its true running surface.
+  /// The scene as the half-space solver sees it, at a given force and with the friction where the path ends.
+  /// A rail head has its true running surface.
   /// @param normal_force N, > 0
   /// @param traction_coefficient longitudinal over normal force on the wheel, below the friction coefficient
   reference::RollingCase half_space_case(const Scene &scene,
@@ -22,6 +23,9 @@ namespace tread
   /// The same for the forces or the creepage that the scene prescribes for a wheel: its static load, and its
   /// traction coefficient if a torque drives or the creepage is to be predicted.
   reference::RollingCase half_space_case(const Scene &scene, unsigned int wheel = 0);
+
+  /// Give a case the friction that the scene has at x (m) on the rail.
+  void set_friction(reference::RollingCase &c, const Scene &scene, const double x);
 
   /// Hertz's patch of a case with like curvatures along each axis, its true gap aside.
   reference::HertzEllipse hertz(const reference::RollingCase &c);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/scene/sections/contact.h>
 
+#include <algorithm>
+#include <string>
+
 namespace tread
 {
   void ContactSection::declare(dealii::ParameterHandler &handler)
@@ -16,9 +19,44 @@ namespace tread
                    "How the friction coefficient depends on the slip speed of each node.");
     declare_friction_laws(handler);
     section.add(
+      "Friction places (mm)", friction_places,
+      "Where along the rail the friction coefficient is multiplied by 'Friction factors': x, ascending, "
+      "separated by commas; linear in between, constant beyond. As for leaves or a lubricated spot.",
+      Double(-1e6, 1e6), 10000);
+    section.add("Friction factors", friction_factors, "At these places, one for each.", Double(0., 100.),
+                10000);
+    section.add(
       "Tolerance", tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
       Double(1e-15, 0.1));
     section.add("Largest number of sweeps", max_sweeps, "In one time step.", Integer(1, 100000));
+  }
+
+
+  double ContactSection::friction_factor(const double x) const
+  {
+    if (friction_places.empty() || friction_factors.size() != friction_places.size()) // check() refuses these
+      return 1.;
+    const auto after = std::upper_bound(friction_places.begin(), friction_places.end(), x);
+    if (after == friction_places.begin())
+      return friction_factors.front();
+    if (after == friction_places.end())
+      return friction_factors.back();
+    const std::size_t k     = after - friction_places.begin();
+    const double      share = (x - friction_places[k - 1]) / (friction_places[k] - friction_places[k - 1]);
+    return (1. - share) * friction_factors[k - 1] + share * friction_factors[k];
+  }
+
+
+  void ContactSection::check() const
+  {
+    require(friction_places.size() == friction_factors.size(),
+            "'Contact/Friction places (mm)' has " + std::to_string(friction_places.size()) +
+              " entries and 'Contact/Friction factors' " + std::to_string(friction_factors.size()) +
+              ": each place has a factor");
+    for (std::size_t k = 1; k < friction_places.size(); ++k)
+      require(friction_places[k - 1] < friction_places[k],
+              "'Contact/Friction places (mm)': " + text_in_mm(friction_places[k - 1]) + " must be below " +
+                text_in_mm(friction_places[k]) + ", which follows it");
   }
 } // namespace tread

@@ -10,11 +10,17 @@ namespace tread
   /// Section `Contact`.
   struct ContactSection
   {
-    double       friction_coefficient = 0.5;       ///< without slip
-    std::string  friction_law         = "Coulomb"; ///< its name in the list of laws
-    double       tolerance            = 1e-7;      ///< of the sweeps, share of the largest impulse
-    unsigned int max_sweeps           = 200;
+    double              friction_coefficient = 0.5;       ///< without slip
+    std::string         friction_law         = "Coulomb"; ///< its name in the list of laws
+    double              tolerance            = 1e-7;      ///< of the sweeps, share of the largest impulse
+    unsigned int        max_sweeps           = 200;
+    std::vector<double> friction_places, friction_factors; ///< along the rail, m and -
 
+    /// Of the friction coefficient at x (m), linear between the places.
+    double friction_factor(const double x) const;
+
+    /// @throws InputError
+    void check() const;
     void declare(dealii::ParameterHandler &handler);
   };
 } // namespace tread
