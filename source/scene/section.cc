@@ -19,7 +19,7 @@ namespace tread
       double      times, over;
     };
 
-    constexpr std::array<Unit, 18> units{{{"mm", 1e-3, 1.},
+    constexpr std::array<Unit, 20> units{{{"mm", 1e-3, 1.},
                                           {"m", 1., 1.},
                                           {"GPa", 1e9, 1.},
                                           {"MPa", 1e6, 1.},
@@ -34,6 +34,8 @@ namespace tread
                                           {"kN s per m", 1e3, 1.},
                                           {"1 per s", 1., 1.},
                                           {"m per s", 1., 1.},
+                                          {"mrad", 1e-3, 1.},
+                                          {"rad per s", 1., 1.},
                                           {"minutes", 60., 1.},
                                           {"time steps", 1., 1.},
                                           {"semi-axes", 1., 1.}}};

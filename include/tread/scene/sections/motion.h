@@ -20,7 +20,8 @@ namespace tread
     double                traction_coefficient = 0.3;
     std::optional<double> creepage;              ///< none: predicted by half-space theory
     double                hold_distance = 0.015; ///< before a torque acts
-    unsigned int          passages      = 1;
+    std::optional<double> angular_velocity;      ///< magnitude, positive rolling forward, rad/s; none: by drive
+    unsigned int          passages = 1;
 
     void declare(dealii::ParameterHandler &handler);
     /// @throws InputError
