@@ -2,10 +2,12 @@
 #include <tread/base/version.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/simulation.h>
+#include <tread/tools/contact_points_files.h>
 #include <tread/tools/dynamic_force_files.h>
 #include <tread/tools/modes_files.h>
 #include <tread/tools/reference_only.h>
 #include <tread/tools/sleeper_stress_files.h>
+#include <tread/tools/wheelset_reference.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,6 +30,7 @@ namespace
     tread::DynamicForceRequest  dynamic;
     tread::ModesRequest         modes;
     tread::SleeperStressRequest sleeper;
+    tread::ContactPointsRequest points;
     bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
   };
 
@@ -50,11 +53,15 @@ namespace
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
     how->add_flag("--reference-only", line.reference_only,
                   "print and write the half-space answer of the scene in a second; roll nothing");
-    CLI::Option *modes = how->add_flag("--modes", line.modes.wanted,
-                                       "write eigenmodes and receptances of wheel and track; roll nothing");
+    CLI::Option *modes  = how->add_flag("--modes", line.modes.wanted,
+                                        "write eigenmodes and receptances of wheel and track; roll nothing");
+    CLI::Option *points = how->add_flag("--contact-points", line.points.wanted,
+                                        "table over the lateral shift of a rigid wheelset; roll nothing");
     how->add_flag("--dry-run", line.dry_run, "print size and cost of the run; run and write nothing");
     how->require_option(0, 1);
     app.add_option("--up-to", line.modes.up_to, "highest frequency of the modes, Hz (2000)")->needs(modes);
+    app.add_option("--shift-to", line.points.to_mm, "largest lateral shift, mm (10)")->needs(points);
+    app.add_option("--shift-step", line.points.step_mm, "between lateral shifts, mm (0.25)")->needs(points);
     CLI::Option *defect = app.add_option("--dynamic-force", line.dynamic.run,
                                          "folder of a run: what the defect adds to its forces, with spectra"),
                 *smooth = app.add_option("--smooth-twin", line.dynamic.smooth_twin,
@@ -90,15 +97,16 @@ namespace
     if (!line.dynamic.run.empty() && !line.scene.empty())
       throw tread::InputError("--dynamic-force reads two runs; it takes no scene");
     if (!line.dynamic.run.empty() &&
-        (line.resume || line.reference_only || line.modes.wanted || line.dry_run))
-      throw tread::InputError("--dynamic-force reads what two runs left; --resume, --reference-only, --modes "
-                              "and --dry-run are for a scene");
+        (line.resume || line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run))
+      throw tread::InputError(
+        "--dynamic-force reads what two runs left; --resume, --reference-only, --modes, "
+        "--contact-points and --dry-run are for a scene");
     if (!line.sleeper.run.empty() && !line.scene.empty())
       throw tread::InputError("--sleeper-stress reads a run; it takes no scene");
     if (!line.sleeper.run.empty() && (line.resume || line.reference_only || line.modes.wanted ||
                                       line.dry_run || line.print_parameters || !line.settings.empty()))
       throw tread::InputError("--sleeper-stress reads what a run left; -s, --print-parameters, --resume, "
-                              "--reference-only, --modes and --dry-run are for a scene");
+                              "--reference-only, --modes, --contact-points and --dry-run are for a scene");
     return line;
   }
 
@@ -131,17 +139,28 @@ namespace
           scene.print(std::cout, true);
         return 0;
       }
-    if (line.reference_only)
+    // Beside the results of the run, never over them.
+    const auto folder_of = [&](const char *ending) {
+      return line.output.empty() ? scene.output.directory + ending : line.output;
+    };
+    if (line.points.wanted)
       {
-        // beside the results of the run, never over them
-        tread::run_reference_only(
-          scene, line.output.empty() ? scene.output.directory + "-reference" : line.output, comm);
+        tread::write_contact_points(scene, line.points, folder_of("-contact-points"), comm);
         return 0;
       }
+    if (line.reference_only)
+      {
+        (scene.is_positioned() ? tread::run_wheelset_reference
+                               : tread::run_reference_only)(scene, folder_of("-reference"), comm);
+        return 0;
+      }
+    tread::require(
+      !scene.is_positioned(),
+      "a wheelset in a given position ('Wheelset', 'Motion/Angular velocity (rad per s)') is not meshed: "
+      "--reference-only gives its half-space answer, --contact-points its contact points");
     if (line.modes.wanted)
       {
-        tread::write_modes(scene, line.modes,
-                           line.output.empty() ? scene.output.directory + "-modes" : line.output, comm);
+        tread::write_modes(scene, line.modes, folder_of("-modes"), comm);
         return 0;
       }
     tread::Simulation simulation(scene, comm);
@@ -150,7 +169,7 @@ namespace
         simulation.estimate();
         return 0;
       }
-    return simulation.run(line.output.empty() ? scene.output.directory : line.output, line.resume) ? 0 : 130;
+    return simulation.run(folder_of(""), line.resume) ? 0 : 130;
   }
 
   /// An error found by all ranks is printed once. Otherwise each failing rank prints its error and ends the

@@ -304,19 +304,79 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// z up: the sides of a rail head lie below its middle, whose height is given.
+    void point_up(std::vector<Sample> &samples, const double middle)
+    {
+      if (samples.front().z + samples.back().z > 2. * middle)
+        for (Sample &s : samples)
+          s.z = -s.z;
+    }
+
+    /// The highest point within 20 mm of the middle becomes z = 0.
+    void put_top_to_zero(std::vector<Sample> &samples)
+    {
+      double top = -1e300;
+      for (const Sample &s : samples)
+        if (std::abs(s.x) <= 20e-3)
+          top = std::max(top, s.z);
+      for (Sample &s : samples)
+        s.z -= top;
+    }
+
+    const Sample &next_to_middle(const std::vector<Sample> &samples)
+    {
+      return *std::min_element(samples.begin(), samples.end(), [](const Sample &a, const Sample &b) {
+        return std::abs(a.x) < std::abs(b.x);
+      });
+    }
+
+    /// The flange, something more than 10 mm beyond the tread, comes to lie at y < 0 and below.
+    /// @returns whether there is one.
+    bool orient_by_flange(std::vector<Sample> &samples)
+    {
+      const double middle = next_to_middle(samples).z;
+      const auto   extreme =
+        std::max_element(samples.begin(), samples.end(), [&](const Sample &a, const Sample &b) {
+          return std::abs(a.z - middle) < std::abs(b.z - middle);
+        });
+      if (std::abs(extreme->z - middle) <= 10e-3)
+        return false;
+      const double up = extreme->z < middle ? 1. : -1., along = extreme->x < 0. ? 1. : -1.;
+      for (Sample &s : samples)
+        {
+          s.x *= along;
+          s.z *= up;
+        }
+      return true;
+    }
+
+    /// From low to high y, without gaps.
+    std::vector<dealii::Point<2>> as_curve(const std::string &file, std::vector<Sample> samples)
+    {
+      if (samples.front().x > samples.back().x)
+        std::reverse(samples.begin(), samples.end());
+      constexpr double              widest = 5e-3; // m
+      std::vector<dealii::Point<2>> points;
+      for (const Sample &s : samples)
+        {
+          points.emplace_back(s.x, s.z);
+          if (points.size() > 1 && points.back().distance(points[points.size() - 2]) > widest)
+            fail(file, s.line,
+                 "gap of " + text_in_mm(points.back().distance(points[points.size() - 2])) + " mm; at most " +
+                   text_in_mm(widest) + " mm between neighbours");
+        }
+      return points;
+    }
+  } // namespace
+
+
   MeasuredLine read_rail_head(const std::string &file, const double half_width)
   {
     std::vector<Sample> samples = around_middle(file, read_samples(file), half_width);
-    const double        middle  = line_through(samples)(0.);
-    if (samples.front().z + samples.back().z > 2. * middle) // the sides lie below the top
-      for (Sample &s : samples)
-        s.z = -s.z;
-    double top = -1e300;
-    for (const Sample &s : samples)
-      if (std::abs(s.x) <= 20e-3)
-        top = std::max(top, s.z);
-    for (Sample &s : samples)
-      s.z -= top;
+    point_up(samples, line_through(samples)(0.));
+    put_top_to_zero(samples);
     return line_through(samples);
   }
 
@@ -324,27 +384,40 @@ namespace tread
   MeasuredLine read_wheel_tread(const std::string &file, const double half_width)
   {
     std::vector<Sample> samples = read_samples(file);
-    const auto          in_middle =
-      std::min_element(samples.begin(), samples.end(),
-                       [](const Sample &a, const Sample &b) { return std::abs(a.x) < std::abs(b.x); });
-    const double middle = in_middle->z;
-    const auto   extreme =
-      std::max_element(samples.begin(), samples.end(), [&](const Sample &a, const Sample &b) {
-        return std::abs(a.z - middle) < std::abs(b.z - middle);
-      });
-    if (std::abs(extreme->z - middle) > 10e-3)
-      {
-        const double up = extreme->z < middle ? 1. : -1., along = extreme->x < 0. ? 1. : -1.;
-        for (Sample &s : samples)
-          {
-            s.x *= along;
-            s.z *= up;
-          }
-      }
+    orient_by_flange(samples);
     samples            = around_middle(file, samples, half_width);
     const double level = line_through(samples)(0.);
     for (Sample &s : samples)
       s.z -= level;
     return line_through(samples);
+  }
+
+
+  std::vector<dealii::Point<2>> read_rail_points(const std::string &file)
+  {
+    std::vector<Sample> samples = read_samples(file);
+    point_up(samples, next_to_middle(samples).z);
+    put_top_to_zero(samples);
+    return as_curve(file, samples);
+  }
+
+
+  std::vector<dealii::Point<2>> read_wheel_points(const std::string &file)
+  {
+    std::vector<Sample> samples = read_samples(file);
+    if (!orient_by_flange(samples))
+      fail(file, "has no flange: nothing lies 10 mm below the tread");
+    constexpr double    near_middle = 5e-3;
+    std::vector<Sample> about;
+    for (const Sample &s : samples)
+      if (std::abs(s.x) <= near_middle)
+        about.push_back(s);
+    std::sort(about.begin(), about.end(), [](const Sample &a, const Sample &b) { return a.x < b.x; });
+    if (about.size() < 4 || about.front().x > 0. || about.back().x < 0.)
+      fail(file, "has less than four points within 5 mm of the running circle y = 0");
+    const double level = line_through(about)(0.);
+    for (Sample &s : samples)
+      s.z -= level;
+    return as_curve(file, samples);
   }
 } // namespace tread

@@ -23,6 +23,8 @@ namespace tread
 
   void Scene::check() const
   {
+    if (is_positioned())
+      return check_wheelset();
     general.check();
     check_motion();
     rail.check();

@@ -188,7 +188,9 @@ namespace tread
     for (const std::string &setting : settings)
       set(setting);
     folder = std::filesystem::path(file).parent_path();
-    make_shapes();
+    // A wheelset in a given position has no mesh, and no point of first contact by an upright wheel.
+    if (!is_positioned())
+      make_shapes();
     check();
   }
 

@@ -8,6 +8,7 @@ namespace tread
     // In this order the parameters are printed.
     general.declare(handler);
     wheel.declare(handler);
+    wheelset.declare(handler);
     rail.declare(handler);
     defect.declare(handler);
     mesh.declare(handler);

@@ -2,6 +2,8 @@
 #ifndef tread_geometry_measured_line_h
 #define tread_geometry_measured_line_h
 
+#include <deal.II/base/point.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -43,6 +45,16 @@ namespace tread
   /// file has the flange, something more than 10 mm beyond the tread.
   /// @throws std::runtime_error as above.
   MeasuredLine read_wheel_tread(const std::string &file, const double half_width);
+
+  /// All points (y, z) of a rail's running surface with its flanks as far as the file has them, from low to
+  /// high y, placed and with z up as by read_rail_head(). y may turn back on the flanks.
+  /// @throws std::runtime_error as above, for fewer than four points, or for a gap of more than 5 mm.
+  std::vector<dealii::Point<2>> read_rail_points(const std::string &file);
+
+  /// All points (y, z) of a wheel's profile with its flange, from low to high y, placed and turned as by
+  /// read_wheel_tread().
+  /// @throws std::runtime_error as above, and for a file without a flange.
+  std::vector<dealii::Point<2>> read_wheel_points(const std::string &file);
 } // namespace tread
 
 #endif

@@ -18,6 +18,7 @@
 #include <tread/scene/sections/track.h>
 #include <tread/scene/sections/vehicle.h>
 #include <tread/scene/sections/wheel.h>
+#include <tread/scene/sections/wheelset.h>
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
@@ -34,6 +35,7 @@ namespace tread
 
     GeneralSection       general;
     WheelSection         wheel;
+    WheelsetSection      wheelset;
     FurtherWheelsSection further_wheels;
     RailSection          rail;
     DefectSection        defect;
@@ -69,6 +71,15 @@ namespace tread
     {
       return (wheel.mass + vehicle.sprung_mass) * vehicle.gravity;
     }
+    /// Whether the wheel stands in a position of a wheelset in its track, or turns as one does: such a scene
+    /// has no mesh.
+    bool is_positioned() const
+    {
+      return wheelset.is_positioned() || motion.angular_velocity.has_value();
+    }
+    /// The wheel with its flange over the rail with its flanks, in the track. @throws InputError
+    WheelOnRail wheel_on_rail() const;
+
     /// Rolling speed over the speed of Rayleigh waves in the scaled material, squared: the order of
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
@@ -210,6 +221,7 @@ namespace tread
     void set(const std::string &setting);
     void check() const;
     void check_motion() const;
+    void check_wheelset() const;
     void check_surfaces() const;
     void check_defect() const;
     void check_peak_stress() const;

@@ -12,8 +12,9 @@ namespace tread
   /// How the axle is driven.
   enum class Drive
   {
-    creepage, ///< the angular velocity is prescribed
-    torque    ///< a torque acts on the axle
+    creepage,        ///< the angular velocity is prescribed by the creepage
+    torque,          ///< a torque acts on the axle
+    angular_velocity ///< it is prescribed as such, of a wheelset in a given position
   };
 
   struct WheelHubParameters

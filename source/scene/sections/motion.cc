@@ -12,7 +12,9 @@ namespace tread
       {Drive::creepage, "creepage", "the angular velocity is kept."},
       {Drive::torque, "torque",
        "a torque of traction coefficient x load x radius acts on the axle, after Hold distance at the "
-       "creepage below."}};
+       "creepage below."},
+      {Drive::angular_velocity, "angular velocity",
+       "the angular velocity below is kept, by a wheelset in a given position ('Wheelset')."}};
     return list;
   }
 
@@ -62,6 +64,11 @@ namespace tread
                 "Rolled at the creepage above before the torque acts, so that no long run-in is paid for.",
                 Double(0., 10000.));
     section.add(
+      "Angular velocity (rad per s)", angular_velocity, "by the drive",
+      "Of the wheel about its axle, positive rolling forward, for a wheelset in a given position "
+      "('Wheelset'). A number selects the drive angular velocity and puts the wheel into the track.",
+      Double(0., 1e5));
+    section.add(
       "Passages", passages,
       "Wheels that roll over the same rail, one after the other: the rail keeps its stress and strain, each "
       "wheel comes new. Above 1 passages.csv has a row for each. Cost grows in proportion.",
@@ -74,6 +81,10 @@ namespace tread
     require(speed >= 0.1 / 3.6,
             "'Motion/Speed (km per h)' must be at least 0.1: a wheel that stands does not roll" +
               std::string(drive == Drive::torque ? ", and a torque would only spin it" : ""));
+    require(drive != Drive::angular_velocity || angular_velocity,
+            "'Motion/Drive' angular velocity needs a number for 'Motion/Angular velocity (rad per s)'");
+    require(drive != Drive::torque || !angular_velocity,
+            "'Motion/Angular velocity (rad per s)' and 'Motion/Drive' torque exclude each other");
     require(drive != Drive::torque || hold_distance < rolled_distance,
             "'Motion/Hold distance (mm)' must be below 'Motion/Rolled distance (mm)' " +
               text_in_mm(rolled_distance));

@@ -22,7 +22,8 @@ namespace tread
     double                lateral_creepage = 0.;    ///< of the wheel over the rail
     double                spin             = 0.;    ///< of the wheel over the rail about z, 1/m
     double                hold_distance    = 0.015; ///< before a torque acts
-    unsigned int          passages         = 1;
+    std::optional<double> angular_velocity; ///< magnitude, positive rolling forward, rad/s; none: by drive
+    unsigned int          passages = 1;
 
     void declare(dealii::ParameterHandler &handler);
     /// @throws InputError

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Case A-2.2 of the Manchester contact benchmark: its positions as settings of tread, with CONTACT's figures in tread's signs."""
+
+import csv
+import os
+import tempfile
+
+from .runs import PROGRAM, ROOT, run
+
+DATA = os.path.join(ROOT, "contrib", "contact-data", "manchester_a22.csv")
+
+
+def positions():
+    """Yields side, shift in the benchmark's sign (mm), settings, and CONTACT's figures by their names in tread's summary."""
+    with open(DATA, encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            value = {name: float(text) for name, text in row.items() if name != "side"}
+            # The benchmark's axes belong to the right side: y to the right, z down. Both wheels of tread have their own axes, y to
+            # their own side and z up: the right one mirrored at the track's plane, the left one turned about x.
+            own = 1. if row["side"] == "right" else -1.
+            # No negative zeros among the settings.
+            signed = lambda name: own * value[name] + 0.
+            yield row["side"], value["y_ws_mm"], {
+                "Wheelset/Lateral shift (mm)": signed("y_ws_mm"), "Wheelset/Yaw (mrad)": 1e3 * signed("yaw_rad"),
+                "Wheelset/Roll (mrad)": 1e3 * signed("roll_rad"), "Motion/Angular velocity (rad per s)": -value["omega_rad_s"]}, {
+                "normal_force_N": value["FN_N"], "longitudinal_force_N": -value["FX_N"], "lateral_force_N": -own * value["FS_N"],
+                "x_m": 1e-3 * value["x_cp_mm"], "y_m": 1e-3 * own * value["y_cp_mm"], "angle_rad": -own * value["delta_rad"],
+                "max_pressure_Pa": 1e6 * value["p_max_MPa"], "lateral_creepage": -value["ceta"] * own,
+                "creepage": value["cksi"], "spin_per_m": -1e3 * own * value["cphi_rad_mm"]}
+
+
+def solve(side, settings, program=PROGRAM):
+    """The summary of a position."""
+    with tempfile.TemporaryDirectory() as folder:
+        return run(f"curves/manchester-a22-{side}.prm", settings, output=os.path.join(folder, "run"),
+                   options=["--reference-only"], program=program).summary

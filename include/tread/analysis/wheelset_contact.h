@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_analysis_wheelset_contact_h
+#define tread_analysis_wheelset_contact_h
+
+#include <tread/geometry/wheel_on_rail.h>
+#include <tread/reference/planar_contact.h>
+
+#include <vector>
+
+namespace tread
+{
+  /// Steady rolling of one wheel of a wheelset in any position over its rail, in half-space theory. SI units.
+  struct WheelRolling
+  {
+    reference::Elastic wheel, rail;
+    double             friction         = 0.; ///< Coulomb's f, >= 0
+    double             speed            = 1.; ///< of the wheelset along the track, m/s
+    double             angular_velocity = 0.; ///< of the wheel about its axle, positive forward, rad/s
+
+    /// Overlaps nearer to each other than this along the surface are solved in one plane, m.
+    double separation = 8e-3;
+    /// Edges of the elements along and across, m; 0: a share of the patch.
+    double element_x = 0., element_y = 0.;
+    /// Of the slip in the element size (reference::PlanarCase::order).
+    unsigned int order = 2;
+    /// Whether the rigid slip follows the wheel's surface over the patch, which is no cone in general,
+    /// instead of being linear from the reference point on.
+    bool slip_follows_surface = true;
+  };
+
+  /// Contact of one region in its own plane: axes x forward, s lateral along the rail and n up into the
+  /// wheel, turned by `angle` from y and z about x, origin at the reference point. Forces act on the wheel.
+  struct WheelPatch
+  {
+    WheelOnRail::Region region;
+    double              rolling_radius = 0.;     ///< of the undeformed wheel at the reference point (m)
+    double              rolling_speed  = 0.;     ///< V, mean of both surfaces' speeds through the patch (m/s)
+    double creepage = 0., lateral_creepage = 0.; ///< slip of the rigid wheel over the rail there over V [-]
+    double spin = 0.;                            ///< its angular velocity about n over V (rad/m)
+
+    reference::PlanarResult solution;
+
+    double wheel_radius = 0., rail_radius = 0.; ///< of the profiles at the reference point (m)
+    double turn = 0.; ///< of the rail's normal from one edge of the patch to the other (rad)
+
+    double angle() const
+    {
+      return region.angle;
+    }
+    /// Force on the wheel in track axes (N).
+    Vector3d force() const;
+  };
+
+  struct WheelContact
+  {
+    WheelsetPosition        position; ///< with the height found
+    std::vector<WheelPatch> patches;
+    Vector3d                force{};   ///< on the wheel, track axes (N)
+    unsigned int            turns = 0; ///< solutions at different heights
+  };
+
+  /// The normal of the rail must not turn by more over a patch that is solved in one plane: beyond it
+  /// pressures of both ends differ in direction by so much that the resultant is 0.5 % too large.
+  constexpr double largest_turn_of_a_plane = 0.2; // rad
+
+  /// Contact with the wheelset at the height of the position. No patches if nothing overlaps.
+  WheelContact contact_at_height(const WheelOnRail      &surfaces,
+                                 const WheelRolling     &rolling,
+                                 const WheelsetPosition &position);
+
+  /// Contact under a vertical load (N), friction forces included: the height is found.
+  /// @throws std::runtime_error, one line, where the surfaces do not meet or no height carries the load.
+  WheelContact contact_under_load(const WheelOnRail  &surfaces,
+                                  const WheelRolling &rolling,
+                                  WheelsetPosition    position,
+                                  double              load);
+} // namespace tread
+
+#endif

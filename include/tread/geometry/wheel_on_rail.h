@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_geometry_wheel_on_rail_h
+#define tread_geometry_wheel_on_rail_h
+
+#include <tread/geometry/profile_curve.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace tread
+{
+  using Vector3d = std::array<double, 3>; ///< x, y, z
+
+  /// Where a wheelset stands in its track, seen from one of its wheels. Track axes of that wheel: x forward,
+  /// y from the middle of the track towards the wheel's own side, z up from the plane on the rail tops. A
+  /// wheel of the other side has the mirrored axes, so that its position is that of the own wheel with the
+  /// signs of shift, yaw and roll changed.
+  struct WheelsetPosition
+  {
+    double shift = 0.; ///< y of the wheelset's middle (m)
+    double yaw =
+      0.; ///< positive: the leading side turns to the own side, so that the own wheel falls back (rad)
+    double roll   = 0.; ///< positive: the own side goes down (rad)
+    double height = 0.; ///< of the wheelset's middle over the wheel's radius (m)
+
+    WheelsetPosition mirrored() const
+    {
+      return {0. - shift, 0. - yaw, 0. - roll, height};
+    }
+  };
+
+  /// What places wheels on their axle and rails in their track (m).
+  struct TrackGauge
+  {
+    double gauge           = 1.435;  ///< between the gauge faces
+    double measuring_depth = 14e-3;  ///< of the gauge below the rail tops
+    double back_distance   = 1.36;   ///< between the backs of the wheels' flanges
+    double back_position   = -70e-3; ///< of the flange's back in the wheel's profile
+  };
+
+  /// One wheel of a wheelset, a surface of revolution about the axle, over its rail, a prism along x: both
+  /// rigid.
+  ///
+  /// The position is a roll about x, then a yaw about the rolled vertical axis; turning about the axle
+  /// changes nothing.
+  class WheelOnRail
+  {
+  public:
+    /// @param wheel profile; @param rail head in its inclination; both as in profile_curve.h. @param radius
+    /// of the wheel where z = 0 in its profile (m).
+    /// @throws std::runtime_error, one line, for a rail without a gauge face.
+    WheelOnRail(const ProfileCurve &wheel, const ProfileCurve &rail, double radius, const TrackGauge &gauge);
+
+    double                radius() const;
+    const CurveFromAbove &rail() const;          ///< in track axes
+    const ProfileCurve   &wheel() const;         ///< in its own axes
+    double                rail_origin_y() const; ///< where y = 0 of the rail's curve lies in the track (m)
+    double                rail_origin_z() const;
+    double                wheel_origin_y() const; ///< of the wheel's profile on the axle, from the middle (m)
+
+    /// Unit vector along the axle, to the own side; a wheel that rolls forward turns about it positively.
+    static Vector3d axle(const WheelsetPosition &position);
+    static Vector3d middle(const WheelsetPosition &position, double radius);
+
+    /// The wheel's surface at the profile's parameter s and the angle about the axle, 0 at the bottom and
+    /// positive forwards, with the derivatives by both (m).
+    struct SurfacePoint
+    {
+      Vector3d place, by_s, by_angle;
+    };
+    SurfacePoint surface(const WheelsetPosition &position, double s, double angle) const;
+
+    /// Point of the wheel's outline seen along x: the surface stands upright on the planes through x there.
+    /// Only such points can touch a rail that is the same at every x.
+    struct OutlinePoint
+    {
+      double   s, angle;
+      Vector3d place;
+    };
+    /// None where the surface is so steep that the yaw hides all of the circle.
+    std::optional<OutlinePoint> outline(const WheelsetPosition &position, double s) const;
+
+    /// How far the wheel stands above the rail where it is nearest.
+    struct Nearest
+    {
+      double       gap; ///< along z, negative: overlap (m)
+      OutlinePoint point;
+    };
+    /// @throws std::runtime_error where the wheel meets no rail.
+    Nearest nearest(const WheelsetPosition &position) const;
+
+    /// A region in which the surfaces overlap, alone or next to others not further away than the distance
+    /// given.
+    struct Region
+    {
+      double s_begin = 0., s_end = 0.; ///< on the wheel's profile (m)
+      /// The reference point, on the rail: centre of the square of the overlap's depth over the area.
+      Vector3d     reference{};
+      double       angle   = 0.; ///< of the rail there, mean with the same weight: dz/dy = tan(angle) (rad)
+      double       overlap = 0.; ///< largest, along the normal (m)
+      unsigned int parts   = 0;  ///< overlaps taken together
+    };
+    /// @param separation along the surface, m
+    std::vector<Region> overlaps(const WheelsetPosition &position, double separation) const;
+
+  private:
+    /// The vertical gap at s; a large number where there is no rail below.
+    double gap(const WheelsetPosition &position, double s, OutlinePoint &point) const;
+
+    ProfileCurve        wheel_profile;
+    CurveFromAbove      rail_profile;
+    double              nominal_radius, wheel_y, rail_y, rail_z;
+    std::vector<double> samples; ///< of s, at which the wheel is looked at
+  };
+} // namespace tread
+
+#endif

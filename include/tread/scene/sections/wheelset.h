@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_wheelset_h
+#define tread_scene_sections_wheelset_h
+
+#include <tread/geometry/wheel_on_rail.h>
+#include <tread/scene/section.h>
+
+namespace tread
+{
+  /// What the rigid slip over a patch is taken from.
+  enum class SlipOverPatch
+  {
+    surface, ///< from the wheel's surface
+    plane    ///< linear from the reference point on
+  };
+
+  template <>
+  const std::vector<Choice<SlipOverPatch>> &choices();
+
+  /// Section `Wheelset`. SI units.
+  struct WheelsetSection
+  {
+    std::optional<double> shift; ///< y of the wheelset's middle in the track; none: see is_positioned()
+    double                yaw = 0., roll = 0.;
+    TrackGauge            track;
+    SlipOverPatch         slip_over_patch = SlipOverPatch::surface;
+
+    /// Whether the wheel stands in a position of a wheelset in its track; otherwise it is upright, and its
+    /// place over the rail follows from `Wheel/Lateral position (mm)`.
+    bool is_positioned() const
+    {
+      return shift || yaw != 0. || roll != 0.;
+    }
+    /// In the track, at the height 0.
+    WheelsetPosition position() const
+    {
+      return {shift.value_or(0.), yaw, roll, 0.};
+    }
+
+    void declare(dealii::ParameterHandler &handler);
+    /// @throws InputError
+    void check() const;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/geometry/wheel_on_rail.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    /// Distance at which the wheel's profile is looked at, m. Between the samples the gap is refined.
+    constexpr double sample_spacing = 0.1e-3;
+
+    /// Gap where there is no rail below the wheel, m.
+    constexpr double no_rail = 1e3;
+
+    /// The columns of the matrix that turns a vector of the wheelset into the track: roll of yaw.
+    struct Rotation
+    {
+      Vector3d x, y, z;
+
+      explicit Rotation(const WheelsetPosition &p)
+      {
+        const double c = std::cos(p.yaw), s = std::sin(p.yaw), cr = std::cos(p.roll), sr = std::sin(p.roll);
+        x = {c, cr * s, -sr * s};
+        y = {-s, cr * c, -sr * c};
+        z = {0., sr, cr};
+      }
+      Vector3d operator()(const double a, const double b, const double c) const
+      {
+        return {a * x[0] + b * y[0] + c * z[0], a * x[1] + b * y[1] + c * z[1],
+                a * x[2] + b * y[2] + c * z[2]};
+      }
+    };
+
+    /// y at which the rail is the measuring depth below its top, on the gauge side, and the top's height.
+    std::pair<double, double> gauge_face(const ProfileCurve &rail, const double depth)
+    {
+      const CurveFromAbove above(rail);
+      // The highest point, then the way down towards the gauge.
+      double top_y = 0., top = -1e300;
+      for (double y = std::max(-25e-3, above.begin()); y <= std::min(25e-3, above.end()); y += 1e-5)
+        if (const double z = above.height(y); z > top)
+          {
+            top   = z;
+            top_y = y;
+          }
+      double s = above.parameter(top_y);
+      // One step of Newton's method for the level point, whose height is of second order in it.
+      const double step  = 1e-5;
+      const auto   level = [&](const double at) {
+        return rail.at(at).dz;
+      };
+      if (const double change = (level(s + step) - level(s - step)) / (2. * step); change < 0.)
+        {
+          const double at = std::clamp(s - level(s) / change, s - 1e-5, s + 1e-5);
+          top             = std::max(top, rail.at(at).z);
+        }
+      double upper = s, lower = s;
+      while (lower > 0. && rail.at(lower).z > top - depth)
+        {
+          upper = lower;
+          lower = std::max(0., lower - 0.1e-3);
+        }
+      if (rail.at(lower).z > top - depth)
+        throw std::runtime_error(
+          "the rail's gauge side does not reach down to the depth at which the gauge is "
+          "measured");
+      for (unsigned int i = 0; i < 60; ++i)
+        {
+          const double middle                               = 0.5 * (lower + upper);
+          (rail.at(middle).z > top - depth ? upper : lower) = middle;
+        }
+      // What sticks out further above that depth is the face.
+      double y = rail.at(lower).y;
+      for (double at = lower; at < s; at += 0.05e-3)
+        y = std::min(y, rail.at(at).y);
+      return {y, top};
+    }
+  } // namespace
+
+
+  WheelOnRail::WheelOnRail(const ProfileCurve &wheel,
+                           const ProfileCurve &rail,
+                           const double        radius,
+                           const TrackGauge   &gauge)
+    : wheel_profile(wheel)
+    , rail_profile(rail)
+    , nominal_radius(radius)
+    , wheel_y(0.5 * gauge.back_distance - gauge.back_position)
+  {
+    const auto [face_y, top] = gauge_face(rail, gauge.measuring_depth);
+    rail_y                   = 0.5 * gauge.gauge - face_y;
+    rail_z                   = 0. - top;
+    rail_profile             = CurveFromAbove(rail.moved(rail_y, rail_z), rail_y);
+    const auto n             = static_cast<unsigned int>(std::ceil(wheel.length() / sample_spacing));
+    for (unsigned int i = 0; i <= n; ++i)
+      samples.push_back(wheel.length() * i / n);
+  }
+
+
+  double WheelOnRail::radius() const
+  {
+    return nominal_radius;
+  }
+
+
+  const CurveFromAbove &WheelOnRail::rail() const
+  {
+    return rail_profile;
+  }
+
+
+  const ProfileCurve &WheelOnRail::wheel() const
+  {
+    return wheel_profile;
+  }
+
+
+  double WheelOnRail::rail_origin_y() const
+  {
+    return rail_y;
+  }
+
+
+  double WheelOnRail::rail_origin_z() const
+  {
+    return rail_z;
+  }
+
+
+  double WheelOnRail::wheel_origin_y() const
+  {
+    return wheel_y;
+  }
+
+
+  Vector3d WheelOnRail::axle(const WheelsetPosition &position)
+  {
+    return Rotation(position).y;
+  }
+
+
+  Vector3d WheelOnRail::middle(const WheelsetPosition &position, const double radius)
+  {
+    return {0., position.shift, radius + position.height};
+  }
+
+
+  WheelOnRail::SurfacePoint WheelOnRail::surface(const WheelsetPosition &position,
+                                                 const double            s,
+                                                 const double            angle) const
+  {
+    const Rotation            turn(position);
+    const ProfileCurve::Place p    = wheel_profile.at(s);
+    const double              r    = nominal_radius - p.z;
+    const double              sine = std::sin(angle), cosine = std::cos(angle);
+    SurfacePoint              point;
+    point.place = turn(r * sine, wheel_y + p.y, -r * cosine);
+    point.place[1] += position.shift;
+    point.place[2] += nominal_radius + position.height;
+    point.by_s     = turn(-p.dz * sine, p.dy, p.dz * cosine);
+    point.by_angle = turn(r * cosine, 0., r * sine);
+    return point;
+  }
+
+
+  std::optional<WheelOnRail::OutlinePoint> WheelOnRail::outline(const WheelsetPosition &position,
+                                                                const double            s) const
+  {
+    // The normal is dy (sin, 0, -cos) + dz (0, 1, 0) in the axes of the wheelset, with dy and dz of the
+    // profile; its component along the track's x is to vanish: a sin(angle) - b cos(angle) = c.
+    const Rotation            turn(position);
+    const ProfileCurve::Place p = wheel_profile.at(s);
+    const double a = turn.x[0] * p.dy, b = turn.z[0] * p.dy, c = -turn.y[0] * p.dz, size = std::hypot(a, b);
+    if (!(std::abs(c) < size) || a <= 0.)
+      return {};
+    OutlinePoint point{s, std::asin(c / size) + std::atan2(b, a), {}};
+    point.place = surface(position, s, point.angle).place;
+    return point;
+  }
+
+
+  double WheelOnRail::gap(const WheelsetPosition &position, const double s, OutlinePoint &point) const
+  {
+    const std::optional<OutlinePoint> found = outline(position, s);
+    if (!found)
+      return no_rail;
+    point          = *found;
+    const double y = point.place[1];
+    return y < rail_profile.begin() || y > rail_profile.end() ? no_rail
+                                                              : point.place[2] - rail_profile.height(y);
+  }
+
+
+  WheelOnRail::Nearest WheelOnRail::nearest(const WheelsetPosition &position) const
+  {
+    Nearest      best{no_rail, {}};
+    std::size_t  place = 0;
+    OutlinePoint point{};
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (const double g = gap(position, samples[i], point); g < best.gap - 1e-12)
+        {
+          best  = {g, point};
+          place = i;
+        }
+    if (best.gap == no_rail)
+      throw std::runtime_error("wheel and rail do not meet: nothing of the wheel is above the rail");
+    if (place == 0 || place + 1 == samples.size())
+      throw std::runtime_error(
+        "the wheel meets the rail with the edge of its profile only: it falls between the rails "
+        "or off them");
+    if (const double y = best.point.place[1], edge = 2. * sample_spacing;
+        y < rail_profile.begin() + edge || y > rail_profile.end() - edge)
+      throw std::runtime_error(
+        "wheel and rail do not meet on the rail's head, but at the end of its profile");
+    // Golden section between the neighbours.
+    constexpr double golden = 0.6180339887498949;
+    double low = samples[place > 0 ? place - 1 : 0], high = samples[std::min(place + 1, samples.size() - 1)];
+    for (unsigned int i = 0; i < 40; ++i)
+      {
+        const double left = high - golden * (high - low), right = low + golden * (high - low);
+        OutlinePoint at_left{}, at_right{};
+        const double gap_left = gap(position, left, at_left), gap_right = gap(position, right, at_right);
+        const bool   to_left   = gap_left < gap_right;
+        (to_left ? high : low) = to_left ? right : left;
+        if (std::min(gap_left, gap_right) < best.gap)
+          best = to_left ? Nearest{gap_left, at_left} : Nearest{gap_right, at_right};
+      }
+    return best;
+  }
+
+
+  std::vector<WheelOnRail::Region> WheelOnRail::overlaps(const WheelsetPosition &position,
+                                                         const double            separation) const
+  {
+    // Intervals of the wheel's profile below the rail, their ends to round-off.
+    struct Interval
+    {
+      double begin, end;
+    };
+    std::vector<Interval> intervals;
+    OutlinePoint          point{};
+    const auto            border = [&](double outside, double inside) {
+      for (unsigned int i = 0; i < 50; ++i)
+        {
+          const double middle                                    = 0.5 * (outside + inside);
+          (gap(position, middle, point) < 0. ? inside : outside) = middle;
+        }
+      return inside;
+    };
+    bool below = false;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      {
+        const bool now = gap(position, samples[i], point) < 0.;
+        if (now && !below)
+          intervals.push_back({i > 0 ? border(samples[i - 1], samples[i]) : samples[i], samples[i]});
+        if (now)
+          intervals.back().end = samples[i];
+        if (!now && below)
+          intervals.back().end = border(samples[i], samples[i - 1]);
+        below = now;
+      }
+    if (intervals.empty()) // less than two samples overlap
+      if (const Nearest deepest = nearest(position); deepest.gap < 0.)
+        intervals.push_back({border(deepest.point.s - sample_spacing, deepest.point.s),
+                             border(deepest.point.s + sample_spacing, deepest.point.s)});
+
+    std::vector<Region>                regions;
+    std::vector<std::vector<Interval>> parts;
+    for (const Interval &interval : intervals)
+      if (!parts.empty() && interval.begin - parts.back().back().end < separation)
+        parts.back().push_back(interval);
+      else
+        parts.push_back({interval});
+    for (const std::vector<Interval> &together : parts)
+      {
+        Region region;
+        region.s_begin = together.front().begin;
+        region.s_end   = together.back().end;
+        region.parts   = together.size();
+        // Along x the depth falls by x^2/(2 R): the square of the depth over the area is, across, the depth
+        // to the power of 5/2.
+        double weights = 0., x = 0., y = 0., angle = 0.;
+        for (const Interval &interval : together)
+          {
+            constexpr unsigned int n = 400;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const double s      = interval.begin + (i + 0.5) / n * (interval.end - interval.begin);
+                const double depth  = std::max(0., -gap(position, s, point));
+                const double slope  = std::atan(rail_profile.slope(point.place[1]));
+                const double weight = std::pow(depth, 2.5) * std::abs(wheel_profile.at(s).dy) *
+                                      (interval.end - interval.begin) / n;
+                weights += weight;
+                x += weight * point.place[0];
+                y += weight * point.place[1];
+                angle += weight * slope;
+                region.overlap = std::max(region.overlap, depth * std::cos(slope));
+              }
+          }
+        if (!(weights > 0.))
+          continue;
+        y /= weights;
+        region.angle     = angle / weights;
+        region.reference = {x / weights, y, rail_profile.height(y)};
+        regions.push_back(region);
+      }
+    return regions;
+  }
+} // namespace tread

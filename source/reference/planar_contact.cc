@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/reference/planar_contact.h>
+
+#include "require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tread::reference
+{
+  namespace
+  {
+    TangentialProblem tangential_problem(const PlanarCase &c)
+    {
+      TangentialProblem problem;
+      problem.friction     = c.friction;
+      problem.longitudinal = c.longitudinal;
+      problem.lateral      = c.lateral;
+      problem.spin         = c.spin;
+      problem.more_slip    = c.more_slip;
+      problem.order        = c.order;
+      return problem;
+    }
+
+    /// Without friction nothing adheres, and the slip is that of rigid bodies.
+    TangentialSolution frictionless(const Grid              &grid,
+                                    const NormalSolution    &normal,
+                                    const TangentialProblem &problem)
+    {
+      TangentialSolution t;
+      for (std::vector<double> *field : {&t.shear_x, &t.shear_y, &t.slip_x, &t.slip_y})
+        field->assign(grid.size(), 0.);
+      t.state.assign(grid.size(), ElementState::exterior);
+      for (const unsigned int e : normal.contact)
+        {
+          const auto uneven = problem.uneven_slip(grid.x(e % grid.n_x), grid.y(e / grid.n_x));
+          t.slip_x[e]       = problem.longitudinal + uneven[0];
+          t.slip_y[e]       = problem.lateral + uneven[1];
+          t.state[e]        = ElementState::slip;
+        }
+      return t;
+    }
+
+    /// With order 2 what was carried from a cut element to the next one may be beyond the friction bound.
+    void keep_to_bound(const PlanarCase &c, PlanarResult &r)
+    {
+      for (std::size_t e = 0; e < r.pressure.size(); ++e)
+        {
+          const double shear = std::hypot(r.shear_x[e], r.shear_y[e]), limit = c.friction * r.pressure[e];
+          if (shear > limit)
+            {
+              r.shear_x[e] *= limit / shear;
+              r.shear_y[e] *= limit / shear;
+            }
+        }
+    }
+
+    void measure(const PlanarCase &c, PlanarResult &r)
+    {
+      const Grid  &grid      = r.grid;
+      const double area      = grid.element_area();
+      std::size_t  n_contact = 0, n_adhesion = 0;
+      r.x_begin = r.y_begin = std::numeric_limits<double>::max();
+      r.x_end = r.y_end = -std::numeric_limits<double>::max();
+      for (std::size_t e = 0; e < grid.size(); ++e)
+        {
+          const double x = grid.x(e % grid.n_x), y = grid.y(e / grid.n_x);
+          r.overlap = std::max(r.overlap, -c.gap(x, y));
+          if (r.state[e] == ElementState::exterior)
+            continue;
+          const double shear = std::hypot(r.shear_x[e], r.shear_y[e]),
+                       slip  = std::hypot(r.slip_x[e], r.slip_y[e]);
+          ++n_contact;
+          n_adhesion += r.state[e] == ElementState::adhesion ? 1 : 0;
+          r.normal_force += area * r.pressure[e];
+          r.max_pressure = std::max(r.max_pressure, r.pressure[e]);
+          r.max_shear    = std::max(r.max_shear, shear);
+          r.max_slip     = std::max(r.max_slip, slip);
+          r.frictional_power += area * shear * slip;
+          r.x_begin = std::min(r.x_begin, x - 0.5 * grid.dx);
+          r.x_end   = std::max(r.x_end, x + 0.5 * grid.dx);
+          r.y_begin = std::min(r.y_begin, y - 0.5 * grid.dy);
+          r.y_end   = std::max(r.y_end, y + 0.5 * grid.dy);
+        }
+      r.area           = n_contact * area;
+      r.adhesion_share = static_cast<double>(n_adhesion) / n_contact;
+    }
+  } // namespace
+
+  PlanarResult solve_planar(const PlanarCase &c)
+  {
+    check_grid(c.grid);
+    require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
+    require_positive("speed", c.speed, "m/s");
+    const ElasticPair pair = combine(c.wheel, c.rail);
+    NormalProblem     normal;
+    normal.prescribe_force = false;
+    normal.approach        = 0.;
+    normal.gap.resize(c.grid.size());
+    for (std::size_t e = 0; e < c.grid.size(); ++e)
+      normal.gap[e] = c.gap(c.grid.x(e % c.grid.n_x), c.grid.y(e / c.grid.n_x));
+
+    const TangentialProblem problem = tangential_problem(c);
+    ContactSolution         contact;
+    if (c.friction > 0.)
+      contact = solve_contact(c.grid, pair, normal, problem);
+    else
+      {
+        const FourierGrid fourier(c.grid);
+        contact.normal     = solve_normal(fourier, NormalOperator(fourier, pair), normal);
+        contact.tangential = frictionless(c.grid, contact.normal, problem);
+      }
+    if (contact.normal.cut)
+      throw std::runtime_error("contact reaches the border of the grid");
+
+    PlanarResult        result;
+    TangentialSolution &t     = contact.tangential;
+    result.grid               = c.grid;
+    result.pressure           = std::move(contact.normal.pressure);
+    result.shear_x            = std::move(t.shear_x);
+    result.shear_y            = std::move(t.shear_y);
+    result.slip_x             = std::move(t.slip_x);
+    result.slip_y             = std::move(t.slip_y);
+    result.state              = std::move(t.state);
+    result.longitudinal_force = t.longitudinal_force;
+    result.lateral_force      = t.lateral_force;
+    result.spin_moment        = t.spin_moment;
+    for (std::size_t e = 0; e < c.grid.size(); ++e)
+      {
+        result.slip_x[e] *= c.speed;
+        result.slip_y[e] *= c.speed;
+      }
+    if (c.order == 2)
+      keep_to_bound(c, result);
+    measure(c, result);
+    return result;
+  }
+} // namespace tread::reference

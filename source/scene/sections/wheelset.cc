@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/sections/wheelset.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace tread
+{
+  template <>
+  const std::vector<Choice<SlipOverPatch>> &choices()
+  {
+    static const std::vector<Choice<SlipOverPatch>> list{
+      {SlipOverPatch::surface, "surface", "follows the rolling radius of the wheel's profile at each place."},
+      {SlipOverPatch::plane, "plane",
+       "creepages and spin of the reference point for all of the patch, as planar contact in CONTACT."}};
+    return list;
+  }
+
+
+  void WheelsetSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    Section section(handler, "Wheelset");
+
+    section.add(
+      "Lateral shift (mm)", shift, "none",
+      "Of the wheelset from the middle of the track, positive towards the wheel's own side: its flange "
+      "then approaches the rail. A number, 0 too, puts the wheel with its flange into the track; such a "
+      "scene is answered by --reference-only. none: an upright wheel over the rail, at 'Wheel/Lateral "
+      "position (mm)'.",
+      Double(-100., 100.));
+    section.add(
+      "Yaw (mrad)", yaw,
+      "Positive when the leading side turns to the own side, so that the own wheel falls back. Up to "
+      "5 degrees.",
+      Double());
+    section.add("Roll (mrad)", roll, "Positive when the own side goes down. Up to 5 degrees.", Double());
+    section.add("Track gauge (mm)", track.gauge, "Between the gauge faces of both rails.",
+                Double(500., 3000.));
+    section.add("Gauge depth (mm)", track.measuring_depth,
+                "Below the rail tops, where the gauge is measured.", Double(1., 30.));
+    section.add("Flange-back distance (mm)", track.back_distance, "Between the backs of both flanges.",
+                Double(400., 3000.));
+    section.add("Flange back (mm)", track.back_position,
+                "Where the wheel's profile has the back of its flange.", Double(-200., 0.));
+    section.choose("Slip over the patch", slip_over_patch,
+                   "Rigid slip over a patch that is wide for its profiles.");
+  }
+
+
+  void WheelsetSection::check() const
+  {
+    constexpr double largest = 5. * dealii::numbers::PI / 180.;
+    for (const auto &[name, angle] : {std::pair("Yaw", yaw), std::pair("Roll", roll)})
+      require(std::abs(angle) <= largest, "'Wheelset/" + std::string(name) + " (mrad)' " +
+                                            text_of(1e3 * angle) + " is more than 5 degrees, " +
+                                            text_of(1e3 * largest) + " mrad");
+  }
+} // namespace tread

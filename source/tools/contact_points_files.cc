@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/base/version.h>
+#include <tread/geometry/contact_points.h>
+#include <tread/output/columns.h>
+#include <tread/output/progress.h>
+#include <tread/output/run_folder.h>
+#include <tread/tools/contact_points_files.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tread
+{
+  namespace
+  {
+    struct Row
+    {
+      TouchingWheelset wheelset;
+      double           conicity; ///< NaN where the table does not reach to both sides
+    };
+
+    Columns<Row> columns(const double rail_y)
+    {
+      Columns<Row> list{{"lateral_shift", "mm",
+                         [](const Row &r) {
+                           return r.wheelset.position.shift;
+                         }},
+                        {"roll", "rad",
+                         [](const Row &r) {
+                           return r.wheelset.position.roll;
+                         }},
+                        {"height", "mm",
+                         [](const Row &r) {
+                           return r.wheelset.position.height;
+                         }},
+                        {"radius_difference", "mm",
+                         [](const Row &r) {
+                           return r.wheelset.radius_difference();
+                         }},
+                        {"equivalent_conicity", "", [](const Row &r) {
+                           return r.conicity;
+                         }}};
+      for (const auto &[name, wheel] :
+           {std::pair("own", &TouchingWheelset::own), std::pair("other", &TouchingWheelset::other)})
+        {
+          const std::string side = name;
+          const auto        add  = [&, wheel = wheel](const char *what, const char *unit, const auto &value) {
+            list.push_back({side + "_" + what, unit, [wheel, value](const Row &r) {
+                              return value(r.wheelset.*wheel);
+                            }});
+          };
+          add("x", "mm", [](const TouchingWheel &w) { return w.x; });
+          add("y", "mm", [](const TouchingWheel &w) { return w.y; });
+          add("y_rail", "mm", [rail_y](const TouchingWheel &w) { return w.y - rail_y; });
+          add("y_wheel", "mm", [](const TouchingWheel &w) { return w.wheel_y; });
+          add("angle", "rad", [](const TouchingWheel &w) { return w.angle; });
+          add("rolling_radius", "mm", [](const TouchingWheel &w) { return w.rolling_radius; });
+        }
+      return list;
+    }
+
+    /// One row for each shift at which both wheels meet their rails. @returns the first complaint otherwise.
+    std::string make_rows(const WheelOnRail          &surfaces,
+                          const Scene                &scene,
+                          const ContactPointsRequest &request,
+                          std::vector<Row>           &rows)
+    {
+      std::string complaint;
+      const int   n    = static_cast<int>(std::floor(request.to_mm / request.step_mm * (1. + 1e-9)));
+      double      roll = 0.;
+      for (int i = -n; i <= n; ++i)
+        try
+          {
+            WheelsetPosition position = scene.wheelset.position();
+            position.shift            = 1e-3 * i * request.step_mm;
+            position.roll             = roll;
+            rows.push_back({touching_wheelset(surfaces, position), std::numeric_limits<double>::quiet_NaN()});
+            roll = rows.back().wheelset.position.roll;
+          }
+        catch (const std::exception &error)
+          {
+            roll = 0.;
+            if (complaint.empty())
+              complaint = format("at a lateral shift of %g mm ", i * request.step_mm) + error.what();
+          }
+      std::vector<double> shifts, differences;
+      for (const Row &row : rows)
+        {
+          shifts.push_back(row.wheelset.position.shift);
+          differences.push_back(row.wheelset.radius_difference());
+        }
+      for (Row &row : rows)
+        if (const double amplitude = std::abs(row.wheelset.position.shift);
+            amplitude > 0. && -amplitude >= shifts.front() - 1e-12 && amplitude <= shifts.back() + 1e-12)
+          row.conicity = equivalent_conicity(shifts, differences, amplitude);
+      return complaint;
+    }
+  } // namespace
+
+
+  void write_contact_points(const Scene                &scene,
+                            const ContactPointsRequest &request,
+                            const std::string          &path,
+                            const MPI_Comm              comm)
+  {
+    require(request.to_mm > 0. && request.to_mm <= 100. && request.step_mm > 0. &&
+              request.step_mm <= request.to_mm,
+            "--shift-to must be above 0 and at most 100 mm, --shift-step above 0 and at most as much");
+    Progress          progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    const WheelOnRail surfaces = scene.wheel_on_rail();
+    std::vector<Row>  rows;
+    const std::string complaint = make_rows(surfaces, scene, request, rows);
+    require(!rows.empty(), "wheel and rail do not meet: " + complaint);
+
+    RunFolder folder(path, comm);
+    folder.write_table("contact_points.csv", columns(surfaces.rail_origin_y()), rows);
+
+    progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
+    progress.say(format(
+      "rigid wheelset, yaw %g mrad: shift to the own side, contact on the own and on the other wheel\n",
+      1e3 * scene.wheelset.yaw));
+    progress.say(
+      "   shift     roll  y wheel    angle   radius  y wheel    angle   radius  difference  conicity\n"
+      "      mm     mrad       mm  degrees       mm       mm  degrees       mm          mm");
+    constexpr double degree = 180. / dealii::numbers::PI;
+    for (const Row &row : rows)
+      {
+        const double shift = 1e3 * row.wheelset.position.shift;
+        if (std::abs(shift - std::round(shift)) > 1e-9)
+          continue;
+        const TouchingWheel &own = row.wheelset.own, &other = row.wheelset.other;
+        progress.say(format("%8.2f %8.3f %8.2f %8.2f %8.2f %8.2f %8.2f %8.2f %11.3f %9.4f", shift,
+                            1e3 * row.wheelset.position.roll, 1e3 * own.wheel_y, degree * own.angle,
+                            1e3 * own.rolling_radius, 1e3 * other.wheel_y, degree * other.angle,
+                            1e3 * other.rolling_radius, 1e3 * row.wheelset.radius_difference(),
+                            row.conicity));
+      }
+    if (!complaint.empty())
+      progress.say("warning: rows are missing: " + complaint);
+    progress.say(format("\nfinished in %.2f s. Results in ", progress.seconds()) + folder.path("") +
+                 ": contact_points.csv");
+  }
+} // namespace tread

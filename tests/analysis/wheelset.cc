@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A wheelset in any position: where it touches, how it rolls, its half-space answer; against closed forms.
+#include <tread/analysis/wheelset_contact.h>
+#include <tread/geometry/contact_points.h>
+#include <tread/geometry/rail_profile.h>
+#include <tread/geometry/wheel_tread.h>
+#include <tread/reference/hertz.h>
+
+#include "check.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tread;
+
+namespace
+{
+  constexpr double radius = 0.46;
+
+  ProfileCurve straight_cone(const double slope)
+  {
+    std::vector<dealii::Point<2>> points;
+    for (int i = -60; i <= 60; ++i)
+      points.emplace_back(1e-3 * i, slope * 1e-3 * i);
+    return ProfileCurve(points);
+  }
+
+  /// Upper half of a circle, top at the origin.
+  ProfileCurve round_rail(const double crown)
+  {
+    std::vector<dealii::Point<2>> points;
+    const int                     n = 400;
+    for (int i = -n; i <= n; ++i)
+      {
+        const double angle = 1.5 * i / n;
+        points.emplace_back(crown * std::sin(angle), crown * (std::cos(angle) - 1.));
+      }
+    return ProfileCurve(points);
+  }
+
+  ProfileCurve rail_60e1(const double slope)
+  {
+    return rail_curve(RailProfile::rail_60e1()).turned(std::atan(slope));
+  }
+
+  WheelRolling rolling_at(const double angular_velocity)
+  {
+    WheelRolling rolling;
+    rolling.wheel = rolling.rail = {210e9, 0.3};
+    rolling.friction             = 0.3;
+    rolling.speed                = 20.;
+    rolling.angular_velocity     = angular_velocity;
+    return rolling;
+  }
+
+  /// Curves of formulas: on the profile, and where they end.
+  void check_curves(tests::Check &check)
+  {
+    const ProfileCurve s1002 = wheel_curve("S1002");
+    double             worst = 0.;
+    for (double s = 0.3e-3; s < s1002.length() - 0.1e-3; s += 0.037e-3)
+      {
+        const ProfileCurve::Place p = s1002.at(s);
+        if (p.y > -69e-3)
+          worst = std::max(worst, std::abs(p.z + s1002_offset(p.y)) * std::abs(p.dy));
+      }
+    // The points are exact. Beside the steps of the standard's own parts, up to 1.5e-4 mm, the spline swings
+    // over.
+    check.below("S1002 as a curve, off the formula, um", 1e6 * worst, 0.2);
+    double lowest = 0.;
+    for (double s = 0.; s < s1002.length(); s += 0.01e-3)
+      lowest = std::min(lowest, s1002.at(s).z);
+    check.absolute("its flange, mm", 1e3 * lowest, -28., 1e-6);
+
+    const CurveFromAbove upright(rail_60e1(0.));
+    const RailProfile    profile = RailProfile::rail_60e1();
+    worst                        = 0.;
+    for (double y = -35.5e-3; y < 35.5e-3; y += 0.1e-3)
+      worst =
+        std::max(worst, std::abs(upright.height(y) - profile.z_top(y)) / std::hypot(1., upright.slope(y)));
+    check.below("60E1 as a curve, off the arcs, um", 1e6 * worst, 0.02);
+    check.relative("radius of its crown, mm", upright.curve().radius(upright.parameter(2e-3)), 0.3, 1e-4);
+    check.relative("and of its gauge corner", upright.curve().radius(upright.parameter(-33e-3)), 13e-3, 1e-3);
+
+    const ProfileCurve cone = wheel_curve("cone 1:40");
+    worst                   = 0.;
+    for (double s = 0.5e-3; s < cone.length() - 0.5e-3; s += 0.05e-3)
+      {
+        const auto turn = [&](const double at) {
+          const ProfileCurve::Place p = cone.at(at);
+          return std::atan2(p.dz, p.dy);
+        };
+        worst = std::max(worst, std::abs(turn(s + 0.05e-3) - turn(s)));
+      }
+    // An arc of 12 mm turns by 0.05/12 over that length; a kink would turn by more.
+    check.below("cone with flange: largest turn in 0.05 mm, rad", worst, 0.05 / 12. * 1.3);
+  }
+
+  /// Cones on rails with round crowns: conicity gamma (l + R gamma)/(l - r gamma), l half of the distance of
+  /// the contact points, R that of the crown, r that of the wheel (Wickens 2003, chapter 2).
+  void check_conicity(tests::Check &check)
+  {
+    for (const double slope : {1. / 40., 1. / 20.})
+      for (const double crown : {20e-3, 300e-3})
+        {
+          const WheelOnRail      surfaces(straight_cone(slope), round_rail(crown), radius,
+                                          {1.46, std::min(14e-3, 0.01 * crown), 1.36, -70e-3});
+          const TouchingWheelset middle = touching_wheelset(surfaces, {});
+          const double           l      = middle.own.y;
+          check.below("cone in the middle: radius difference, nm", 1e9 * middle.radius_difference(), 1e-3);
+          const double     shift = 1e-3;
+          WheelsetPosition position;
+          position.shift                = shift;
+          const TouchingWheelset beside = touching_wheelset(surfaces, position);
+          const double           r      = middle.own.rolling_radius;
+          const double           flat   = std::atan(slope); // the formulas' angle
+          check.relative("cone: radius difference over 2 y", beside.radius_difference() / (2. * shift),
+                         slope * (l + crown * flat) / (l - r * flat), 5e-5);
+          check.relative("cone: roll, mrad", 1e3 * beside.position.roll, -1e3 * flat * shift / (l - r * flat),
+                         2e-3);
+          std::vector<double> shifts, differences;
+          for (int i = -4; i <= 4; ++i)
+            {
+              position.shift = 1e-3 * i;
+              shifts.push_back(position.shift);
+              differences.push_back(touching_wheelset(surfaces, position).radius_difference());
+            }
+          check.relative("cone: equivalent conicity at 3 mm", equivalent_conicity(shifts, differences, 3e-3),
+                         beside.radius_difference() / (2. * shift), 1e-3);
+        }
+  }
+
+  /// A yawed cylinder: lateral creepage -2 tan(yaw/2); a cone: spin sin(angle)/r; and forces by Hertz.
+  void check_rolling(tests::Check &check)
+  {
+    const WheelOnRail  cylinder(wheel_curve("cylinder"), rail_60e1(0.), radius, {});
+    const double       speed = 20., yaw = 0.02;
+    const WheelContact yawed =
+      contact_under_load(cylinder, rolling_at(speed / radius), {0., yaw, 0., 0.}, 100e3);
+    check.that("one patch", yawed.patches.size() == 1);
+    const WheelPatch &patch = yawed.patches[0];
+    check.absolute("yawed cylinder: x of the contact, mm", 1e3 * patch.region.reference[0],
+                   -1e3 * cylinder.rail_origin_y() * std::tan(yaw), 0.02);
+    check.relative("lateral creepage, 1e-3", 1e3 * patch.lateral_creepage, -2e3 * std::tan(0.5 * yaw), 1e-9);
+    check.relative("vertical force, kN", 1e-3 * yawed.force[2], 100., 1e-6);
+    check.relative("all slides: force over friction bound",
+                   std::hypot(patch.solution.lateral_force, patch.solution.longitudinal_force) / 30e3, 1.,
+                   3e-4);
+    check.that("against the slip, to the own side", patch.solution.lateral_force > 29e3);
+
+    const WheelContact straight = contact_under_load(cylinder, rolling_at(speed / radius), {}, 100e3);
+    const auto         pair     = reference::combine({210e9, 0.3}, {210e9, 0.3});
+    const auto         hertz = reference::hertz_ellipse(0.5 / radius, 0.5 / 0.3, pair.hertz_modulus(), 100e3);
+    // 60 x 40 elements along the patch; the crown's arc of 300 mm ends 10.2 mm beside the middle, where the
+    // patch is not.
+    check.relative("upright cylinder: largest pressure, MPa",
+                   1e-6 * straight.patches[0].solution.max_pressure, 1e-6 * hertz.max_pressure, 1e-3);
+    check.relative("overlap = approach, um", 1e6 * straight.patches[0].region.overlap, 1e6 * hertz.approach,
+                   3e-4);
+
+    for (const double slope : {1. / 40., 1. / 20.})
+      {
+        const WheelOnRail  cone(straight_cone(slope), rail_60e1(slope), radius, {});
+        const WheelContact contact = contact_under_load(cone, rolling_at(speed / radius), {}, 100e3);
+        const WheelPatch  &p       = contact.patches[0];
+        check.absolute("cone: contact angle, mrad", 1e3 * p.angle(), 1e3 * std::atan(slope), 0.01);
+        check.relative("cone: spin, 1/m", p.spin, -std::sin(p.angle()) * (speed / radius) / p.rolling_speed,
+                       1e-12);
+        check.relative("which is sin(angle)/r, 1/m", p.spin, -std::sin(std::atan(slope)) / radius, 3e-4);
+        check.below("cone: creepage, 1e-6",
+                    1e6 * (p.creepage - (speed - speed / radius * p.rolling_radius) / p.rolling_speed), 1e-6);
+        // On a cone the slip over the patch is linear: both ways are one.
+        WheelRolling plane          = rolling_at(speed / radius);
+        plane.slip_follows_surface  = false;
+        const WheelContact as_plane = contact_under_load(cone, plane, {}, 100e3);
+        check.absolute("cone: lateral force by both ways of slip, N", contact.force[1], as_plane.force[1],
+                       0.5);
+      }
+  }
+
+  /// The mirror image about the plane y = 0 of the wheel: a symmetric pair yawed to either side.
+  void check_mirror(tests::Check &check)
+  {
+    const WheelOnRail  cylinder(wheel_curve("cylinder"), rail_60e1(0.), radius, {});
+    const WheelRolling rolling = rolling_at(20. / radius * 1.001);
+    const WheelContact to_own  = contact_under_load(cylinder, rolling, {0., 0.5e-3, 0., 0.}, 80e3),
+                       away    = contact_under_load(cylinder, rolling, {0., -0.5e-3, 0., 0.}, 80e3);
+    check.relative("mirror: longitudinal force", to_own.force[0], away.force[0], 1e-8);
+    check.relative("mirror: lateral force", to_own.patches[0].solution.lateral_force,
+                   -away.patches[0].solution.lateral_force, 1e-8);
+    const WheelOnRail      s1002(wheel_curve("S1002"), rail_60e1(1. / 40.), radius, {});
+    const TouchingWheelset right = touching_wheelset(s1002, {3e-3, 5e-3, 0., 0.}),
+                           left  = touching_wheelset(s1002, {-3e-3, -5e-3, 0., 0.});
+    check.below("mirror: rolling radius of the other wheel, mm",
+                1e3 * (right.own.rolling_radius - left.other.rolling_radius), 1e-10);
+    check.below("mirror: roll, mrad", 1e3 * (right.position.roll + left.position.roll), 1e-10);
+  }
+
+  void check_two_patches(tests::Check &check)
+  {
+    // At the lateral shift at which the contact jumps from the tread to the flange both touch, and under load
+    // both carry: each its own force, in sum the load.
+    const WheelOnRail cone(wheel_curve("cone 1:40"), rail_60e1(1. / 40.), radius, {});
+    const auto        on_flange = [&](const double shift) {
+      return cone.wheel().at(cone.nearest({shift, 0., 0., 0.}).point.s).y < -25e-3;
+    };
+    double on_tread = 0., beyond = 8e-3;
+    check.that("on the tread in the middle, on the flange 8 mm beside it",
+               !on_flange(on_tread) && on_flange(beyond));
+    for (unsigned int i = 0; i < 30; ++i)
+      {
+        const double middle                     = 0.5 * (on_tread + beyond);
+        (on_flange(middle) ? beyond : on_tread) = middle;
+      }
+    const WheelContact contact =
+      contact_under_load(cone, rolling_at(20. / radius), {beyond, 0., 0., 0.}, 60e3);
+    if (!check.that("two patches", contact.patches.size() == 2))
+      return;
+    const WheelPatch &flange = contact.patches[0], &tread = contact.patches[1];
+    check.absolute("angle on the flange, degrees", 180. / M_PI * flange.angle(), 70., 0.2);
+    check.absolute("angle on the tread, degrees", 180. / M_PI * tread.angle(), 180. / M_PI / 40., 0.01);
+    check.relative("their vertical forces add to the load, kN", 1e-3 * (flange.force()[2] + tread.force()[2]),
+                   60., 2e-6);
+    check.that("and both press", flange.solution.normal_force > 1e3 && tread.solution.normal_force > 1e3);
+  }
+
+  void check_refusals(tests::Check &check)
+  {
+    const auto refuses = [&](const std::string &what, const std::string &words, const auto &call) {
+      const std::string text = tests::complaint<std::runtime_error>(call);
+      check.that(what + ": \"" + text + "\"",
+                 text.find(words) != std::string::npos && text.find('\n') == std::string::npos);
+    };
+    const WheelOnRail s1002(wheel_curve("S1002"), rail_60e1(1. / 40.), radius, {});
+    refuses("far to the other side", "falls between the rails", [&] { s1002.nearest({-90e-3, 0., 0., 0.}); });
+    refuses("no rail at all", "do not meet", [&] { s1002.nearest({-0.3, 0., 0., 0.}); });
+    refuses("a rail without flank", "gauge",
+            [&] { WheelOnRail(wheel_curve("S1002"), straight_cone(0.), radius, {}); });
+    refuses("a load that nothing carries", "carries",
+            [&] { contact_under_load(s1002, rolling_at(40.), {}, 1e9); });
+  }
+} // namespace
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  check_curves(check);
+  check_conicity(check);
+  check_rolling(check);
+  check_mirror(check);
+  check_two_patches(check);
+  check_refusals(check);
+}

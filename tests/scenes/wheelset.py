@@ -1,0 +1,106 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A wheelset in any position in half-space theory: the Manchester contact benchmark, mirrored positions, contact points, bad input."""
+
+import math
+import os
+import sys
+import tempfile
+
+from tread.manchester import positions, solve
+from tread.runs import ROOT, execute
+from tread_runner import Check, rows_of, run, table
+
+program = sys.argv[1]
+check = Check()
+RIGHT = os.path.join(ROOT, "prm", "curves", "manchester-a22-right.prm")
+
+
+def position(side, shift):
+    return next((settings, given) for wheel, y, settings, given in positions() if (wheel, y) == (side, shift))
+
+
+def force(name, computed, given):
+    """Within 1 %, or 20 N where that is less."""
+    check.absolute(f"{name}, N", computed, given, max(20., 0.01 * abs(given)))
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+
+    # CONTACT has three to four digits, and elements of 0.2 mm: on flanges, 0.7 mm wide, its largest pressure is up to 2 % high.
+    for side, shift, settings, given in positions():
+        if side == "left" and shift in (2, 6, 8):
+            continue  # like its neighbours
+        name = f"{side} wheel, y_ws {shift:g} mm"
+        answer = solve(side, settings, program)
+        check.relative(f"{name}: vertical force, kN", 1e-3 * answer["normal_force_N"], 10., 1e-5)
+        if not check.that(f"{name}: one patch", len(answer["patches"]) == 1):
+            continue
+        patch = answer["patches"][0]
+        for key in ("normal_force_N", "longitudinal_force_N", "lateral_force_N"):
+            force(f"{name}: {key[:-8]} force", patch[key], given[key])
+        for key in ("x_m", "y_m"):
+            check.absolute(f"{name}: {key[0]} of the contact, mm", 1e3 * patch[key], 1e3 * given[key], 0.02)
+        check.absolute(f"{name}: contact angle, rad", patch["angle_rad"], given["angle_rad"], 2e-4)
+        check.relative(f"{name}: largest pressure, MPa", 1e-6 * patch["max_pressure_Pa"], 1e-6 * given["max_pressure_Pa"], 0.02)
+        check.absolute(f"{name}: lateral creepage, 1e-3", 1e3 * patch["lateral_creepage"], 1e3 * given["lateral_creepage"], 0.01)
+        check.relative(f"{name}: spin, 1/m", patch["spin_per_m"], given["spin_per_m"], 2e-3)
+
+    # Both wheels of a wheelset in the middle, and in mirrored positions.
+    for shift in (0, 6):
+        settings, _ = position("right", shift)
+        own = run(program, "curves/manchester-a22-right.prm", path("own"), settings, more=["--reference-only"])
+        other = run(program, "curves/manchester-a22-left.prm", path("other"), settings, more=["--reference-only"])
+        for key in ("normal_force_N", "lateral_force_N", "spin_moment_Nm", "max_pressure_Pa"):
+            check.relative(f"mirrored, {shift} mm: {key}", own["patches"][0][key], other["patches"][0][key], 1e-10)
+
+    # The sums of patch.csv are those of the summary.
+    patch, nodes = own["patches"][0], rows_of(path("own"), "patch.csv")
+    weight = lambda column: 1e-6 * sum(row["area_mm2"] * 1e6 * row[column] for row in nodes)
+    check.relative("patch.csv: normal force, kN", 1e-3 * weight("pressure_MPa"), 1e-3 * patch["normal_force_N"], 1e-6)
+    check.relative("patch.csv: lateral force, kN", 1e-3 * weight("shear_y_MPa"), 1e-3 * patch["lateral_force_N"], 0.002)
+    check.that("patch.csv: no shear beyond the friction bound", all(
+        math.hypot(row["shear_x_MPa"], row["shear_y_MPa"]) <= 0.3 * row["pressure_MPa"] * (1 + 1e-6) for row in nodes))
+    # Force balance in the track by the angle.
+    angle = patch["angle_rad"]
+    check.relative("lateral force in the track, kN", 1e-3 * own["lateral_force_N"], 1e-3 * (
+        math.cos(angle) * patch["lateral_force_N"] - math.sin(angle) * patch["normal_force_N"]), 1e-9)
+
+    # A patch 16 mm wide on the tread's changing radius: what the plane does not know, and that it is said.
+    surface = run(program, "curves/manchester-a22-right.prm", path("surface"), {"Wheelset/Slip over the patch": "surface"},
+                  more=["--reference-only"])
+    check.absolute("slip by the wheel's surface: longitudinal force, N", surface["longitudinal_force_N"], 117., 10.)
+
+    # Contact points: rows, symmetry, the flange.
+    result = execute([RIGHT, "--contact-points", "--output", path("points")], program=program)
+    check.that("--contact-points ends well", result.returncode == 0)
+    points = table(path("points"), "contact_points.csv")
+    check.that("81 shifts from -10 to 10 mm", len(points["lateral_shift_mm"]) == 81 and points["lateral_shift_mm"][0] == -10.)
+    difference = points["radius_difference_mm"]
+    check.absolute("radius difference is odd, um", 1e3 * max(abs(a + b) for a, b in zip(difference, reversed(difference))), 0., 0.01)
+    check.absolute("flange angle at 8 mm, degrees", math.degrees(points["own_angle_rad"][72]), 57., 3.)
+
+    # What cannot be.
+    def must_fail(what, arguments, *words):
+        failed = execute([RIGHT, "--output", path("bad"), *arguments], program=program)
+        lines = [line for line in failed.stderr.splitlines() if line.startswith("tread:")]
+        if not check.that(f"{what}: exit code 1, one line with {words}", failed.returncode == 1 and len(lines) == 1
+                          and all(word in lines[0] for word in words)):
+            print(failed.returncode, failed.stderr)
+
+    reference = "--reference-only"
+    must_fail("finite elements", [], "Wheelset", "--reference-only")
+    must_fail("dry run", ["--dry-run"], "Wheelset", "--reference-only")
+    must_fail("yaw beyond 5 degrees", [reference, "-s", "Wheelset/Yaw (mrad)=90"], "Wheelset/Yaw (mrad)", "5 degrees")
+    must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "lateral shift of -90 mm", "falls between the rails")
+    must_fail("profiles that do not meet", [reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
+    must_fail("a rail without gauge face", [reference, "-s", "Rail/Shape=block", "-s", "Rail/Measured head="], "Rail/Shape", "block")
+    must_fail("a wheel without flange in a file", [reference, "-s", "Wheel/Tread profile=profiles/uic60-manchester.txt"],
+              "Wheel/Tread profile")
+    must_fail("no angular velocity", [reference, "-s", "Motion/Angular velocity (rad per s)=by the drive"], "Motion/Angular velocity (rad per s)")
+    must_fail("torque and angular velocity", [reference, "-s", "Motion/Drive=torque"], "Motion/Drive", "torque")
+    must_fail("contact points of a gauge too wide", ["--contact-points", "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
+    must_fail("shifts without a step", ["--contact-points", "--shift-step", "0"], "--shift-step")
+
+check.exit()
