@@ -5,7 +5,7 @@
     manchester-table.py [--set "Section/Name=value"]...
 
 Prints the table of doc/kinematics.md. Forces act on the wheel in contact axes, each wheel's lateral axis pointing to its own side.
-Differences: of forces over those of CONTACT, or in N where they are below 20 N; of the place in um; of the largest pressure in %.
+Differences: of forces over those of CONTACT, or in N where they are more than 1 % of them; of the place in um; of the largest pressure in %.
 """
 
 from tread.commands import command_parser, run_command
@@ -14,8 +14,8 @@ from tread.manchester import positions, solve
 
 def force_text(computed, reference):
     difference = computed - reference
-    small = abs(difference) < 20. and abs(difference) > 0.01 * abs(reference)
-    return f"{computed:.0f} | {reference:.0f} | " + (f"{difference:+.0f} N" if small else f"{100 * (computed / reference - 1):+.2f} %")
+    small = abs(difference) > 0.01 * abs(reference)
+    return f"{computed + 0.:.0f} | {reference + 0.:.0f} | " + (f"{difference:+.0f} N" if small else f"{100 * (computed / reference - 1):+.2f} %")
 
 
 def main():

@@ -72,6 +72,17 @@ with tempfile.TemporaryDirectory() as folder:
                   more=["--reference-only"])
     check.absolute("slip by the wheel's surface: longitudinal force, N", surface["longitudinal_force_N"], 117., 10.)
 
+    # From the tread to the flange of a rail that leans more: two patches, then one for which a plane is not enough.
+    heavy = {"Rail/Measured head": "", "Rail/Profile": "60E1", "Rail/Inclination": "1:20", "Vehicle/Sprung mass (kg)": 9000}
+    two, wide = (run(program, "curves/manchester-a22-right.prm", path(f"heavy-{shift}"), {**heavy, "Wheelset/Lateral shift (mm)": shift},
+                     more=["--reference-only"]) for shift in (6, 6.1))
+    check.that("two patches, no warning", len(two["patches"]) == 2 and not two["warnings"])
+    check.relative("two patches: their vertical forces, kN", sum(
+        math.cos(p["angle_rad"]) * p["normal_force_N"] + math.sin(p["angle_rad"]) * p["lateral_force_N"] for p in two["patches"]),
+        9900 * 9.81, 1e-5)
+    check.that("a conformal patch is told", any("conformal" in warning and "degrees" in warning for warning in wide["warnings"]))
+    check.that("the benchmark is not conformal", not own["warnings"] and not surface["warnings"])
+
     # Contact points: rows, symmetry, the flange.
     result = execute([RIGHT, "--contact-points", "--output", path("points")], program=program)
     check.that("--contact-points ends well", result.returncode == 0)
@@ -96,8 +107,10 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "lateral shift of -90 mm", "falls between the rails")
     must_fail("profiles that do not meet", [reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
     must_fail("a rail without gauge face", [reference, "-s", "Rail/Shape=block", "-s", "Rail/Measured head="], "Rail/Shape", "block")
-    must_fail("a wheel without flange in a file", [reference, "-s", "Wheel/Tread profile=profiles/uic60-manchester.txt"],
-              "Wheel/Tread profile")
+    with open(path("flat.txt"), "w", encoding="utf-8") as stream:
+        stream.writelines(f"{y} {0.02 * y}\n" for y in range(-60, 61))
+    must_fail("a wheel without flange in a file", [reference, "-s", f"Wheel/Tread profile={path('flat.txt')}"],
+              "Wheel/Tread profile", "no flange")
     must_fail("no angular velocity", [reference, "-s", "Motion/Angular velocity (rad per s)=by the drive"], "Motion/Angular velocity (rad per s)")
     must_fail("torque and angular velocity", [reference, "-s", "Motion/Drive=torque"], "Motion/Drive", "torque")
     must_fail("contact points of a gauge too wide", ["--contact-points", "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
