@@ -129,7 +129,7 @@ PAIRS = [
     (["Scene/Density scale=100", "Motion/Speed (km per h)=500"], ["Scene/Density scale", "inertia error"]),
     (["Scene/Density scale=100", "Wheel/Young's modulus (GPa)=70"], ["Scene/Density scale", "inertia error"]),
     (["Motion/Drive=torque", "Motion/Speed (km per h)=0"], ["Motion/Speed (km per h)", "torque"]),
-    ("Contact/Friction places (mm)=-16", ["Contact/Friction places (mm)", "Contact/Friction factors", "each place has a factor"]),
+    (["Contact/Friction places (mm)=-16"], ["Contact/Friction places (mm)", "Contact/Friction factors", "each place has a factor"]),
     (["Contact/Friction places (mm)=-16, -18", "Contact/Friction factors=1, 0.5"], ["Contact/Friction places (mm)", "-16", "-18"]),
     (["Contact/Friction places (mm)=-90", "Contact/Friction factors=0.5"], ["Motion/Traction coefficient", "where the wheel begins"]),
     (["Motion/Drive=torque", "Motion/Hold distance (mm)=80"], ["Motion/Hold distance (mm)", "Rolled distance"]),
