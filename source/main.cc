@@ -154,10 +154,12 @@ namespace
                                : tread::run_reference_only)(scene, folder_of("-reference"), comm);
         return 0;
       }
-    tread::require(
-      !scene.is_positioned(),
-      "a wheelset in a given position ('Wheelset', 'Motion/Angular velocity (rad per s)') is not meshed: "
-      "--reference-only gives its half-space answer, --contact-points its contact points");
+    if (scene.is_positioned())
+      {
+        tread::require(!line.modes.wanted,
+                       "--modes is for an upright wheel: 'Wheelset' must have no position");
+        scene.check_placed_mesh();
+      }
     if (line.modes.wanted)
       {
         tread::write_modes(scene, line.modes, folder_of("-modes"), comm);

@@ -65,7 +65,7 @@ namespace tread::tests
       , contact(mesh, contact_parameters(p), std::make_shared<CoulombFriction>(p.friction))
     {
       dynamics.fix_nodes(dynamics.support_nodes(0));
-      hub.place(0., p.axle);
+      hub.place(Vector3{0., 0., p.axle, 0.});
       dynamics.attach_hub(hub, 1, 0.);
       hub.parameters.sprung_mass = p.force / hub.parameters.gravity - hub.parameters.mass;
       dynamics.attach_contact(contact);

@@ -22,7 +22,13 @@ namespace tread
                                                        &PatchMeasures::semi_axis_x,
                                                        &PatchMeasures::semi_axis_y,
                                                        &PatchMeasures::pressure_semi_axis_x,
-                                                       &PatchMeasures::pressure_semi_axis_y};
+                                                       &PatchMeasures::pressure_semi_axis_y,
+                                                       &PatchMeasures::normal_force,
+                                                       &PatchMeasures::longitudinal_force,
+                                                       &PatchMeasures::lateral_force,
+                                                       &PatchMeasures::spin_moment,
+                                                       &PatchMeasures::x_middle,
+                                                       &PatchMeasures::y_middle};
   } // namespace
 
 
@@ -82,6 +88,9 @@ namespace tread
         m.frictional_power -= (node.shear[0] * node.slip[0] + node.shear[1] * node.slip[1]) * node.area;
         const double f = node.pressure * node.area;
         force += f;
+        m.longitudinal_force += node.shear[0] * node.area;
+        m.lateral_force += node.shear[1] * node.area;
+        m.spin_moment += (node.position[0] * node.shear[1] - node.position[1] * node.shear[0]) * node.area;
         for (unsigned int d = 0; d < 2; ++d)
           {
             first[d] += f * node.position[d];
@@ -90,6 +99,9 @@ namespace tread
             high[d] = std::max(high[d], node.position[d]);
           }
       }
+    m.normal_force = force;
+    m.x_middle     = 0.5 * (low[0] + high[0]);
+    m.y_middle     = 0.5 * (low[1] + high[1]);
     m.adhesion_share /= m.area;
     const double cell       = std::sqrt(m.area / patch.size());
     m.semi_axis_x           = 0.5 * (high[0] - low[0] + cell);
@@ -108,13 +120,13 @@ namespace tread
                          const double                         centre_x,
                          const double                         time_step)
   {
-    const std::vector<PatchNode> patch = patch_nodes(states, 0., time_step);
+    const std::vector<PatchNode> patch = patch_nodes(states, centre_x, time_step);
     for (std::size_t i = 0; i < patch.size(); ++i)
       {
         Sum &sum = sums[states[i].node];
         ++sum.in_contact;
         sum.adhesive += patch[i].adhesion;
-        sum.values.position += patch[i].position;
+        sum.values.position += states[i].position;
         sum.values.area += patch[i].area;
         sum.values.pressure += patch[i].pressure;
         for (unsigned int d = 0; d < 2; ++d)
@@ -122,7 +134,7 @@ namespace tread
             sum.values.shear[d] += patch[i].shear[d];
             sum.values.slip[d] += patch[i].slip[d];
           }
-        const double x = patch[i].position[0] - centre_x;
+        const double x = patch[i].position[0];
         sum.x += x;
         sum.xx += x * x;
         for (unsigned int d = 0; d < 2; ++d)

@@ -196,8 +196,8 @@ namespace tread
   void ElasticSystem::attach_hub(WheelHub hub, const unsigned int body, const HubFreedom &may)
   {
     freedom = may;
-    axle_x  = hub.start_x();
-    axle_z  = hub.start_z();
+    axle_x  = hub.start()[0];
+    axle_z  = hub.start()[2];
     for (const unsigned int i : mesh.boundary_nodes(body, Boundary::support))
       {
         carried[i]     = true;
@@ -214,7 +214,7 @@ namespace tread
           sums[3] += m * rz;
         }
     dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    hub.take_out(sums[0], sums[1], sums[2], sums[3]);
+    hub.take_out(sums[0], sums[1], Vector3{sums[2], 0., sums[3], 0.});
     hub_parameters = hub.parameters;
     first_moment_x = -sums[2];
     first_moment_z = -sums[3];

@@ -108,6 +108,10 @@ namespace tread
       {
         return wheel_s;
       }
+      double last_wheel_angle() const
+      {
+        return wheel_angle;
+      }
 
       double gap(const double x, const double s) const
       {
@@ -173,7 +177,8 @@ namespace tread
       patch.region = region;
 
       // Velocity of the wheel's undeformed surface on the normal of the reference point; the rail is at rest.
-      const double   at_origin = heights.wheel(0., 0.), wheel_s = heights.last_wheel_s();
+      const double at_origin = heights.wheel(0., 0.), wheel_s = heights.last_wheel_s(),
+                   wheel_angle = heights.last_wheel_angle();
       const Vector3d axle = WheelOnRail::axle(position), normal = heights.normal();
       Vector3d       arm = difference(region.reference, WheelOnRail::middle(position, surfaces.radius()));
       for (unsigned int d = 0; d < 3; ++d)
@@ -184,6 +189,8 @@ namespace tread
       Vector3d velocity = cross(turning, arm);
       velocity[0] += rolling.speed;
       const double V         = rolling.speed - 0.5 * velocity[0];
+      patch.wheel_s          = wheel_s;
+      patch.wheel_angle      = wheel_angle;
       patch.rolling_radius   = surfaces.radius() - surfaces.wheel().at(wheel_s).z;
       patch.rolling_speed    = V;
       patch.creepage         = velocity[0] / V;
@@ -219,11 +226,23 @@ namespace tread
   } // namespace
 
 
+  Vector3d WheelPatch::along() const
+  {
+    return {0., std::cos(region.angle), std::sin(region.angle)};
+  }
+
+
+  Vector3d WheelPatch::normal() const
+  {
+    return {0., -std::sin(region.angle), std::cos(region.angle)};
+  }
+
+
   Vector3d WheelPatch::force() const
   {
-    const double c = std::cos(region.angle), s = std::sin(region.angle);
-    return {solution.longitudinal_force, c * solution.lateral_force - s * solution.normal_force,
-            s * solution.lateral_force + c * solution.normal_force};
+    const Vector3d s = along(), n = normal();
+    return {solution.longitudinal_force, s[1] * solution.lateral_force + n[1] * solution.normal_force,
+            s[2] * solution.lateral_force + n[2] * solution.normal_force};
   }
 
 

@@ -52,8 +52,7 @@ namespace tread
           const unsigned int i = face.nodes[a], j = face.nodes[b];
           return reference ? surfaces.nodes[j].reference - surfaces.nodes[i].reference : now[j] - now[i];
         };
-        const bool         along  = std::abs(edge(0, 1, true)[1]) < std::abs(edge(1, 2, true)[1]);
-        const unsigned int a      = along ? 0 : 1;
+        const unsigned int a      = face.edge_along;
         const double       before = norm(edge(a, a + 1, true)) + norm(edge((a + 3) % 4, a + 2, true));
         const double       after  = norm(edge(a, a + 1, false)) + norm(edge((a + 3) % 4, a + 2, false));
         const bool         master = face.body == master_body;

@@ -16,8 +16,23 @@ namespace tread
     using Key = std::array<long long, 4>;
 
     // Flat lists that deal.II can send.
-    using SentFace        = std::array<long long, 14>; ///< body, left out or not, four positions in nm
+    using SentFace = std::array<long long, 15>; ///< body, left out or not, four positions in nm, edge along
     using SentHangingNode = std::array<long long, 12>; ///< keys of the node and its two parents
+
+    /// The first two corners of a face's cell lie on an edge along the path: the first of the face's two
+    /// edges that is nearer to that direction, 0 or 1.
+    unsigned int edge_along(const Mesh &mesh, const Mesh::Face &face)
+    {
+      const auto &cell  = mesh.cells[face.cell].nodes;
+      const auto  along = mesh.nodes[cell[1]] - mesh.nodes[cell[0]];
+      double      cosine[2];
+      for (unsigned int e = 0; e < 2; ++e)
+        {
+          const auto edge = mesh.nodes[face.nodes[e + 1]] - mesh.nodes[face.nodes[e]];
+          cosine[e]       = std::abs(along * edge) / edge.norm();
+        }
+      return cosine[1] > cosine[0];
+    }
 
     /// The contact faces of this rank's cells, and the nodes that hang on an edge across the path.
     void list_faces(const Mesh &mesh, std::vector<SentFace> &faces, std::vector<SentHangingNode> &hanging)
@@ -30,7 +45,10 @@ namespace tread
         if (face.boundary == Boundary::contact)
           {
             SentFace entry{};
-            entry[0] = face.body;
+            entry[0]          = face.body;
+            entry[14]         = edge_along(mesh, face);
+            const auto &cell  = mesh.cells[face.cell].nodes;
+            const auto  along = mesh.nodes[cell[1]] - mesh.nodes[cell[0]];
             for (unsigned int v = 0; v < 4; ++v)
               {
                 const unsigned int node = face.nodes[v];
@@ -42,7 +60,7 @@ namespace tread
                 const std::set<unsigned int> parents(hangs[node]->parents.begin(),
                                                      hangs[node]->parents.end());
                 const auto edge = mesh.nodes[*parents.rbegin()] - mesh.nodes[*parents.begin()];
-                if (parents.size() == 2 && std::abs(edge[1]) > 0.5 * edge.norm())
+                if (parents.size() == 2 && std::abs(along * edge) < 0.5 * along.norm() * edge.norm())
                   {
                     const Key names[3] = {key, mesh.node_key(*parents.begin()),
                                           mesh.node_key(*parents.rbegin())};
@@ -62,13 +80,8 @@ namespace tread
     {
       std::map<std::pair<unsigned int, unsigned int>, unsigned int> n_faces;
       for (const ContactSurfaces::Face &face : faces)
-        for (unsigned int v = 0; v < 4; ++v)
-          {
-            const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
-            const Vector3      edge = nodes[b].reference - nodes[a].reference;
-            if (4. * edge[1] * edge[1] <= dot(edge, edge))
-              ++n_faces[std::minmax(a, b)];
-          }
+        for (const unsigned int v : {face.edge_along, face.edge_along + 2})
+          ++n_faces[std::minmax(face.nodes[v], face.nodes[(v + 1) % 4])];
       for (const auto &[ends, count] : n_faces)
         if (count == 1)
           nodes[ends.first].at_rim = nodes[ends.second].at_rim = true;
@@ -102,7 +115,8 @@ namespace tread
     for (const auto &entry : sorted)
       {
         Face face;
-        face.body = entry[0];
+        face.body       = entry[0];
+        face.edge_along = entry[14];
         for (unsigned int v = 0; v < 4; ++v)
           face.nodes[v] = number.at({{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}});
         if (entry[1] == 0)

@@ -124,12 +124,11 @@ namespace tread
           potential += true_mass[i] * parameters.gravity * before[2];
           if (const int number = wheel_of(i); number >= 0)
             {
-              const Wheel            &wheel  = wheels[number];
-              const WheelHub::Motion &motion = wheel.hub->motion;
-              const double            rx     = before[0] - motion.x + back * motion.velocity_x,
-                           rz                = before[2] - motion.z + back * motion.velocity_z;
+              const Wheel    &wheel = wheels[number];
+              const WheelHub &hub   = *wheel.hub;
+              const Vector3   arm   = hub.off_axle(before - hub.middle() + back * hub.velocity());
               potential +=
-                0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * (rx * rx + rz * rz);
+                0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * dot(arm, arm);
             }
         }
     potential = dealii::Utilities::MPI::sum(potential, mesh.comm);

@@ -86,30 +86,28 @@ namespace tread
     const int number    = wheels.size();
     wheel_of_body[body] = number;
     wheels.push_back({&wheel_hub, body, angular_velocity});
-    Wheel                  &wheel  = wheels.back();
-    const WheelHub::Motion &motion = wheel_hub.motion;
-    wheel.nodes                    = support_nodes(body);
+    Wheel &wheel = wheels.back();
+    wheel.nodes  = support_nodes(body);
     for (const unsigned int i : wheel.nodes)
       {
         carried[i] = true;
-        wheel.reference.push_back(position(i) - Vector3{motion.x, 0., motion.z, 0.});
+        wheel.reference.push_back(position(i) - wheel_hub.middle());
       }
     rank_sums.resize(n_sums_of_hubs() + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
 
-    std::vector<double> sums(4, 0.);
+    std::vector<double> sums(5, 0.);
     for (unsigned int i = 0; i < v.size(); ++i)
       if (wheel_of(i) == number && !carried[i] && mesh.shared_nodes.is_owned(i))
         {
-          const Vector3 x  = position(i);
-          const double  rx = x[0] - motion.x, rz = x[2] - motion.z;
+          const Vector3 arm = position(i) - wheel_hub.middle(), off_axle = wheel_hub.off_axle(arm);
           sums[0] += true_mass[i];
-          sums[1] += true_mass[i] * (rx * rx + rz * rz);
-          sums[2] += true_mass[i] * rx;
-          sums[3] += true_mass[i] * rz;
+          sums[1] += true_mass[i] * dot(off_axle, off_axle);
+          for (unsigned int d = 0; d < 3; ++d)
+            sums[2 + d] += true_mass[i] * arm[d];
         }
     dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    wheel_hub.take_out(sums[0], sums[1], sums[2], sums[3]);
+    wheel_hub.take_out(sums[0], sums[1], Vector3{sums[2], sums[3], sums[4], 0.});
   }
 
 
@@ -156,11 +154,10 @@ namespace tread
     for (unsigned int i = 0; i < v.size(); ++i)
       if (const int number = wheel_of(i); number >= 0)
         {
-          const WheelHub &hub     = *wheels[number].hub;
-          const Vector3   of_axle = hub.velocity_at(Vector3{hub.motion.x, 0., hub.motion.z, 0.});
-          const double    back    = 0.5 * std::ldexp(step, levels.of_node[i]);
-          const Vector3   x       = position(i);
-          v[i]                    = hub.velocity_at(x - back * (hub.velocity_at(x) - of_axle));
+          const WheelHub &hub  = *wheels[number].hub;
+          const double    back = 0.5 * std::ldexp(step, levels.of_node[i]);
+          const Vector3   x    = position(i);
+          v[i]                 = hub.velocity_at(x - back * (hub.velocity_at(x) - hub.velocity()));
         }
   }
 

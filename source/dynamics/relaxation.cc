@@ -190,10 +190,9 @@ namespace tread
           body_force[i] = Vector3{0., 0., -d.parameters.gravity * d.true_mass[i], 0.};
           if (const int number = d.wheel_of(i); number >= 0)
             {
-              const Wheel  &wheel  = d.wheels[number];
-              const double  omega2 = wheel.nominal_angular_velocity * wheel.nominal_angular_velocity;
-              const Vector3 axle{wheel.hub->motion.x, 0., wheel.hub->motion.z, 0.};
-              body_force[i] += omega2 * d.true_mass[i] * Vector3{1., 0., 1., 0.} * (x[i] - axle);
+              const Wheel &wheel  = d.wheels[number];
+              const double omega2 = wheel.nominal_angular_velocity * wheel.nominal_angular_velocity;
+              body_force[i] += omega2 * d.true_mass[i] * wheel.hub->off_axle(x[i] - wheel.hub->middle());
             }
           if (!d.external_force.empty())
             body_force[i] += d.external_force[i];

@@ -67,24 +67,23 @@ namespace tread
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
     if (run.wheel >= 0)
       {
-        const Wheel       &wheel      = wheels[run.wheel];
-        const auto        &hub_motion = wheel.hub->motion;
+        const Wheel       &wheel = wheels[run.wheel];
+        const WheelHub    &hub   = *wheel.hub;
         BodyLoads::OfWheel of_run;
-        const double       omega = hub_motion.angular_velocity;
-        const Vector3      axle{hub_motion.x, 0., hub_motion.z, 0.},
-          velocity{hub_motion.velocity_x, 0., hub_motion.velocity_z, 0.}, spin{omega, 0., -omega, 0.},
-          inward = -compensation(wheel) * Vector3{1., 0., 1., 0.};
+        const double       inward = -compensation(wheel);
+        const Vector3      middle = hub.middle(), velocity = hub.velocity(),
+                      turning = hub.motion.angular_velocity * hub.axle();
         loop([&](const unsigned int i) {
           const double  mass     = free_mass(i, scaled);
-          const Vector3 arm      = position(i) - axle;
-          const Vector3 swapped  = __builtin_shufflevector(arm, arm, 2, 1, 0, 3);
-          const Vector3 relative = v[i] - velocity - spin * swapped;
+          const Vector3 arm      = position(i) - middle;
+          const Vector3 off_axle = hub.off_axle(arm);
+          const Vector3 relative = v[i] - velocity - cross(turning, arm);
           const Vector3 momentum = mass * relative;
-          of_run.arms += mass * arm;
+          of_run.arms += mass * off_axle;
           of_run.momentum += momentum;
-          of_run.moments += swapped * momentum;
+          of_run.moments += cross(arm, momentum);
           squares += relative * momentum;
-          return mass * inward * arm - damping * momentum;
+          return mass * inward * off_axle - damping * momentum;
         });
         if (run.is_owned)
           sums.wheels[run.wheel] += of_run;
@@ -136,15 +135,13 @@ namespace tread
     double *of_wheel = sums.data();
     for (const Wheel &wheel : wheels)
       {
-        const WheelHub::Motion &motion = wheel.hub->motion;
+        const Vector3 middle = wheel.hub->middle(), axle = wheel.hub->axle();
         for (const unsigned int i : wheel.nodes)
           if (mesh.shared_nodes.is_owned(i))
             {
-              const Vector3 x  = position(i);
-              const double  rx = x[0] - motion.x, rz = x[2] - motion.z;
               for (unsigned int d = 0; d < 3; ++d)
                 of_wheel[d] += force[i][d];
-              of_wheel[3] += rz * force[i][0] - rx * force[i][2];
+              of_wheel[3] += dot(axle, cross(position(i) - middle, force[i]));
             }
         of_wheel += n_hub_sums;
       }
@@ -205,7 +202,7 @@ namespace tread
         double                   *sums     = rank_sums.data() + n_hub_sums * k;
         for (unsigned int d = 0; d < 3; ++d)
           sums[d] += parameters.mass_damping * of_wheel.momentum[d];
-        sums[3] += parameters.mass_damping * (of_wheel.moments[0] - of_wheel.moments[2]);
+        sums[3] += parameters.mass_damping * dot(wheels[k].hub->axle(), of_wheel.moments);
         sums[4] = of_wheel.arms[0];
         sums[5] = of_wheel.arms[2];
       }

@@ -157,12 +157,23 @@ namespace tread
     const double              r    = nominal_radius - p.z;
     const double              sine = std::sin(angle), cosine = std::cos(angle);
     SurfacePoint              point;
-    point.place = turn(r * sine, wheel_y + p.y, -r * cosine);
-    point.place[1] += position.shift;
-    point.place[2] += nominal_radius + position.height;
+    point.place    = place(position, p.y, p.z, angle);
     point.by_s     = turn(-p.dz * sine, p.dy, p.dz * cosine);
     point.by_angle = turn(r * cosine, 0., r * sine);
     return point;
+  }
+
+
+  Vector3d WheelOnRail::place(const WheelsetPosition &position,
+                              const double            y,
+                              const double            z,
+                              const double            angle) const
+  {
+    const double r     = nominal_radius - z;
+    Vector3d     place = Rotation(position)(r * std::sin(angle), wheel_y + y, -r * std::cos(angle));
+    place[1] += position.shift;
+    place[2] += nominal_radius + position.height;
+    return place;
   }
 
 

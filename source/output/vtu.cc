@@ -226,7 +226,7 @@ namespace tread
             if (wheel != hubs.end())
               {
                 const WheelHub &hub = *wheel->second;
-                rigid               = hub.position_of(rigid - Vector3{hub.start_x(), 0., hub.start_z(), 0.});
+                rigid               = hub.position_of(rigid - hub.start());
               }
             patch.vertices[v] = dealii::Point<3>(x[0], x[1], x[2]);
             fields.set(patch, v, {c, i, x - rigid});

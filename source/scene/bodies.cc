@@ -168,6 +168,8 @@ namespace tread
 
   std::vector<Body> make_bodies(const Scene &scene)
   {
+    if (scene.is_positioned())
+      return {scene.placed_wheel().make_rail(scene), scene.placed_wheel().make_wheel(scene)};
     const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
     std::vector<Body>             bodies;
     bodies.push_back(make_rail(scene, zones_on_rail(scene, ellipse)));

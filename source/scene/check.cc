@@ -57,7 +57,7 @@ namespace tread
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
-          traction != 0. && !(motion.drive == Drive::creepage && motion.creepage))
+          traction != 0. && !is_positioned() && !(motion.drive == Drive::creepage && motion.creepage))
         require(std::abs(traction) < contact.friction_coefficient * contact.friction_factor(path_begin(k)),
                 (k == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
                   text_of(traction) + " must be below 'Contact/Friction coefficient' " +
@@ -259,7 +259,7 @@ namespace tread
 
   void Scene::check_plasticity() const
   {
-    const double beside = std::abs(path_y());
+    const double beside = is_positioned() ? 0. : std::abs(path_y());
     for (const bool of_wheel : {true, false})
       {
         const std::string      section  = of_wheel ? "Wheel" : "Rail";

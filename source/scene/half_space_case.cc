@@ -79,6 +79,8 @@ namespace tread
 
   reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
   {
+    if (scene.is_positioned())
+      return scene.placed_wheel().ellipse(normal_force);
     return hertz(half_space_case(scene, normal_force, 0.));
   }
 

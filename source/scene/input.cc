@@ -188,8 +188,10 @@ namespace tread
     for (const std::string &setting : settings)
       set(setting);
     folder = std::filesystem::path(file).parent_path();
-    // A wheelset in a given position has no mesh, and no point of first contact by an upright wheel.
-    if (!is_positioned())
+    // A wheelset in a given position has no point of first contact by an upright wheel.
+    if (is_positioned())
+      shapes = make_path();
+    else
       make_shapes();
     check();
   }

@@ -58,16 +58,29 @@ namespace tread
         const double           half_width = material.plastic_half_width;
         // Distance along the path and below the surface; of a wheel along its tread, from the lowest point in
         // the reference position.
-        const double axle = scene.path_begin(wheel ? body - wheel_body(0) : 0);
-        const auto   add  = [&](const double begin, const double end, const double depth, const double yield,
+        const double axle   = scene.path_begin(wheel ? body - wheel_body(0) : 0);
+        const auto   yields = [=, &scene](const dealii::Point<3> &p, const double begin, const double end,
+                                        const double depth) {
+          const auto is_in = [&](const double along, const double beside, const double below) {
+            return along >= begin && along <= end && below <= depth && std::abs(beside) <= half_width;
+          };
+          if (!scene.is_positioned())
+            {
+              const double dx = p[0] - axle, dz = p[2] - scene.axle_height();
+              return is_in(wheel ? radius * std::atan2(dx, -dz) : p[0], p[1] - scene.path_y(),
+                           wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2]);
+            }
+          const PlacedWheel &placed = scene.placed_wheel();
+          return std::any_of(placed.patches().begin(), placed.patches().end(), [&](const WheelPatch &patch) {
+            const PlacedWheel::Place place =
+              wheel ? placed.place_in_wheel(p, patch, axle) : placed.place_in_rail(p, patch);
+            return is_in(place.along, place.beside, place.below);
+          });
+        };
+        const auto add = [&](const double begin, const double end, const double depth, const double yield,
                              const double tangent) {
-          zones.push_back({body, material.plastic(yield, tangent), [=, &scene](const dealii::Point<3> &p) {
-                             const double dx = p[0] - axle, dz = p[2] - scene.axle_height();
-                             const double along = wheel ? radius * std::atan2(dx, -dz) : p[0];
-                             const double below =
-                               wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2];
-                             return along >= begin && along <= end && below <= depth &&
-                                    std::abs(p[1] - scene.path_y()) <= half_width;
+          zones.push_back({body, material.plastic(yield, tangent), [=](const dealii::Point<3> &p) {
+                             return yields(p, begin, end, depth);
                            }});
         };
         const double depth = material.plastic_depth, beyond = patch + depth;
@@ -115,7 +128,8 @@ namespace tread
     const double patch = hertz(scene, scene.static_load()).semi_axis_x;
     return {scene.path_begin() - patch,
             scene.path_end() + patch,
-            scene.first_contact().y,
+            scene.is_positioned() ? scene.placed_wheel().origin(scene.placed_wheel().main_patch())[1]
+                                  : scene.first_contact().y,
             scene.output.strip_half_width,
             patch,
             [&scene](const dealii::Point<3> &p) {

@@ -31,7 +31,7 @@ namespace tread
   }
 
 
-  void Scene::make_shapes()
+  std::shared_ptr<Scene::Shapes> Scene::make_path() const
   {
     auto         made   = std::make_shared<Shapes>();
     const double begin  = motion.start.value_or(-motion.rolled_distance),
@@ -41,7 +41,14 @@ namespace tread
     made->path_begin = begin;
     made->path_end   = begin + motion.rolled_distance;
     made->rail_begin = rail.begin.value_or(begin - behind - margin);
-    made->defect     = defect.make(located(defect.profile_file));
+    return made;
+  }
+
+
+  void Scene::make_shapes()
+  {
+    const auto made = make_path();
+    made->defect    = defect.make(located(defect.profile_file));
     shape_wheel(made->surfaces);
     shape_rail(*made);
     made->contact = tread::first_contact(made->surfaces, made->path_begin);
@@ -212,6 +219,8 @@ namespace tread
 
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
+    if (is_positioned())
+      return placed_wheel().place_in_rail(p, placed_wheel().main_patch()).below;
     const auto &height = surfaces().defect;
     return surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
   }
@@ -256,6 +265,8 @@ namespace tread
 
   double Scene::rolling_radius() const
   {
+    if (is_positioned())
+      return placed_wheel().main_patch().rolling_radius;
     const auto &offset = surfaces().tread_offset;
     return wheel.radius + (offset ? offset(first_contact().y) : 0.);
   }

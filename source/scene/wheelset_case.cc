@@ -49,6 +49,14 @@ namespace tread
   }
 
 
+  const PlacedWheel &Scene::placed_wheel() const
+  {
+    if (!placed)
+      placed = std::make_shared<const PlacedWheel>(*this);
+    return *placed;
+  }
+
+
   void Scene::check_wheelset() const
   {
     wheelset.check();
@@ -67,7 +75,55 @@ namespace tread
     require(motion.angular_velocity || (motion.drive == Drive::creepage && motion.creepage),
             "a wheelset in a given position needs 'Motion/Angular velocity (rad per s)', or a number for "
             "'Motion/Creepage'");
-    friction_law();
+    require(!(motion.angular_velocity && motion.creepage),
+            "'Motion/Angular velocity (rad per s)' and a number for 'Motion/Creepage' exclude each other");
+    require(motion.lateral_creepage == 0. && motion.spin == 0.,
+            "'Motion/Lateral creepage' and 'Spin (1 per m)' must be 0 where 'Wheelset' has a position, from "
+            "which they "
+            "follow");
+    contact.check();
+    require(contact.friction_places.empty() && friction_law()->is_constant(),
+            "'Contact/Friction law' must be Coulomb and 'Friction places (mm)' empty where 'Wheelset' has a "
+            "position: its half-space answer knows one coefficient");
+  }
+
+
+  void Scene::check_placed_mesh() const
+  {
+    general.check();
+    check_motion();
+    mesh.check();
+    solid.check();
+    further_wheels.check(2. * wheel.radius);
+    const auto without = [](const bool none, const std::string &what) {
+      require(none, what + " where 'Wheelset' has a position and the wheel is meshed");
+    };
+    without(!track.has_supports(), "'Track/Foundation' must be rigid");
+    without(!wheel.is_full(), "'Wheel/Shape' must be sector");
+    without(!peak_stress.is_wanted(), "'Peak stress/Region' must be none");
+    without(output.cells.empty(), "'Output/Cells' must be empty");
+    without(motion.drive != Drive::torque, "'Motion/Drive' cannot be torque");
+    without(mesh.fine_from == mesh.fine_to, "'Mesh/Fine from (mm)' and 'Fine to (mm)' must be equal");
+    for (const WheelPatch &patch : placed_wheel().patches())
+      {
+        const reference::PlanarResult &s = patch.solution;
+        const double                   a = 0.5 * (s.x_end - s.x_begin), b = 0.5 * (s.y_end - s.y_begin);
+        const double                   largest_finest = 0.45 * std::min(a, b);
+        require(mesh.finest_cell <= largest_finest,
+                "'Mesh/Finest cell (mm)' " + text_in_mm(mesh.finest_cell) + " is too large for a patch " +
+                  text_in_mm(2. * a) + " mm long and " + text_in_mm(2. * b) + " mm wide; at most " +
+                  text_in_mm(largest_finest));
+        for (const auto &[name, margin] : {std::pair("Rail/Margin (mm)", rail.margin),
+                                           std::pair("Wheel/Sector margin (mm)", wheel.sector_margin)})
+          require(margin >= 3. * a + std::abs(patch.region.reference[0]),
+                  "'" + std::string(name) + "' " + text_in_mm(margin) +
+                    " lets the patch leave what is meshed; at least three half lengths of the patch, and "
+                    "what it lies "
+                    "ahead of the axle, " +
+                    text_in_mm(3. * a + std::abs(patch.region.reference[0])));
+      }
+    check_plasticity();
+    check_numerics();
   }
 
 

@@ -4,6 +4,7 @@
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -84,6 +85,65 @@ namespace tread
     const reference::RollingEstimate half_space = reference::estimate_rolling(c);
     compare(summary, answer, half_space, c.prescribe_force);
     return patch_nodes(half_space.fields, scene.first_contact().y);
+  }
+
+
+  std::vector<WheelPatch> Simulation::computed_patches() const
+  {
+    const RollingWheel     &wheel   = wheels.front();
+    std::vector<WheelPatch> patches = scene.placed_wheel().patches();
+    for (unsigned int k = 0; k < patches.size(); ++k)
+      {
+        const PatchMeasures      m = wheel.averages_of_patches[k].measures();
+        reference::PlanarResult &s = patches[k].solution;
+        s.normal_force             = m.normal_force;
+        s.longitudinal_force       = m.longitudinal_force;
+        s.lateral_force            = m.lateral_force;
+        s.spin_moment              = m.spin_moment;
+        s.max_pressure             = m.max_pressure;
+        s.area                     = m.area;
+        s.adhesion_share           = m.adhesion_share;
+        s.max_shear                = m.max_shear;
+        s.max_slip                 = m.max_slip;
+        s.frictional_power         = m.frictional_power;
+        s.x_begin                  = m.x_middle - m.semi_axis_x;
+        s.x_end                    = m.x_middle + m.semi_axis_x;
+        s.y_begin                  = m.y_middle - m.semi_axis_y;
+        s.y_end                    = m.y_middle + m.semi_axis_y;
+      }
+    return patches;
+  }
+
+
+  std::string Simulation::add_wheelset(Summary &summary, const bool completed) const
+  {
+    const PlacedWheel  &placed = scene.placed_wheel();
+    const RollingWheel &wheel  = wheels.front();
+    const Vector3       force  = last_force_on(wheel);
+    WheelContact        computed;
+    computed.position        = placed.contact.position;
+    computed.position.height = placed.contact.position.height + wheel.hub.motion.z - wheel.hub.start()[2];
+    computed.force           = {force[0], force[1], force[2]};
+    computed.patches         = computed_patches();
+    summarise_wheelset(summary, scene, "explicit finite elements", computed, completed);
+    summary.set("free_rolling_creepage", wheel.free_creepage);
+    const Vector3d &half_space = placed.contact.force;
+    // As good as nothing beside the force that is given.
+    const double negligible = 0.01 * scene.static_load();
+    summary.compare("normal_force_N", "vertical force, kN", 1e-3, force[2], "half-space", half_space[2]);
+    summary.compare("longitudinal_force_N", "longitudinal force, kN", 1e-3, force[0], "half-space",
+                    half_space[0], negligible);
+    summary.compare("lateral_force_N", "lateral force in the track, kN", 1e-3, force[1], "half-space",
+                    half_space[1], negligible);
+    summary.compare("frictional_power_W", "frictional power, W", 1., frictional_power(computed), "half-space",
+                    frictional_power(placed.contact));
+    const double rail_y = placed.surfaces.rail_origin_y();
+    summary.set("patches", patches_as_json(computed.patches, rail_y));
+    summary.set("half_space_patches", patches_as_json(placed.patches(), rail_y));
+    std::string text = table_of_patches(computed.patches, rail_y, placed.patches()) + "\n";
+    for (const std::string &limit : limits_of_half_space(placed.patches()))
+      text += "half-space: " + limit + "\n";
+    return text;
   }
 
 
@@ -270,14 +330,22 @@ namespace tread
 
     Summary             summary;
     const ContactAnswer answer{force, wheel.creepage(scene), wheel.averaged_measures(patches.front())};
-    summarise(summary, scene, "explicit finite elements", answer, completed);
+    std::string         by_patch;
+    if (scene.is_positioned())
+      by_patch = add_wheelset(summary, completed);
+    else
+      {
+        summarise(summary, scene, "explicit finite elements", answer, completed);
+        summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, wheel.free_creepage,
+                     "creepage, 1e-3");
+      }
     summary.set("normal_force_ripple_share", ripple);
-    summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, wheel.free_creepage,
-                 "creepage, 1e-3");
 
     std::string            note;
     std::vector<PatchNode> reference_patch;
-    if (scene.has_defect())
+    if (scene.is_positioned())
+      reference_patch = scene.placed_wheel().table_nodes();
+    else if (scene.has_defect())
       summary.set("note", note = "no comparison with steady rolling: the wheel crosses a defect");
     else if (completed && normal > 0.)
       try
@@ -320,8 +388,9 @@ namespace tread
           std::printf("\n%s%s", impacts.lines(scene.static_load()).c_str(), stresses.c_str());
         // Where nothing is steady, the figures of one instant say little.
         if (!scene.has_defect())
-          std::printf("\nnormal force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s",
-                      1e-3 * normal, 100. * ripple, traction, summary.table().c_str());
+          std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
+                      scene.is_positioned() ? "vertical" : "normal", 1e-3 * normal, 100. * ripple, traction,
+                      by_patch.c_str(), summary.table().c_str());
         std::printf("\n%s%s%s%s", further_wheels.c_str(), quality.lines().c_str(), note.c_str(),
                     note.empty() ? "" : "\n");
         for (const std::string &warning : warnings)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/scene/parts.h>
+#include <tread/scene/wheelset_case.h>
 #include <tread/simulation/rolling_wheel.h>
 
 #include <algorithm>
@@ -17,13 +18,24 @@ namespace tread
 
   void RollingWheel::place(const Scene &scene)
   {
-    hub.motion = WheelHub::Motion();
-    hub.place(scene.path_begin(number), scene.axle_height());
-    hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
-    average                     = PatchAverage();
-    last_force_sum              = Vector3{};
-    last_force_low              = 1e300;
-    last_force_high             = -1e300;
+    hub.motion          = WheelHub::Motion();
+    const Vector3 start = Vector3{scene.path_begin(number), 0., 0., 0.};
+    if (scene.is_positioned())
+      {
+        hub.place(start + scene.placed_wheel().middle(), scene.placed_wheel().axle());
+        hub.motion.angular_velocity = wheel_rolling(scene).angular_velocity;
+      }
+    else
+      {
+        hub.place(start + Vector3{0., 0., scene.axle_height(), 0.});
+        hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
+      }
+    average = PatchAverage();
+    averages_of_patches.assign(scene.is_positioned() ? scene.placed_wheel().patches().size() : 0,
+                               PatchAverage());
+    last_force_sum  = Vector3{};
+    last_force_low  = 1e300;
+    last_force_high = -1e300;
     solution_patch.clear();
   }
 
@@ -64,6 +76,8 @@ namespace tread
   void RollingWheel::serialize(Archive &archive)
   {
     average.serialize(archive);
+    for (PatchAverage &of_patch : averages_of_patches)
+      of_patch.serialize(archive);
     archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_start_speed,
                  last_force_sum, last_force_low, last_force_high);
   }

@@ -201,7 +201,13 @@ namespace tread
       {
         const auto states = contact_states();
         for (RollingWheel &wheel : wheels)
-          wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.time_step);
+          {
+            wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.time_step);
+            for (unsigned int k = 0; k < wheel.averages_of_patches.size(); ++k)
+              wheel.averages_of_patches[k].add(
+                scene.placed_wheel().of_patch(k, states[wheel.number], wheel.hub.motion.x),
+                wheel.hub.motion.x, dynamics.time_step);
+          }
       }
   }
 
@@ -270,7 +276,8 @@ namespace tread
     for (const ContactNodeState &state : contact.active_nodes())
       for (const RollingWheel &wheel : wheels)
         if (state.master_body == wheel.body)
-          of_wheels[wheel.number].push_back(state);
+          of_wheels[wheel.number].push_back(
+            scene.is_positioned() ? scene.placed_wheel().in_contact_axes(state, wheel.hub.motion.x) : state);
     return of_wheels;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a wheel comes to stand on the rail and begins to roll.
 #include <tread/base/format.h>
+#include <tread/scene/wheelset_case.h>
 #include <tread/simulation/simulation.h>
 
 #include "interruption.h"
@@ -29,6 +30,12 @@ namespace tread
     std::vector<std::optional<reference::RollingResult>> half_space;
     for (RollingWheel &wheel : wheels)
       {
+        if (scene.is_positioned())
+          {
+            wheel.target_creepage =
+              wheel_rolling(scene).angular_velocity * scene.rolling_radius() / scene.motion.speed - 1.;
+            break;
+          }
         const auto own  = wheels.begin() + wheel.number;
         const auto like = std::find_if(wheels.begin(), own, [&](const RollingWheel &before) {
           return scene.traction_coefficient(before.number) == scene.traction_coefficient(wheel.number);
@@ -42,7 +49,9 @@ namespace tread
           }
       }
     const bool predicts_tractions =
-      std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
+      scene.is_positioned()
+        ? scene.start.tractions == StartTractions::predicted
+        : std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
@@ -79,6 +88,9 @@ namespace tread
             const RollingWheel &nearest = *std::min_element(
               wheels.begin(), wheels.end(),
               [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
+            if (scene.is_positioned())
+              return scene.placed_wheel().traction_over_pressure(place -
+                                                                 Vector3{nearest.hub.motion.x, 0., 0., 0.});
             const Vector3 ratio =
               traction_over_pressure(*half_space[nearest.number], place[0] - nearest.hub.motion.x,
                                      place[1] - scene.first_contact().y);

@@ -7,23 +7,21 @@
 
 namespace tread
 {
-  void WheelHub::place(const double x, const double z)
+  void WheelHub::place(const Vector3 middle, const Vector3 axle)
   {
-    motion.x = reference_x = x;
-    motion.z = reference_z = z;
+    axle_direction = axle;
+    motion.x = reference_x = middle[0];
+    reference_y            = middle[1];
+    motion.z = reference_z = middle[2];
     balance_suspension();
   }
 
 
-  void WheelHub::take_out(const double mass,
-                          const double moment_of_inertia,
-                          const double first_moment_x,
-                          const double first_moment_z)
+  void WheelHub::take_out(const double mass, const double moment_of_inertia, const Vector3 first_moment)
   {
     parameters.mass -= mass;
     parameters.moment_of_inertia -= moment_of_inertia;
-    reference_first_moment[0] = -first_moment_x;
-    reference_first_moment[1] = -first_moment_z;
+    reference_first_moment = -off_axle(first_moment);
     if (!(parameters.mass > 0. && parameters.moment_of_inertia > 0.))
       throw std::invalid_argument(
         "'Wheel/Mass (kg)' or 'Wheel/Moment of inertia (kg m2)' is too small: the meshed part "
@@ -32,18 +30,17 @@ namespace tread
   }
 
 
-  void WheelHub::first_moment(double &x, double &z, const double angle) const
+  Vector3 WheelHub::turned(const Vector3 v, const double angle) const
   {
-    const double c = std::cos(angle), s = std::sin(angle);
-    x = c * reference_first_moment[0] + s * reference_first_moment[1];
-    z = -s * reference_first_moment[0] + c * reference_first_moment[1];
+    // Rodrigues' formula
+    const Vector3 along = dot(axle_direction, v) * axle_direction;
+    return along + std::cos(angle) * (v - along) + std::sin(angle) * cross(axle_direction, v);
   }
 
 
   double WheelHub::static_force() const
   {
-    double moment_x, moment_z;
-    first_moment(moment_x, moment_z, motion.angle);
+    const double moment_z = turned(reference_first_moment, motion.angle)[2];
     return -(parameters.mass + parameters.sprung_mass) * parameters.gravity +
            motion.angular_velocity * motion.angular_velocity * moment_z;
   }
@@ -58,15 +55,16 @@ namespace tread
     const double acceleration   = vertical_force / parameters.mass;
 
     motion.velocity_z += time_step * acceleration;
-    double moment_x, moment_z;
-    first_moment(moment_x, moment_z, motion.angle);
+    const Vector3 moments = turned(reference_first_moment, motion.angle); // of the rest
+    // What it moves by when the axle turns; the component along z is its lever about the axle.
+    const Vector3 by_turning = cross(axle_direction, moments);
     // The rest that balances the cells lags behind when the axle moves up: a moment.
-    const double lag = moment_x * acceleration;
+    const double lag = -by_turning[2] * acceleration;
     double       turning_outside =
       -moment - lag; // with it the angular velocity stays; includes the weight's moment
     if (drive == Drive::torque)
       {
-        turning_outside = drive_torque + moment_x * parameters.gravity;
+        turning_outside = drive_torque - by_turning[2] * parameters.gravity;
         motion.angular_velocity +=
           time_step * (moment + turning_outside + lag) / parameters.moment_of_inertia;
       }
@@ -80,11 +78,11 @@ namespace tread
 
     // The guidance holds the hub's speed against the cells and the pull of the balancing part, which changes
     // its momentum along x, angular velocity times first moment, by turning and by turning faster.
-    const double pull   = before.angular_velocity * before.angular_velocity * moment_x;
-    const double faster = moment_z * (motion.angular_velocity - before.angular_velocity);
+    const double pull   = before.angular_velocity * before.angular_velocity * moments[0];
+    const double faster = by_turning[0] * (motion.angular_velocity - before.angular_velocity);
     const double along  = (faster - time_step * (force[0] + pull)) * motion.velocity_x;
     // Its centrifugal force is no work from outside.
-    const double centrifugal = before.angular_velocity * before.angular_velocity * moment_z;
+    const double centrifugal = before.angular_velocity * before.angular_velocity * moments[2];
     const double up =
       time_step * (vertical_force - force[2] - centrifugal) * 0.5 * (before.velocity_z + motion.velocity_z);
     const double turn =
@@ -96,32 +94,29 @@ namespace tread
 
   Vector3 WheelHub::position_of(const Vector3 reference) const
   {
-    const double c = std::cos(motion.angle), s = std::sin(motion.angle);
-    return Vector3{motion.x + c * reference[0] + s * reference[2], reference[1],
-                   motion.z - s * reference[0] + c * reference[2], 0.};
+    return middle() + turned(reference, motion.angle);
   }
 
 
   Vector3 WheelHub::velocity_at(const Vector3 x) const
   {
-    return Vector3{motion.velocity_x + motion.angular_velocity * (x[2] - motion.z), 0.,
-                   motion.velocity_z - motion.angular_velocity * (x[0] - motion.x), 0.};
+    return velocity() + motion.angular_velocity * cross(axle_direction, x - middle());
   }
 
 
   double WheelHub::kinetic_energy(const double time_back) const
   {
-    double moment_x, moment_z;
-    first_moment(moment_x, moment_z, motion.angle - time_back * motion.angular_velocity);
-    return 0.5 * parameters.mass *
-             (motion.velocity_x * motion.velocity_x + motion.velocity_z * motion.velocity_z) +
-           motion.angular_velocity * (motion.velocity_x * moment_z - motion.velocity_z * moment_x) +
+    const Vector3 moments =
+      turned(reference_first_moment, motion.angle - time_back * motion.angular_velocity);
+    return 0.5 * parameters.mass * dot(velocity(), velocity()) +
+           motion.angular_velocity * dot(velocity(), cross(axle_direction, moments)) +
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity;
   }
 
 
   void WheelHub::serialize(Archive &archive)
   {
-    archive.same(drive, drive_torque, motion, reference_x, reference_z, equilibrium_z, work, gross);
+    archive.same(drive, drive_torque, motion, axle_direction, reference_x, reference_y, reference_z,
+                 equilibrium_z, work, gross);
   }
 } // namespace tread

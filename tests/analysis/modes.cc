@@ -212,7 +212,7 @@ namespace
       , system(mesh, {true}, {tests::steel()}, SolidParameters())
     {
       WheelHub hub(tests::sprung_hub());
-      hub.place(0., 0.);
+      hub.place(Vector3{});
       ElasticSystem::HubFreedom freedom;
       freedom.turns = true;
       system.attach_hub(hub, 0, freedom);

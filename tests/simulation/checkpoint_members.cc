@@ -116,7 +116,7 @@ namespace
                                      return -p[2];
                                    }})
     {
-      hub.place(0., axle_height);
+      hub.place(Vector3{0., 0., axle_height, 0.});
       hub.motion.angular_velocity = speed / axle_height;
       supports.add_probe(0.);
       dynamics.attach_supports(supports, ElasticMaterial());

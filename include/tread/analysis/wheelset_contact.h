@@ -33,8 +33,9 @@ namespace tread
   struct WheelPatch
   {
     WheelOnRail::Region region;
-    double              rolling_radius = 0.;     ///< of the undeformed wheel at the reference point (m)
-    double              rolling_speed  = 0.;     ///< V, mean of both surfaces' speeds through the patch (m/s)
+    double wheel_s = 0., wheel_angle = 0.;       ///< where the wheel's profile (m) and its turn (rad) meet it
+    double rolling_radius = 0.;                  ///< of the undeformed wheel at the reference point (m)
+    double rolling_speed  = 0.;                  ///< V, mean of both surfaces' speeds through the patch (m/s)
     double creepage = 0., lateral_creepage = 0.; ///< slip of the rigid wheel over the rail there over V [-]
     double spin = 0.;                            ///< its angular velocity about n over V (rad/m)
 
@@ -47,6 +48,9 @@ namespace tread
     {
       return region.angle;
     }
+    /// Unit vectors of the contact axes in the track.
+    Vector3d along() const;
+    Vector3d normal() const;
     /// Force on the wheel in track axes (N).
     Vector3d force() const;
   };

@@ -69,7 +69,10 @@ namespace tread
 
   inline Vector3 cross(const Vector3 a, const Vector3 b)
   {
-    return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.};
+    // In the order z, x, y, then turned.
+    const Vector3 c =
+      a * __builtin_shufflevector(b, b, 1, 2, 0, 3) - __builtin_shufflevector(a, a, 1, 2, 0, 3) * b;
+    return __builtin_shufflevector(c, c, 1, 2, 0, 3);
   }
 
   inline Lanes broadcast(const double value)

@@ -30,6 +30,8 @@ namespace tread
     {
       std::array<unsigned int, 4> nodes; ///< counter-clockwise seen from outside
       unsigned int                body;
+      unsigned int
+        edge_along; ///< 0 or 1: the edges from corner 0 or 1, and those opposite, are along the path
     };
 
     explicit ContactSurfaces(const Mesh &mesh);

@@ -307,9 +307,9 @@ namespace tread
     {
       struct OfWheel
       {
-        Vector3 arms{};     ///< from the axle to the wheel's nodes, kg m
+        Vector3 arms{};     ///< from the axle to the wheel's nodes, at right angles to it, kg m
         Vector3 momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
-        Vector3 moments{};  ///< z v_x and x v_z of that momentum about the axle, kg m^2/s
+        Vector3 moments{};  ///< of that momentum about the wheel's middle, kg m^2/s
 
         void operator+=(const OfWheel &other)
         {

@@ -70,6 +70,8 @@ namespace tread
       Vector3d place, by_s, by_angle;
     };
     SurfacePoint surface(const WheelsetPosition &position, double s, double angle) const;
+    /// Any point of the wheel, from y and z in its profile's axes and the angle.
+    Vector3d place(const WheelsetPosition &position, double y, double z, double angle) const;
 
     /// Point of the wheel's outline seen along x: the surface stands upright on the planes through x there.
     /// Only such points can touch a rail that is the same at every x.

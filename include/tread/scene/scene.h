@@ -3,6 +3,7 @@
 #define tread_scene_scene_h
 
 #include <tread/geometry/running_surfaces.h>
+#include <tread/scene/placed_wheel.h>
 #include <tread/scene/sections/contact.h>
 #include <tread/scene/sections/defect.h>
 #include <tread/scene/sections/further_wheels.h>
@@ -71,14 +72,20 @@ namespace tread
     {
       return (wheel.mass + vehicle.sprung_mass) * vehicle.gravity;
     }
-    /// Whether the wheel stands in a position of a wheelset in its track, or turns as one does: such a scene
-    /// has no mesh.
+    /// Whether the wheel stands in a position of a wheelset in its track, or turns as one does.
     bool is_positioned() const
     {
       return wheelset.is_positioned() || motion.angular_velocity.has_value();
     }
     /// The wheel with its flange over the rail with its flanks, in the track. @throws InputError
     WheelOnRail wheel_on_rail() const;
+    /// The wheel in its position under the static load, solved at the first call, which may take some
+    /// seconds.
+    /// @pre is_positioned() @throws InputError
+    const PlacedWheel &placed_wheel() const;
+    /// Check what finite elements need beyond the half-space's answer. @pre is_positioned() @throws
+    /// InputError
+    void check_placed_mesh() const;
 
     /// Rolling speed over the speed of Rayleigh waves in the scaled material, squared: the order of
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
@@ -234,15 +241,18 @@ namespace tread
     void check_numerics() const;
     /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
     std::string located(const std::string &file) const;
+    /// Where the path and the rail begin and end.
+    std::shared_ptr<Shapes> make_path() const;
     /// @throws InputError
     void        make_shapes();
     void        shape_wheel(RunningSurfaces &surfaces) const;
     void        shape_rail(Shapes &made) const;
     PatchExtent patch_under_load() const;
 
-    mutable dealii::ParameterHandler handler;
-    std::filesystem::path            folder; ///< of the parameter file
-    std::shared_ptr<const Shapes>    shapes;
+    mutable dealii::ParameterHandler           handler;
+    std::filesystem::path                      folder; ///< of the parameter file
+    std::shared_ptr<const Shapes>              shapes;
+    mutable std::shared_ptr<const PlacedWheel> placed; ///< null until it is asked for
   };
 } // namespace tread
 

@@ -64,8 +64,10 @@ namespace tread
     Vector3 interval_force{};          ///< sum since the last row of the history, N
     double  interval_start_speed = 0.; ///< of the hub, vertical, m/s
 
-    PatchAverage           average; ///< while the wheel rolls over one cell around the solution instant
-    std::vector<PatchNode> solution_patch;
+    PatchAverage average; ///< while the wheel rolls over one cell around the solution instant
+    /// The same for each patch of a wheelset in a given position, in its contact axes.
+    std::vector<PatchAverage> averages_of_patches;
+    std::vector<PatchNode>    solution_patch;
 
   private:
     Vector3 last_force_sum{};

@@ -60,7 +60,8 @@ namespace tread
     std::vector<std::vector<PatchNode>> patches_now() const;
     /// The patches at the solution instant, or at present if it has not been reached. Collective.
     std::vector<std::vector<PatchNode>> solution_patches() const;
-    /// Nodes in contact with each wheel. Collective.
+    /// Nodes in contact with each wheel; of a wheelset in a given position with forces, normal and slip in
+    /// the contact axes of their patches. Collective.
     std::vector<std::vector<ContactNodeState>> contact_states() const;
     /// Force on a wheel in the last step, N.
     Vector3 force_on(const RollingWheel &wheel) const
@@ -103,6 +104,12 @@ namespace tread
     /// the forces say little about the creepage, and the solution is that for the creepage. @returns the
     /// half-space patch.
     std::vector<PatchNode> compare_with_half_space(Summary &summary, const ContactAnswer &answer) const;
+    /// The first entries of the summary of a wheelset in a given position, beside the half-space's. @returns
+    /// a table of its patches for the screen, and what the half-space cannot tell of them.
+    std::string add_wheelset(Summary &summary, const bool completed) const;
+    /// The patches of a wheelset in a given position in the half-space solver's terms: means while the wheel
+    /// rolls over a cell.
+    std::vector<WheelPatch> computed_patches() const;
     /// Distance rolled since the start, or since a torque acts, in lengths of the patch.
     struct Rolled
     {

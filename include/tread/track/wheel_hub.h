@@ -29,7 +29,8 @@ namespace tread
 
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
   /// primary suspension with the sprung mass, runs along x at constant speed, moves in z and
-  /// turns about y. Positive angular velocity rolls towards +x.
+  /// turns about its axle, which is y or stands in a yaw and a roll. Positive angular velocity rolls towards
+  /// +x.
   class WheelHub
   {
   public:
@@ -45,8 +46,9 @@ namespace tread
     {
     }
 
-    /// Put the axle into its reference position (x, z).
-    void place(const double x, const double z);
+    /// Put the middle of the wheel into its reference position (x, y, z), m. @param axle unit vector, of
+    /// which the component along y is positive.
+    void place(const Vector3 middle, const Vector3 axle = Vector3{0., 1., 0., 0.});
 
     /// Define the present position of the axle as the equilibrium of the suspension.
     void balance_suspension()
@@ -55,13 +57,11 @@ namespace tread
     }
 
     /// Subtract the share of the cells from mass and inertia: mass (kg), moment of inertia about the axle (kg
-    /// m^2) and first moment in the reference configuration (x and z, kg m). The whole wheel is balanced, so
+    /// m^2) and first moment about the middle in the reference configuration (kg m), of which the part along
+    /// the axle is left out. The whole wheel is balanced, so
     /// the rigid remainder has the opposite first moment and, with a flexible sector, balances the
     /// centrifugal force.
-    void take_out(const double mass,
-                  const double moment_of_inertia,
-                  const double first_moment_x,
-                  const double first_moment_z);
+    void take_out(const double mass, const double moment_of_inertia, const Vector3 first_moment);
 
     /// One central-difference step under the force (N) and the moment about the axle (N m) that
     /// the flexible cells exert.
@@ -70,7 +70,27 @@ namespace tread
     /// Vertical force of everything but the cells, at rest and in steady rotation, N (negative: down).
     double static_force() const;
 
-    /// Position of a point that is fixed to the hub, from its reference position relative to the axle.
+    /// Present position of the wheel's middle, m.
+    Vector3 middle() const
+    {
+      return Vector3{motion.x, reference_y, motion.z, 0.};
+    }
+    Vector3 velocity() const
+    {
+      return Vector3{motion.velocity_x, 0., motion.velocity_z, 0.};
+    }
+    /// Unit vector, which does not change.
+    Vector3 axle() const
+    {
+      return axle_direction;
+    }
+    /// The part of an arm (m) at right angles to the axle.
+    Vector3 off_axle(const Vector3 arm) const
+    {
+      return arm - dot(axle_direction, arm) * axle_direction;
+    }
+
+    /// Position of a point that is fixed to the hub, from its reference position relative to the middle.
     Vector3 position_of(const Vector3 reference) const;
 
     /// Velocity of a point of the hub that is at x at present.
@@ -80,14 +100,10 @@ namespace tread
     /// half a step back, J.
     double kinetic_energy(const double time_back) const;
 
-    /// Position of the axle in the reference configuration, m.
-    double start_x() const
+    /// Position of the wheel's middle in the reference configuration, m.
+    Vector3 start() const
     {
-      return reference_x;
-    }
-    double start_z() const
-    {
-      return reference_z;
+      return Vector3{reference_x, reference_y, reference_z, 0.};
     }
 
     /// Work done so far on hub and cells by drive, guidance, suspension and weight, J.
@@ -111,11 +127,12 @@ namespace tread
     WheelHubParameters parameters;
 
   private:
-    /// Present first moment, from rotating the reference one about +y.
-    void first_moment(double &x, double &z, const double angle) const;
+    /// A vector turned about the axle.
+    Vector3 turned(const Vector3 v, const double angle) const;
 
-    double reference_x = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
-    double reference_first_moment[2] = {0., 0.};
+    Vector3 axle_direction{0., 1., 0., 0.};
+    double  reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
+    Vector3 reference_first_moment{}; ///< of the rigid rest
   };
 } // namespace tread
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_placed_wheel_h
+#define tread_scene_placed_wheel_h
+
+#include <tread/analysis/contact_patch.h>
+#include <tread/analysis/wheelset_contact.h>
+#include <tread/base/simd.h>
+#include <tread/contact/contact.h>
+#include <tread/mesh/body.h>
+#include <tread/reference/hertz.h>
+
+#include <vector>
+
+namespace tread
+{
+  class Scene;
+
+  /// The wheel of a wheelset in its position under the static load, as half-space theory finds it: where a
+  /// mesh must be fine, and what a run is compared with.
+  ///
+  /// Axes of the mesh: x along the track, the wheelset's middle at the wheel's x; y from the middle of the
+  /// rail's top to the own side; z up from the plane on the rail tops (m). Contact axes of a patch: x, s
+  /// along the tangent plane, n normal to it into the wheel, origin at its reference point.
+  class PlacedWheel
+  {
+  public:
+    /// @throws InputError where wheel and rail do not meet, or no height carries the load.
+    explicit PlacedWheel(const Scene &scene);
+
+    const std::vector<WheelPatch> &patches() const
+    {
+      return contact.patches;
+    }
+    /// That with the largest normal force.
+    const WheelPatch &main_patch() const;
+    /// Of the patch whose reference point is nearest to a place relative to the wheelset's middle.
+    unsigned int nearest_patch(const Vector3 place) const;
+
+    /// Middle of the wheelset with the wheel at x = 0, and the direction of the axle.
+    Vector3 middle() const;
+    Vector3 axle() const;
+    /// Reference point of a patch relative to the wheelset's middle at x = 0, and the directions of its axes.
+    Vector3        origin(const WheelPatch &patch) const;
+    static Vector3 along(const WheelPatch &patch);
+    static Vector3 normal(const WheelPatch &patch);
+
+    /// Force, normal and slip of a node in the contact axes of its patch; its position stays. @param wheel_x
+    /// m
+    ContactNodeState in_contact_axes(ContactNodeState state, const double wheel_x) const;
+    /// Those nodes in contact axes that belong to a patch, their positions too, but for the wheel's x in
+    /// them.
+    std::vector<ContactNodeState> of_patch(const unsigned int                   number,
+                                           const std::vector<ContactNodeState> &states,
+                                           const double                         wheel_x) const;
+
+    /// Traction on the wheel over the pressure [-] in the half-space's answer, in axes of the mesh, at a
+    /// place relative to the wheelset's middle.
+    Vector3 traction_over_pressure(const Vector3 place) const;
+
+    /// The elements in contact of the half-space's answer, x from the wheelset's middle, tractions and slip
+    /// in contact axes.
+    std::vector<PatchNode> table_nodes() const;
+
+    /// The main patch as an ellipse of its length and width, at another normal force in proportion (N).
+    reference::HertzEllipse ellipse(const double vertical_force) const;
+
+    /// Rail and wheel: blocks behind the running surfaces, finest at the patches.
+    Body make_rail(const Scene &scene) const;
+    Body make_wheel(const Scene &scene) const;
+
+    /// Whether a place in a body is at most `beside` to the side of a patch and `below` its surface, and
+    /// where along the path it is, on the wheel from where it touches at the start (m).
+    struct Place
+    {
+      double along, beside, below;
+    };
+    Place place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const;
+    /// @param start_x of the wheel in the reference configuration
+    Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
+
+    const WheelOnRail surfaces;
+    WheelContact      contact;
+
+  private:
+    double load; ///< N
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/mesh/profile_block.h>
+#include <tread/scene/placed_wheel.h>
+#include <tread/scene/wheelset_case.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    Vector3 vector(const Vector3d &v)
+    {
+      return Vector3{v[0], v[1], v[2], 0.};
+    }
+
+    WheelContact solve(const Scene &scene, const WheelOnRail &surfaces)
+    {
+      try
+        {
+          return contact_under_load(surfaces, wheel_rolling(scene), scene.wheelset.position(),
+                                    scene.static_load());
+        }
+      catch (const std::exception &error)
+        {
+          throw InputError(
+            format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and a roll of "
+                   "%g mrad: ",
+                   1e3 * scene.wheelset.position().shift, 1e3 * scene.wheelset.yaw,
+                   1e3 * scene.wheelset.roll) +
+            error.what());
+        }
+    }
+  } // namespace
+
+
+  PlacedWheel::PlacedWheel(const Scene &scene)
+    : surfaces(scene.wheel_on_rail())
+    , contact(solve(scene, surfaces))
+    , load(scene.static_load())
+  {
+  }
+
+
+  const WheelPatch &PlacedWheel::main_patch() const
+  {
+    return *std::max_element(patches().begin(), patches().end(),
+                             [](const WheelPatch &a, const WheelPatch &b) {
+                               return a.solution.normal_force < b.solution.normal_force;
+                             });
+  }
+
+
+  unsigned int PlacedWheel::nearest_patch(const Vector3 place) const
+  {
+    const auto distance = [&](const WheelPatch &patch) {
+      return norm(place - origin(patch));
+    };
+    return std::min_element(
+             patches().begin(), patches().end(),
+             [&](const WheelPatch &a, const WheelPatch &b) { return distance(a) < distance(b); }) -
+           patches().begin();
+  }
+
+
+  Vector3 PlacedWheel::middle() const
+  {
+    return vector(WheelOnRail::middle(contact.position, surfaces.radius())) -
+           Vector3{0., surfaces.rail_origin_y(), 0., 0.};
+  }
+
+
+  Vector3 PlacedWheel::axle() const
+  {
+    return vector(WheelOnRail::axle(contact.position));
+  }
+
+
+  Vector3 PlacedWheel::origin(const WheelPatch &patch) const
+  {
+    return vector(patch.region.reference) - Vector3{0., surfaces.rail_origin_y(), 0., 0.};
+  }
+
+
+  Vector3 PlacedWheel::along(const WheelPatch &patch)
+  {
+    return vector(patch.along());
+  }
+
+
+  Vector3 PlacedWheel::normal(const WheelPatch &patch)
+  {
+    return vector(patch.normal());
+  }
+
+
+  ContactNodeState PlacedWheel::in_contact_axes(ContactNodeState state, const double wheel_x) const
+  {
+    const WheelPatch &patch = patches()[nearest_patch(state.position - Vector3{wheel_x, 0., 0., 0.})];
+    const Vector3     s = along(patch), n = normal(patch);
+    for (Vector3 *v : {&state.normal, &state.impulse, &state.slip})
+      *v = Vector3{(*v)[0], dot(*v, s), dot(*v, n), 0.};
+    return state;
+  }
+
+
+  std::vector<ContactNodeState> PlacedWheel::of_patch(const unsigned int                   number,
+                                                      const std::vector<ContactNodeState> &states,
+                                                      const double                         wheel_x) const
+  {
+    const WheelPatch             &patch = patches()[number];
+    const Vector3                 x{wheel_x, 0., 0., 0.};
+    std::vector<ContactNodeState> own;
+    for (const ContactNodeState &state : states)
+      if (nearest_patch(state.position - x) == number)
+        {
+          own.push_back(state);
+          const Vector3 arm   = state.position - x - origin(patch);
+          own.back().position = Vector3{arm[0], dot(arm, along(patch)), dot(arm, normal(patch)), 0.} + x;
+        }
+    return own;
+  }
+
+
+  Vector3 PlacedWheel::traction_over_pressure(const Vector3 place) const
+  {
+    const WheelPatch              &patch = patches()[nearest_patch(place)];
+    const reference::PlanarResult &s     = patch.solution;
+    const Vector3                  arm = place - origin(patch), across = along(patch);
+    const double                   x = arm[0], y = dot(arm, across);
+    // Outside the patch that of the nearest element on the way to its middle.
+    const double       x_middle = 0.5 * (s.x_begin + s.x_end), y_middle = 0.5 * (s.y_begin + s.y_end);
+    const unsigned int n_steps =
+      std::ceil(std::max(std::abs(x - x_middle) / s.grid.dx, std::abs(y - y_middle) / s.grid.dy));
+    for (unsigned int step = n_steps + 1; step-- > 0;)
+      {
+        const double share  = n_steps > 0 ? double(step) / n_steps : 0.;
+        const double column = std::round((x_middle + share * (x - x_middle) - s.grid.x_first) / s.grid.dx),
+                     row    = std::round((y_middle + share * (y - y_middle) - s.grid.y_first) / s.grid.dy);
+        if (column < 0. || column >= s.grid.n_x || row < 0. || row >= s.grid.n_y)
+          continue;
+        const std::size_t e = s.grid.n_x * std::size_t(row) + std::size_t(column);
+        if (s.pressure[e] > 0.)
+          return (1. / s.pressure[e]) * (Vector3{s.shear_x[e], 0., 0., 0.} + s.shear_y[e] * across);
+      }
+    return Vector3{};
+  }
+
+
+  std::vector<PatchNode> PlacedWheel::table_nodes() const
+  {
+    std::vector<PatchNode> nodes;
+    for (const WheelPatch &patch : patches())
+      {
+        const reference::PlanarResult &s    = patch.solution;
+        const reference::Grid         &grid = s.grid;
+        for (std::size_t e = 0; e < grid.size(); ++e)
+          if (s.state[e] != reference::ElementState::exterior)
+            nodes.push_back({origin(patch) + Vector3{grid.x(e % grid.n_x), 0., 0., 0.} +
+                               grid.y(e / grid.n_x) * along(patch),
+                             grid.element_area(),
+                             s.pressure[e],
+                             {s.shear_x[e], s.shear_y[e]},
+                             {s.slip_x[e], s.slip_y[e]},
+                             s.state[e] == reference::ElementState::adhesion});
+      }
+    return nodes;
+  }
+
+
+  reference::HertzEllipse PlacedWheel::ellipse(const double vertical_force) const
+  {
+    // By Hertz all lengths grow like the cube root of the force.
+    const reference::PlanarResult &s     = main_patch().solution;
+    const double                   scale = std::cbrt(vertical_force / load);
+    reference::HertzEllipse        e;
+    e.semi_axis_x   = scale * 0.5 * (s.x_end - s.x_begin);
+    e.semi_axis_y   = scale * 0.5 * (s.y_end - s.y_begin);
+    e.max_pressure  = scale * s.max_pressure;
+    e.area          = scale * scale * s.area;
+    e.mean_pressure = s.normal_force * scale / s.area;
+    e.approach      = scale * scale * s.overlap;
+    e.stiffness     = 1.5 * s.normal_force * scale / s.overlap;
+    return e;
+  }
+
+
+  namespace
+  {
+    /// Of finest cells ahead of and behind the path: the patch, a quarter of its half length and two cells,
+    /// m.
+    double beyond_path(const Scene &scene, const reference::PlanarResult &s)
+    {
+      return 1.25 * 0.5 * (s.x_end - s.x_begin) + 2. * scene.mesh.finest_cell;
+    }
+
+    /// The finest cells at a patch. @param x_middle of the patch at the start; @param along of its reference
+    /// point
+    FineZone zone_of(const Scene                   &scene,
+                     const reference::PlanarResult &s,
+                     const double                   x_reference,
+                     const double                   along)
+    {
+      const double x = x_reference + 0.5 * (s.x_begin + s.x_end), half_width = 0.5 * (s.y_end - s.y_begin);
+      FineZone     zone;
+      zone.finest_cell_size = scene.mesh.finest_cell;
+      zone.x_begin          = x - beyond_path(scene, s);
+      zone.x_end            = x + scene.motion.rolled_distance + beyond_path(scene, s);
+      zone.y_middle         = along + 0.5 * (s.y_begin + s.y_end);
+      zone.half_width       = std::max(scene.mesh.fine_half_width, 1.1 * half_width + scene.mesh.finest_cell);
+      zone.depth            = scene.mesh.fine_layers * zone.finest_cell_size;
+      zone.cells_per_level  = scene.mesh.cells_per_level;
+      zone.level_depth      = scene.mesh.level_depth * std::sqrt(half_width * 0.5 * (s.x_end - s.x_begin));
+      return zone;
+    }
+
+    /// The middle of a body's block lies between the patches, its base at right angles to the mean of their
+    /// normals.
+    struct Middle
+    {
+      double s, inclination;
+    };
+    template <typename ParameterOf>
+    Middle middle_of(const std::vector<WheelPatch> &patches, const ParameterOf &parameter_of)
+    {
+      double s[2] = {1e300, -1e300}, angle[2] = {1e300, -1e300};
+      for (const WheelPatch &patch : patches)
+        {
+          s[0]     = std::min(s[0], parameter_of(patch));
+          s[1]     = std::max(s[1], parameter_of(patch));
+          angle[0] = std::min(angle[0], patch.angle());
+          angle[1] = std::max(angle[1], patch.angle());
+        }
+      return {0.5 * (s[0] + s[1]), 0.5 * (angle[0] + angle[1])};
+    }
+  } // namespace
+
+
+  Body PlacedWheel::make_rail(const Scene &scene) const
+  {
+    const auto parameter_of = [&](const WheelPatch &patch) {
+      return surfaces.rail().parameter(patch.region.reference[1]);
+    };
+    const Middle          middle = middle_of(patches(), parameter_of);
+    const ProfileSection  section(surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.), middle.s,
+                                  middle.inclination, ProfileSection::Side::below,
+                                  scene.wheel.sector_thickness, scene.wheel.half_width());
+    std::vector<FineZone> zones;
+    for (const WheelPatch &patch : patches())
+      zones.push_back(zone_of(scene, patch.solution, scene.path_begin() + patch.region.reference[0],
+                              parameter_of(patch) - middle.s));
+    Body body = make_profile_block(
+      section, scene.rail_begin(), scene.rail_end(), scene.mesh.coarsest_cell, zones, false,
+      [](const double x, const dealii::Point<2> p) { return dealii::Point<3>(x, p[0], p[1]); });
+    body.name = "rail";
+    return body;
+  }
+
+
+  Body PlacedWheel::make_wheel(const Scene &scene) const
+  {
+    const Middle         middle = middle_of(patches(), [](const WheelPatch &patch) { return patch.wheel_s; });
+    const ProfileSection section(
+      surfaces.wheel(), middle.s,
+      std::atan2(surfaces.wheel().at(middle.s).dz, surfaces.wheel().at(middle.s).dy),
+      ProfileSection::Side::above, scene.wheel.sector_thickness, scene.wheel.half_width());
+    // Along the tread arcs have the length that they have on the circle through the middle.
+    const double          radius = surfaces.radius() - surfaces.wheel().at(middle.s).z;
+    std::vector<FineZone> zones;
+    double                begin = 1e300, end = -1e300;
+    for (const WheelPatch &patch : patches())
+      {
+        zones.push_back(zone_of(scene, patch.solution, radius * patch.wheel_angle, patch.wheel_s - middle.s));
+        begin = std::min(begin, radius * patch.wheel_angle);
+        end   = std::max(end, radius * patch.wheel_angle);
+      }
+    const double     margin = scene.wheel.sector_margin, x_start = scene.path_begin();
+    WheelsetPosition position = contact.position;
+    Body             body     = make_profile_block(
+                      section, begin - margin, end + scene.motion.rolled_distance + margin, scene.mesh.coarsest_cell, zones,
+                      true, [surfaces = surfaces, position, radius, x_start](const double arc, const dealii::Point<2> p) {
+        const Vector3d q = surfaces.place(position, p[0], p[1], arc / radius);
+        return dealii::Point<3>(q[0] + x_start, q[1] - surfaces.rail_origin_y(), q[2]);
+      });
+    body.name = "wheel";
+    return body;
+  }
+
+
+  PlacedWheel::Place PlacedWheel::place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const
+  {
+    const Vector3 arm = Vector3{p[0], p[1], p[2], 0.} - origin(patch);
+    return {arm[0], dot(arm, along(patch)), -dot(arm, normal(patch))};
+  }
+
+
+  PlacedWheel::Place PlacedWheel::place_in_wheel(const dealii::Point<3> &p,
+                                                 const WheelPatch       &patch,
+                                                 const double            start_x) const
+  {
+    // The meridian through the point, turned about the axle to that of the patch.
+    const Vector3 a = axle(), arm = Vector3{p[0] - start_x, p[1], p[2], 0.} - middle(),
+                  of_patch = origin(patch) - middle();
+    const Vector3 off = arm - dot(a, arm) * a, patch_off = of_patch - dot(a, of_patch) * a;
+    const double  angle  = std::atan2(-dot(a, cross(patch_off, off)), dot(patch_off, off));
+    const Vector3 turned = dot(a, arm) * a + (norm(off) / norm(patch_off)) * patch_off;
+    const Vector3 from   = turned - of_patch;
+    return {angle * patch.rolling_radius, dot(from, along(patch)), dot(from, normal(patch))};
+  }
+} // namespace tread

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/scene/wheelset_case.h>
+#include <tread/scene/wheelset_summary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace tread
+{
+  namespace
+  {
+    /// A figure of a patch: its key in summary.json, and its line on the screen where it has one.
+    struct Figure
+    {
+      const char                               *key, *label;
+      double                                    scale; ///< from SI to the unit of the label
+      std::function<double(const WheelPatch &)> value;
+    };
+
+    /// @param rail_y where the middle of the rail's top lies in the track, m
+    std::vector<Figure> figures_of_patch(const double rail_y)
+    {
+      using P = WheelPatch;
+      return {{"normal_force_N", "normal force, kN", 1e-3,
+               [](const P &p) {
+                 return p.solution.normal_force;
+               }},
+              {"longitudinal_force_N", "longitudinal force, kN", 1e-3,
+               [](const P &p) {
+                 return p.solution.longitudinal_force;
+               }},
+              {"lateral_force_N", "lateral force, kN", 1e-3,
+               [](const P &p) {
+                 return p.solution.lateral_force;
+               }},
+              {"spin_moment_Nm", "spin moment, N m", 1.,
+               [](const P &p) {
+                 return p.solution.spin_moment;
+               }},
+              {"x_m", "x from the axle, mm", 1e3,
+               [](const P &p) {
+                 return p.region.reference[0];
+               }},
+              {"y_m", "y in the track, mm", 1e3,
+               [](const P &p) {
+                 return p.region.reference[1];
+               }},
+              {"y_rail_m", "y from the rail's middle, mm", 1e3,
+               [rail_y](const P &p) {
+                 return p.region.reference[1] - rail_y;
+               }},
+              {"z_m", "", 1e3,
+               [](const P &p) {
+                 return p.region.reference[2];
+               }},
+              {"angle_rad", "contact angle, degrees", 180. / dealii::numbers::PI,
+               [](const P &p) {
+                 return p.angle();
+               }},
+              {"rolling_radius_m", "rolling radius, mm", 1e3,
+               [](const P &p) {
+                 return p.rolling_radius;
+               }},
+              {"rolling_speed_m_per_s", "", 1.,
+               [](const P &p) {
+                 return p.rolling_speed;
+               }},
+              {"creepage", "creepage, 1e-3", 1e3,
+               [](const P &p) {
+                 return 0. - p.creepage;
+               }},
+              {"lateral_creepage", "lateral creepage, 1e-3", 1e3,
+               [](const P &p) {
+                 return p.lateral_creepage;
+               }},
+              {"spin_per_m", "spin, 1/m", 1.,
+               [](const P &p) {
+                 return p.spin;
+               }},
+              {"max_pressure_Pa", "maximum pressure, MPa", 1e-6,
+               [](const P &p) {
+                 return p.solution.max_pressure;
+               }},
+              {"area_m2", "area, mm2", 1e6,
+               [](const P &p) {
+                 return p.solution.area;
+               }},
+              {"length_m", "length along x, mm", 1e3,
+               [](const P &p) {
+                 return p.solution.x_end - p.solution.x_begin;
+               }},
+              {"width_m", "width across, mm", 1e3,
+               [](const P &p) {
+                 return p.solution.y_end - p.solution.y_begin;
+               }},
+              {"adhesion_share", "adhesion share, %", 1e2,
+               [](const P &p) {
+                 return p.solution.adhesion_share;
+               }},
+              {"max_shear_Pa", "maximum shear stress, MPa", 1e-6,
+               [](const P &p) {
+                 return p.solution.max_shear;
+               }},
+              {"max_slip_m_per_s", "maximum micro-slip, m/s", 1.,
+               [](const P &p) {
+                 return p.solution.max_slip;
+               }},
+              {"frictional_power_W", "frictional power, W", 1.,
+               [](const P &p) {
+                 return p.solution.frictional_power;
+               }},
+              {"overlap_m", "undeformed overlap, um", 1e6,
+               [](const P &p) {
+                 return p.region.overlap;
+               }},
+              {"normal_turns_rad", "the normal turns by, degrees", 180. / dealii::numbers::PI,
+               [](const P &p) {
+                 return p.turn;
+               }},
+              {"wheel_profile_radius_m", "", 1e3,
+               [](const P &p) {
+                 return p.wheel_radius;
+               }},
+              {"rail_profile_radius_m", "", 1e3,
+               [](const P &p) {
+                 return p.rail_radius;
+               }},
+              {"element_x_m", "", 1e3,
+               [](const P &p) {
+                 return p.solution.grid.dx;
+               }},
+              {"element_y_m", "", 1e3, [](const P &p) {
+                 return p.solution.grid.dy;
+               }}};
+    }
+  } // namespace
+
+
+  std::string table_of_patches(const std::vector<WheelPatch> &patches,
+                               const double                   rail_y,
+                               const std::vector<WheelPatch> &references)
+  {
+    std::string text = format("%-32s", "");
+    for (std::size_t k = 0; k < patches.size(); ++k)
+      {
+        text += format(" %12s", ("patch " + std::to_string(k + 1)).c_str());
+        if (!references.empty())
+          text += format(" %12s %10s", "half-space", "diff.");
+      }
+    for (const Figure &figure : figures_of_patch(rail_y))
+      if (*figure.label)
+        {
+          text += format("\n%-32s", figure.label);
+          for (std::size_t k = 0; k < patches.size(); ++k)
+            {
+              const double value = figure.value(patches[k]);
+              text += format(" %12.5g", figure.scale * value);
+              if (references.empty())
+                continue;
+              const double reference = figure.value(references[k]);
+              text += format(" %12.5g", figure.scale * reference);
+              text += value == reference || reference == 0.
+                        ? format(" %10s", "")
+                        : format(" %+8.2f %%", 100. * (value / reference - 1.));
+            }
+        }
+    return text + "\n";
+  }
+
+
+  nlohmann::ordered_json patches_as_json(const std::vector<WheelPatch> &patches, const double rail_y)
+  {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const WheelPatch &patch : patches)
+      {
+        nlohmann::ordered_json entry;
+        for (const Figure &figure : figures_of_patch(rail_y))
+          entry[figure.key] = figure.value(patch);
+        list.push_back(entry);
+      }
+    return list;
+  }
+
+
+  std::vector<std::string> limits_of_half_space(const std::vector<WheelPatch> &patches)
+  {
+    std::vector<std::string> warnings;
+    for (std::size_t k = 0; k < patches.size(); ++k)
+      {
+        if (patches[k].turn > largest_turn_of_a_plane)
+          warnings.push_back(
+            format("patch %u is conformal: its normal turns by %.1f degrees, more than the %.1f degrees "
+                   "that a plane stands for; "
+                   "forces, pressure and spin are those of a half-space that the bodies are not",
+                   static_cast<unsigned int>(k + 1), 180. / dealii::numbers::PI * patches[k].turn,
+                   180. / dealii::numbers::PI * largest_turn_of_a_plane));
+        if (patches[k].region.parts > 1)
+          warnings.push_back(format("patch %u holds %u regions less than 8 mm apart, solved in one plane",
+                                    static_cast<unsigned int>(k + 1), patches[k].region.parts));
+      }
+    return warnings;
+  }
+
+
+  double frictional_power(const WheelContact &contact)
+  {
+    double sum = 0.;
+    for (const WheelPatch &patch : contact.patches)
+      sum += patch.solution.frictional_power;
+    return sum;
+  }
+
+
+  void summarise_wheelset(Summary            &summary,
+                          const Scene        &scene,
+                          const std::string  &method,
+                          const WheelContact &contact,
+                          const bool          completed)
+  {
+    summary.set("title", scene.general.title);
+    summary.set("method", method);
+    summary.set("completed", completed);
+    summary.set("lateral_shift_m", scene.wheelset.position().shift);
+    summary.set("yaw_rad", scene.wheelset.yaw);
+    summary.set("roll_rad", scene.wheelset.roll);
+    summary.set("angular_velocity_rad_per_s", wheel_rolling(scene).angular_velocity);
+    summary.show("wheelset_height_m", "wheelset over its radius, mm", 1e3, contact.position.height);
+    summary.set("traction_coefficient", contact.force[2] > 0. ? contact.force[0] / contact.force[2] : 0.);
+    summary.set("friction_coefficient", scene.contact.friction_coefficient);
+    double pressure = 0., area = 0., shear = 0., slip = 0.;
+    for (const WheelPatch &patch : contact.patches)
+      {
+        pressure = std::max(pressure, patch.solution.max_pressure);
+        area += patch.solution.area;
+        shear = std::max(shear, patch.solution.max_shear);
+        slip  = std::max(slip, patch.solution.max_slip);
+      }
+    summary.set("max_pressure_Pa", pressure);
+    summary.set("patch_area_m2", area);
+    summary.set("max_shear_Pa", shear);
+    summary.set("max_slip_m_per_s", slip);
+  }
+} // namespace tread
