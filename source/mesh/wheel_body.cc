@@ -50,7 +50,8 @@ namespace tread
     }
 
     /// wanted_cell_size around the axis. The box, and the cubes in it, are moved to arc lengths symmetric to
-    /// zero, so that the shorter way around counts; distances along the arc are those at the point's own radius.
+    /// zero, so that the shorter way around counts; distances along the arc are those at the point's own
+    /// radius.
     std::function<double(const dealii::Point<3> &)> cell_size_around(const WheelAxis &axis,
                                                                      const double     radius,
                                                                      FineZone         zone)

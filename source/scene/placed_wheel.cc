@@ -196,23 +196,46 @@ namespace tread
       return 1.25 * 0.5 * (s.x_end - s.x_begin) + 2. * scene.mesh.finest_cell;
     }
 
-    /// The finest cells at a patch. @param x_middle of the patch at the start; @param along of its reference
-    /// point
-    FineZone zone_of(const Scene                   &scene,
-                     const reference::PlanarResult &s,
-                     const double                   x_reference,
-                     const double                   along)
+    /// Parameter of a profile at the distance t (m) in a patch's plane from the point at s.
+    double parameter_at(const ProfileCurve &profile, const WheelPatch &patch, const double s, const double t)
     {
-      const double x = x_reference + 0.5 * (s.x_begin + s.x_end), half_width = 0.5 * (s.y_end - s.y_begin);
-      FineZone     zone;
+      const double step = std::copysign(0.05e-3, t), cosine = std::cos(patch.angle()),
+                   sine = std::sin(patch.angle());
+      double at         = s;
+      for (double gone = 0.; std::abs(gone) < std::abs(t) && at >= 0. && at <= profile.length(); at += step)
+        {
+          const ProfileCurve::Place p = profile.at(at);
+          // Where the profile stands steep on the plane a step is worth little.
+          gone += step * std::max(0.2, p.dy * cosine + p.dz * sine);
+        }
+      return at;
+    }
+
+    /// The finest cells at a patch on one of the bodies. @param x_reference of its reference point at the
+    /// start
+    /// @param s, s_middle parameters of the body's profile there and in the middle of its block
+    FineZone zone_of(const Scene        &scene,
+                     const WheelPatch   &patch,
+                     const ProfileCurve &profile,
+                     const double        x_reference,
+                     const double        s,
+                     const double        s_middle)
+    {
+      // Contact that a plane does not stand for may reach farther than in one.
+      const double                   wider = 1.1 + 0.3 * patch.turn;
+      const reference::PlanarResult &r     = patch.solution;
+      const double                   x     = x_reference + 0.5 * (r.x_begin + r.x_end),
+                   begin                   = parameter_at(profile, patch, s, r.y_begin),
+                   end = parameter_at(profile, patch, s, r.y_end), half_width = 0.5 * (end - begin);
+      FineZone zone;
       zone.finest_cell_size = scene.mesh.finest_cell;
-      zone.x_begin          = x - beyond_path(scene, s);
-      zone.x_end            = x + scene.motion.rolled_distance + beyond_path(scene, s);
-      zone.y_middle         = along + 0.5 * (s.y_begin + s.y_end);
-      zone.half_width       = std::max(scene.mesh.fine_half_width, 1.1 * half_width + scene.mesh.finest_cell);
-      zone.depth            = scene.mesh.fine_layers * zone.finest_cell_size;
-      zone.cells_per_level  = scene.mesh.cells_per_level;
-      zone.level_depth      = scene.mesh.level_depth * std::sqrt(half_width * 0.5 * (s.x_end - s.x_begin));
+      zone.x_begin          = x - beyond_path(scene, r);
+      zone.x_end            = x + scene.motion.rolled_distance + beyond_path(scene, r);
+      zone.y_middle         = 0.5 * (begin + end) - s_middle;
+      zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell);
+      zone.depth      = scene.mesh.fine_layers * zone.finest_cell_size;
+      zone.cells_per_level = scene.mesh.cells_per_level;
+      zone.level_depth     = scene.mesh.level_depth * std::sqrt(half_width * 0.5 * (r.x_end - r.x_begin));
       return zone;
     }
 
@@ -238,19 +261,43 @@ namespace tread
   } // namespace
 
 
+  namespace
+  {
+    /// @throws InputError unless a body has its profile wherever cells are finest.
+    void require_on_profile(const ProfileSection        &section,
+                            const std::vector<FineZone> &zones,
+                            const std::string           &parameter)
+    {
+      for (const FineZone &zone : zones)
+        require(zone.y_middle - zone.half_width >= section.begin() &&
+                  zone.y_middle + zone.half_width <= section.end(),
+                "a patch lies where the profile of '" + parameter +
+                  "' ends, or stands steeper than 70 degrees on the block that is meshed behind it: its "
+                  "finest cells reach "
+                  "from " +
+                  text_in_mm(zone.y_middle - zone.half_width) + " to " +
+                  text_in_mm(zone.y_middle + zone.half_width) + " mm along the surface, the profile from " +
+                  text_in_mm(section.begin()) + " to " + text_in_mm(section.end()) +
+                  " mm: change 'Mesh/Fine half width (mm)', 'Wheel/Sector width (mm)' or the position");
+    }
+  } // namespace
+
+
   Body PlacedWheel::make_rail(const Scene &scene) const
   {
-    const auto parameter_of = [&](const WheelPatch &patch) {
+    const ProfileCurve profile      = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
+    const auto         parameter_of = [&](const WheelPatch &patch) {
       return surfaces.rail().parameter(patch.region.reference[1]);
     };
     const Middle          middle = middle_of(patches(), parameter_of);
-    const ProfileSection  section(surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.), middle.s,
-                                  middle.inclination, ProfileSection::Side::below,
+    const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
                                   scene.wheel.sector_thickness, scene.wheel.half_width());
     std::vector<FineZone> zones;
     for (const WheelPatch &patch : patches())
-      zones.push_back(zone_of(scene, patch.solution, scene.path_begin() + patch.region.reference[0],
-                              parameter_of(patch) - middle.s));
+      zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
+                              parameter_of(patch), middle.s));
+    require_on_profile(section, zones,
+                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head");
     Body body = make_profile_block(
       section, scene.rail_begin(), scene.rail_end(), scene.mesh.coarsest_cell, zones, false,
       [](const double x, const dealii::Point<2> p) { return dealii::Point<3>(x, p[0], p[1]); });
@@ -261,29 +308,31 @@ namespace tread
 
   Body PlacedWheel::make_wheel(const Scene &scene) const
   {
+    const ProfileCurve  &profile = surfaces.wheel();
     const Middle         middle = middle_of(patches(), [](const WheelPatch &patch) { return patch.wheel_s; });
-    const ProfileSection section(
-      surfaces.wheel(), middle.s,
-      std::atan2(surfaces.wheel().at(middle.s).dz, surfaces.wheel().at(middle.s).dy),
-      ProfileSection::Side::above, scene.wheel.sector_thickness, scene.wheel.half_width());
+    const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
+                                 scene.wheel.sector_thickness, scene.wheel.half_width());
     // Along the tread arcs have the length that they have on the circle through the middle.
-    const double          radius = surfaces.radius() - surfaces.wheel().at(middle.s).z;
+    const double          radius = surfaces.radius() - profile.at(middle.s).z;
     std::vector<FineZone> zones;
     double                begin = 1e300, end = -1e300;
     for (const WheelPatch &patch : patches())
       {
-        zones.push_back(zone_of(scene, patch.solution, radius * patch.wheel_angle, patch.wheel_s - middle.s));
-        begin = std::min(begin, radius * patch.wheel_angle);
-        end   = std::max(end, radius * patch.wheel_angle);
+        const double arc = radius * patch.wheel_angle;
+        zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s));
+        begin = std::min(begin, arc);
+        end   = std::max(end, arc);
       }
-    const double     margin = scene.wheel.sector_margin, x_start = scene.path_begin();
-    WheelsetPosition position = contact.position;
-    Body             body     = make_profile_block(
-                      section, begin - margin, end + scene.motion.rolled_distance + margin, scene.mesh.coarsest_cell, zones,
-                      true, [surfaces = surfaces, position, radius, x_start](const double arc, const dealii::Point<2> p) {
-        const Vector3d q = surfaces.place(position, p[0], p[1], arc / radius);
-        return dealii::Point<3>(q[0] + x_start, q[1] - surfaces.rail_origin_y(), q[2]);
-      });
+    require_on_profile(section, zones, "Wheel/Tread profile");
+    const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
+    Body         body =
+      make_profile_block(section, begin - margin, end + scene.motion.rolled_distance + margin,
+                         scene.mesh.coarsest_cell, zones, true,
+                         [surfaces = surfaces, position = contact.position, radius,
+                          x_start](const double arc, const dealii::Point<2> p) {
+                           const Vector3d q = surfaces.place(position, p[0], p[1], arc / radius);
+                           return dealii::Point<3>(q[0] + x_start, q[1] - surfaces.rail_origin_y(), q[2]);
+                         });
     body.name = "wheel";
     return body;
   }

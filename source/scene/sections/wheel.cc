@@ -32,8 +32,14 @@ namespace tread
     section.add("Moment of inertia (kg m2)", moment_of_inertia,
                 "About the axle, of the same. Matters when a torque drives.", Double(tiny));
     section.add("Sector thickness (mm)", sector_thickness,
-                "Radial size of a sector. Thicker is nearer to a half-space.", Double(1., 1000.));
-    section.add("Sector width (mm)", sector_width, "Lateral size of a sector.", Double(1., 1000.));
+                "Radial size of a sector. Thicker is nearer to a half-space. Where 'Wheelset' has a "
+                "position: of wheel and "
+                "rail behind the surface, at right angles to the contact.",
+                Double(1., 1000.));
+    section.add("Sector width (mm)", sector_width,
+                "Lateral size of a sector. Where 'Wheelset' has a position: of wheel and rail along the "
+                "surface across the path.",
+                Double(1., 1000.));
     section.add("Sector margin (mm)", sector_margin,
                 "Arc of a sector beyond the rolled distance, at each end.", Double(0., 1000.));
     section.add("Rim inner radius (mm)", rim_inner_radius,

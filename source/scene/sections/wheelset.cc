@@ -26,9 +26,8 @@ namespace tread
     section.add(
       "Lateral shift (mm)", shift, "none",
       "Of the wheelset from the middle of the track, positive towards the wheel's own side: its flange "
-      "then approaches the rail. A number, 0 too, puts the wheel with its flange into the track; such a "
-      "scene is answered by --reference-only. none: an upright wheel over the rail, at 'Wheel/Lateral "
-      "position (mm)'.",
+      "then approaches the rail. A number, 0 too, puts the wheel with its flange into the track. none: an "
+      "upright wheel over the rail, at 'Wheel/Lateral position (mm)'.",
       Double(-100., 100.));
     section.add(
       "Yaw (mrad)", yaw,
