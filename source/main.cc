@@ -132,7 +132,10 @@ namespace
     if (line.scene.empty() && !line.print_parameters)
       throw tread::InputError("no scene given; tread --help shows how, prm/ holds scenes to start from");
     tread::Scene scene;
-    scene.read(line.scene, line.settings);
+    if (line.points.wanted)
+      scene.read_surfaces(line.scene, line.settings);
+    else
+      scene.read(line.scene, line.settings);
     if (line.print_parameters)
       {
         if (speaks)

@@ -264,6 +264,19 @@ namespace tread
   }
 
 
+  std::vector<std::string> climbing_patches(const WheelOnRail             &surfaces,
+                                            const std::vector<WheelPatch> &patches)
+  {
+    std::vector<std::string> lines;
+    for (std::size_t k = 0; k < patches.size(); ++k)
+      if (surfaces.is_beyond_flank(patches[k].wheel_s))
+        lines.push_back(format("patch %u lies between the steepest part of the flange and its tip: the wheel "
+                               "climbs out of the track; lower 'Wheelset/Lateral shift (mm)'",
+                               static_cast<unsigned int>(k + 1)));
+    return lines;
+  }
+
+
   WheelContact contact_under_load(const WheelOnRail  &surfaces,
                                   const WheelRolling &rolling,
                                   WheelsetPosition    position,

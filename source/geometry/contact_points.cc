@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace tread
@@ -13,8 +14,12 @@ namespace tread
     {
       const WheelOnRail::OutlinePoint &point = nearest.point;
       const ProfileCurve::Place        place = surfaces.wheel().at(point.s);
-      return {point.place[0], point.place[1], place.y, std::atan(surfaces.rail().slope(point.place[1])),
-              surfaces.radius() - place.z};
+      return {point.place[0],
+              point.place[1],
+              place.y,
+              std::atan(surfaces.rail().slope(point.place[1])),
+              surfaces.radius() - place.z,
+              surfaces.is_beyond_flank(point.s)};
     }
   } // namespace
 
@@ -50,6 +55,70 @@ namespace tread
           position.roll = 0.5 * (low + high);
       }
     throw std::runtime_error("no roll is found at which both wheels touch");
+  }
+
+
+  RadiusDifferences::RadiusDifferences(const WheelOnRail      &surfaces,
+                                       const WheelsetPosition &position,
+                                       const double            largest)
+    : reach(std::numeric_limits<double>::infinity())
+  {
+    constexpr double coarse = 0.25e-3; // m, half of it is looked at
+    const int        n      = std::max(2, static_cast<int>(std::ceil(largest / coarse)));
+    for (int i = -n; i <= n; ++i)
+      add(surfaces, position, largest * i / n);
+    for (int i = -n; i < n; ++i)
+      refine(surfaces, position, largest * i / n, largest * (i + 1) / n);
+  }
+
+
+  void RadiusDifferences::add(const WheelOnRail &surfaces, WheelsetPosition position, const double shift)
+  {
+    position.shift = shift;
+    position.roll  = 0.;
+    try
+      {
+        differences[shift] = touching_wheelset(surfaces, position).radius_difference();
+      }
+    catch (const std::runtime_error &)
+      {
+        differences[shift] = std::numeric_limits<double>::quiet_NaN();
+        reach              = std::min(reach, std::abs(shift));
+      }
+  }
+
+
+  void RadiusDifferences::refine(const WheelOnRail      &surfaces,
+                                 const WheelsetPosition &position,
+                                 const double            begin,
+                                 const double            end)
+  {
+    constexpr double smallest = 1e-6, tolerance = 2e-6; // m
+    const double     middle = 0.5 * (begin + end), expected = 0.5 * (differences[begin] + differences[end]);
+    if (end - begin < smallest || std::isnan(expected))
+      return;
+    add(surfaces, position, middle);
+    if (std::abs(differences[middle] - expected) > tolerance)
+      {
+        refine(surfaces, position, begin, middle);
+        refine(surfaces, position, middle, end);
+      }
+  }
+
+
+  double RadiusDifferences::conicity(const double amplitude) const
+  {
+    constexpr double round_off = 1e-12; // m
+    if (!(amplitude > 0.) || amplitude >= reach || amplitude > differences.rbegin()->first + round_off)
+      return std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> shifts, values;
+    for (const auto &[shift, value] : differences)
+      if (!std::isnan(value))
+        {
+          shifts.push_back(shift);
+          values.push_back(value);
+        }
+    return equivalent_conicity(shifts, values, amplitude);
   }
 
 

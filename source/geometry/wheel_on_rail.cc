@@ -78,6 +78,31 @@ namespace tread
         y = std::min(y, rail.at(at).y);
       return {y, top};
     }
+    /// s at which the flange of a wheel leaves its steepest part towards the tip; 0 without a flange.
+    double end_of_flank(const ProfileCurve &wheel, const std::vector<double> &samples)
+    {
+      constexpr double least_angle = 0.5, flatter = 0.05; // rad, and what a measured flank varies by
+      // The tip is the lowest place on the flange's side of the running circle.
+      double tip = 0., lowest = 1e300;
+      for (const double s : samples)
+        if (const ProfileCurve::Place p = wheel.at(s); p.y < 0. && p.z < lowest)
+          {
+            lowest = p.z;
+            tip    = s;
+          }
+      const auto angle = [&](const double s) {
+        const ProfileCurve::Place p = wheel.at(s);
+        return p.y < 0. ? std::atan2(p.dz, p.dy) : 0.;
+      };
+      double steepest = 0.;
+      for (const double s : samples)
+        if (s > tip)
+          steepest = std::max(steepest, angle(s));
+      if (steepest < least_angle)
+        return 0.;
+      return *std::find_if(samples.begin(), samples.end(),
+                           [&](const double s) { return s > tip && angle(s) >= steepest - flatter; });
+    }
   } // namespace
 
 
@@ -97,6 +122,7 @@ namespace tread
     const auto n             = static_cast<unsigned int>(std::ceil(wheel.length() / sample_spacing));
     for (unsigned int i = 0; i <= n; ++i)
       samples.push_back(wheel.length() * i / n);
+    flank_end = end_of_flank(wheel, samples);
   }
 
 

@@ -212,12 +212,14 @@ namespace tread
     // its foot.
     const bool stands_upright = rail.angle() == 0. && rail.measured_head.empty() &&
                                 std::abs(first_contact().y) < 1e-6 &&
-                                (!shapes->defect || defect.lateral_position == 0.);
-    require(track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),
-            "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
-            "('Rail/Inclination' none), wheel and defect meet it on y = 0, and its crown radius exceeds its "
-            "height, " +
-              text_in_mm(rail.height()) + " mm");
+                                (!shapes->defect || defect.lateral_position == 0.) &&
+                                motion.lateral_creepage == 0. && motion.spin == 0.;
+    require(
+      track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),
+      "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
+      "('Rail/Inclination' none), wheel and defect meet it on y = 0, 'Motion/Lateral creepage' and 'Spin "
+      "(1 per m)' are 0, and its crown radius exceeds its height, " +
+        text_in_mm(rail.height()) + " mm");
     check_overhang();
     if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
       {
@@ -318,7 +320,7 @@ namespace tread
   }
 
 
-  std::vector<std::string> Scene::assumptions() const
+  std::vector<std::string> Scene::assumptions(const bool has_tractions) const
   {
     std::vector<std::string> list;
     const double             scale = general.density_scale, mass_damping = solid.mass_damping;
@@ -334,9 +336,13 @@ namespace tread
       list.push_back(
         "the way from the torque's onset to steady rolling is that of the scaled or damped cells, "
         "not the true one");
-    list.push_back(start.tractions == StartTractions::predicted
-                     ? "the start has the tractions that half-space theory predicts for steady rolling"
-                     : "the start has no tractions; they build up while rolling");
+    if (has_tractions)
+      list.push_back("the start has the tractions that half-space theory predicts for steady rolling");
+    else
+      list.push_back(
+        std::string("the start has no tractions") +
+        (start.tractions == StartTractions::predicted ? ", which half-space theory cannot predict" : "") +
+        "; they build up while rolling");
     if (const auto law = friction_law(); !law->is_constant() && law->memory().distance == 0.)
       list.push_back(
         "friction follows the slip speed at once: where pressure times the fall of the coefficient "

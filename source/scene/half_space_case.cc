@@ -70,6 +70,34 @@ namespace tread
   }
 
 
+  reference::RollingEstimate half_space_answer(const Scene                  &scene,
+                                               const reference::RollingCase &c,
+                                               const unsigned int            wheel)
+  {
+    const std::string law = "'Contact/Friction law' " + scene.contact.friction_law;
+    const std::string traction =
+      (wheel == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
+      text_of(c.traction_coefficient);
+    if (c.slip_friction && reference::combine(c.wheel, c.rail).coupling != 0.)
+      throw InputError(law + " with unlike materials of wheel and rail has no half-space answer");
+    if (c.prescribe_force && c.traction_coefficient != 0. && std::abs(c.traction_coefficient) >= c.friction)
+      throw InputError(traction + " is not below the friction coefficient in size, which is " +
+                       text_of(c.friction) +
+                       " there by 'Contact/Friction coefficient' and 'Contact/Friction factors'");
+    try
+      {
+        return reference::estimate_rolling(c);
+      }
+    catch (const std::exception &error)
+      {
+        if (c.prescribe_force && c.slip_friction)
+          throw InputError(traction + " is beyond what " + law +
+                           " carries while it slips, or too near to it: lower it (" + error.what() + ")");
+        throw InputError(error.what());
+      }
+  }
+
+
   reference::HertzEllipse hertz(const reference::RollingCase &c)
   {
     return reference::hertz_ellipse(c.curvature_x, c.curvature_y,
@@ -217,7 +245,7 @@ namespace tread
     constexpr double no_lateral_force = 1e-3;
     if (const double lateral = reference.force[1] / reference.force[2]; std::abs(lateral) > no_lateral_force)
       with_half_space("lateral_coefficient", "lateral over normal force", 1.,
-                      answer.force[1] / answer.force[2], lateral,
+                      answer.patch.lateral_force / answer.patch.normal_force, lateral,
                       {lateral, half_space.lateral_force.uncertainty / reference.force[2]}, no_lateral_force);
     with_half_space("adhesion_share", "adhesion share, %", 1e2, answer.patch.adhesion_share,
                     reference.patch.adhesion_share, half_space.adhesion_share, 0.);

@@ -59,6 +59,8 @@ namespace tread
         "up to $2 numbers from $1, separated by commas");
       text = std::regex_replace(
         text, std::regex(R"(\[(Double|Integer range) (\S*?)\.\.\.(\S*) \(inclusive\)\])"), "$2 to $3");
+      text = std::regex_replace(text, std::regex("-MAX_DOUBLE to MAX_DOUBLE"), "a finite number");
+      text = std::regex_replace(text, std::regex("-MAX_DOUBLE to "), "at most ");
       return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }
 
@@ -181,13 +183,29 @@ namespace tread
   }
 
 
-  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
+  void Scene::take(const std::string &file, const std::vector<std::string> &settings)
   {
     if (!file.empty())
       parse(file);
     for (const std::string &setting : settings)
       set(setting);
     folder = std::filesystem::path(file).parent_path();
+  }
+
+
+  void Scene::read_surfaces(const std::string &file, const std::vector<std::string> &settings)
+  {
+    take(file, settings);
+    shapes = make_path();
+    wheelset.check();
+    rail.check();
+    wheel.check();
+  }
+
+
+  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
+  {
+    take(file, settings);
     // A wheelset in a given position has no point of first contact by an upright wheel.
     if (is_positioned())
       shapes = make_path();

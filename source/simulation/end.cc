@@ -22,6 +22,10 @@ namespace tread
     /// of traction is a tenth of the creepage.
     constexpr double nearly_sliding = 0.99;
 
+    /// Amplitude of the tangential over the normal force from which a run is not called steady. Waves of the
+    /// cells make up to a hundredth.
+    constexpr double large_ripple = 0.03;
+
     /// @param stress Pa; @param x, y, depth m
     std::string line_of_stress(const std::string &what,
                                const double       stress,
@@ -75,16 +79,49 @@ namespace tread
   std::vector<PatchNode> Simulation::compare_with_half_space(Summary             &summary,
                                                              const ContactAnswer &answer) const
   {
-    const double normal = answer.force[2], traction = answer.force[0];
-    const bool   all_slips =
-      std::hypot(traction, answer.force[1]) >= nearly_sliding * scene.contact.friction_coefficient *
-                                                 scene.contact.friction_factor(scene.path_end()) * normal;
-    reference::RollingCase c = half_space_case(scene, normal, all_slips ? 0. : traction / normal);
-    c.prescribe_force        = !all_slips;
-    c.creepage               = -answer.creepage;
+    const double         normal = answer.force[2], traction = answer.force[0];
+    const PatchMeasures &patch = answer.patch;
+    // Forces in the contact's own plane: where it is inclined, that on the wheel has a part of the
+    // pressure's.
+    const bool all_slips = !(patch.adhesion_share > 0.) ||
+                           std::hypot(patch.longitudinal_force, patch.lateral_force) >=
+                             nearly_sliding * scene.contact.friction_coefficient *
+                               scene.contact.friction_factor(scene.path_end()) * patch.normal_force;
+    // Where friction falls with slip, a force belongs to several creepages.
+    const bool             by_creepage = all_slips || !scene.friction_law()->is_constant();
+    reference::RollingCase c           = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
+    c.prescribe_force                  = !by_creepage;
+    c.creepage                         = -answer.creepage;
     const reference::RollingEstimate half_space = reference::estimate_rolling(c);
     compare(summary, answer, half_space, c.prescribe_force);
     return patch_nodes(half_space.fields, scene.first_contact().y);
+  }
+
+
+  std::string Simulation::compare_with_steady_rolling(Summary                &summary,
+                                                      const ContactAnswer    &answer,
+                                                      std::vector<PatchNode> &patch) const
+  {
+    if (scene.has_defect())
+      return "no comparison with steady rolling: the wheel crosses a defect";
+    if (!(answer.force[2] > 0.))
+      return "";
+    const double half_length = hertz(scene, answer.force[2]).semi_axis_x;
+    if (scene.contact.friction_varies(scene.path_end() - last_way - half_length,
+                                      scene.path_end() + half_length))
+      return format(
+        "no comparison with steady rolling: 'Contact/Friction factors' change in the patch at the "
+        "end or on its last %g mm",
+        1e3 * last_way);
+    try
+      {
+        patch = compare_with_half_space(summary, answer);
+      }
+    catch (const std::exception &error)
+      {
+        return std::string("no half-space reference: ") + error.what();
+      }
+    return "";
   }
 
 
@@ -167,8 +204,7 @@ namespace tread
     rolled.patch_lengths =
       (distance - (torque_released ? scene.motion.hold_distance : 0.)) / (2. * ellipse.semi_axis_x);
     // Half-space theory does not predict what yields.
-    rolled.lengths_to_be_steady =
-      scene.start.tractions == StartTractions::predicted && n_plastic_cells == 0 ? 1.5 : 3.;
+    rolled.lengths_to_be_steady = starts_with_tractions && n_plastic_cells == 0 ? 1.5 : 3.;
     summary.set("rolled_m", distance);
     summary.set("rolled_patch_lengths", rolled.patch_lengths);
     summary.set("long_enough_to_be_steady", rolled.long_enough());
@@ -316,17 +352,33 @@ namespace tread
   }
 
 
+  void Simulation::add_doubts(std::vector<std::string> &warnings) const
+  {
+    const bool varies =
+      scene.contact.friction_varies(scene.path_end() - 2. * last_way, scene.path_end() + last_way);
+    if (const double share = ripple.share(); share > large_ripple && !scene.has_impacts() && !varies)
+      warnings.push_back(
+        format(
+          "the tangential force swings by %.1f %% of the normal force (above %g %%): rolling is not steady",
+          100. * share, 100. * large_ripple) +
+        (scene.friction_law()->is_constant() ? ""
+                                             : "; friction that falls with slip makes it oscillate by itself "
+                                               "where 'Contact/Friction memory (mm)' is "
+                                               "too short"));
+  }
+
+
   void Simulation::finish(RunFolder &folder, const End end)
   {
-    const bool          completed = end == End::complete;
-    const EnergyLedger  energy    = dynamics.ledger();
-    const RollingWheel &wheel     = wheels.front();
-    const auto          patches   = solution_patches();
-    const bool          averaged  = wheel.average.n_steps() > 0;
-    const Vector3       force     = last_force_on(wheel);
-    const double        normal    = force[2]; // 0 while the wheel is in the air
-    const double        ripple    = last_steps > 0 ? wheel.ripple(normal) : 0.;
-    const double        traction  = normal > 0. ? force[0] / normal : 0.;
+    const bool          completed     = end == End::complete;
+    const EnergyLedger  energy        = dynamics.ledger();
+    const RollingWheel &wheel         = wheels.front();
+    const auto          patches       = solution_patches();
+    const bool          averaged      = wheel.average.n_steps() > 0;
+    const Vector3       force         = last_force_on(wheel);
+    const double        normal        = force[2]; // 0 while the wheel is in the air
+    const double        normal_ripple = last_steps > 0 ? wheel.ripple(normal) : 0.;
+    const double        traction      = normal > 0. ? force[0] / normal : 0.;
 
     Summary             summary;
     const ContactAnswer answer{force, wheel.creepage(scene), wheel.averaged_measures(patches.front())};
@@ -339,26 +391,19 @@ namespace tread
         summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, wheel.free_creepage,
                      "creepage, 1e-3");
       }
-    summary.set("normal_force_ripple_share", ripple);
+    summary.set("normal_force_ripple_share", normal_ripple);
+    summary.set("tangential_force_ripple_share", ripple.share());
 
     std::string            note;
     std::vector<PatchNode> reference_patch;
     if (scene.is_positioned())
       reference_patch = scene.placed_wheel().table_nodes();
-    else if (scene.has_defect())
-      summary.set("note", note = "no comparison with steady rolling: the wheel crosses a defect");
-    else if (completed && normal > 0.)
-      try
-        {
-          reference_patch = compare_with_half_space(summary, answer);
-        }
-      catch (const std::exception &error)
-        {
-          note = std::string("no half-space reference: ") + error.what();
-          summary.set("note", note);
-        }
+    else if (completed || scene.has_defect())
+      note = compare_with_steady_rolling(summary, answer, reference_patch);
+    if (!note.empty())
+      summary.set("note", note);
 
-    summary.set("assumptions", scene.assumptions());
+    summary.set("assumptions", scene.assumptions(starts_with_tractions));
     Quality quality;
     quality.energy = energy;
     if (averaged)
@@ -372,7 +417,13 @@ namespace tread
     const std::string further_wheels = add_further_wheels(summary, patches);
     add_cost(summary);
     std::vector<std::string> warnings = quality.warnings();
-    const std::string        stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
+    if (scene.is_positioned())
+      for (const std::string &warning :
+           climbing_patches(scene.placed_wheel().surfaces, scene.placed_wheel().patches()))
+        warnings.push_back(warning);
+    if (completed)
+      add_doubts(warnings);
+    const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     summary.set("warnings", warnings);
     folder.write("summary.json", summary.text());
     if (averaged)
@@ -389,8 +440,8 @@ namespace tread
         // Where nothing is steady, the figures of one instant say little.
         if (!scene.has_defect())
           std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
-                      scene.is_positioned() ? "vertical" : "normal", 1e-3 * normal, 100. * ripple, traction,
-                      by_patch.c_str(), summary.table().c_str());
+                      scene.is_positioned() ? "vertical" : "normal", 1e-3 * normal, 100. * normal_ripple,
+                      traction, by_patch.c_str(), summary.table().c_str());
         std::printf("\n%s%s%s%s", further_wheels.c_str(), quality.lines().c_str(), note.c_str(),
                     note.empty() ? "" : "\n");
         for (const std::string &warning : warnings)

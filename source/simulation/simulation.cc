@@ -26,10 +26,6 @@ namespace tread
       signal_received = 1;
     }
 
-    /// Forces of the summary are means over this end of the way before the solution instant, m: a dozen rows
-    /// of cells of a millimetre, over which what single nodes do as they enter the patch has cancelled.
-    constexpr double last_way = 10e-3;
-
     /// Something that is done after so many steps at the latest.
     struct EverySoManySteps
     {
@@ -124,13 +120,14 @@ namespace tread
     if (strip)
       strip->serialize(archive);
     impacts.serialize(archive);
+    ripple.serialize(archive);
     for (StressPeaks *peaks : {rail_peaks.get(), wheel_peaks.get()})
       if (peaks)
         peaks->serialize(archive);
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
-    archive.same(torque_released, solution_taken, passages, next_wheel_due, interval_steps,
-                 interval_start_time, last_steps);
+    archive.same(torque_released, solution_taken, starts_with_tractions, passages, next_wheel_due,
+                 interval_steps, interval_start_time, last_steps);
     archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
   }
 
@@ -195,6 +192,8 @@ namespace tread
         if (is_last)
           wheel.add_to_last_force(force);
       }
+    if (is_last)
+      ripple.add(position(), force_on(wheels.front()));
     ++interval_steps;
     last_steps += is_last;
     if (std::abs(position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell)

@@ -38,7 +38,11 @@ namespace tread
           }
         const auto own  = wheels.begin() + wheel.number;
         const auto like = std::find_if(wheels.begin(), own, [&](const RollingWheel &before) {
-          return scene.traction_coefficient(before.number) == scene.traction_coefficient(wheel.number);
+          const auto friction = [&](const RollingWheel &w) {
+            return scene.contact.friction_factor(scene.path_begin(w.number));
+          };
+          return scene.traction_coefficient(before.number) == scene.traction_coefficient(wheel.number) &&
+                 friction(before) == friction(wheel);
         });
         if (like == own)
           half_space.push_back(predict_rolling(wheel, progress));
@@ -48,7 +52,7 @@ namespace tread
             wheel.target_creepage = like->target_creepage;
           }
       }
-    const bool predicts_tractions =
+    starts_with_tractions =
       scene.is_positioned()
         ? scene.start.tractions == StartTractions::predicted
         : std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
@@ -74,7 +78,7 @@ namespace tread
         throw std::runtime_error(
           "the wheel finds no rail under it at the start: it sinks past what is meshed "
           "for contact; change 'Wheel/Lateral position (mm)' or 'Wheel/Tread profile'");
-      if (predicts_tractions && !free_rolling_known &&
+      if (starts_with_tractions && !free_rolling_known &&
           share <= std::max(scene.start.tolerance, balance_for_tractions))
         {
           measure_free_rolling();
@@ -143,9 +147,17 @@ namespace tread
       {
         reference::RollingCase c = half_space_case(scene, wheel.number);
         set_friction(c, scene, scene.path_begin(wheel.number));
-        const reference::RollingEstimate estimate = reference::estimate_rolling(c);
-        wheel.target_creepage                     = -estimate.creepage.value;
-        return predicts_tractions ? std::make_optional(estimate.fields) : std::nullopt;
+        try
+          {
+            const reference::RollingEstimate estimate = half_space_answer(scene, c, wheel.number);
+            wheel.target_creepage                     = -estimate.creepage.value;
+            return predicts_tractions ? std::make_optional(estimate.fields) : std::nullopt;
+          }
+        catch (const InputError &error)
+          {
+            throw InputError(std::string("the creepage cannot be predicted: ") + error.what() +
+                             "; or give 'Motion/Creepage' a number");
+          }
       }
     wheel.target_creepage = *scene.motion.creepage;
     if (predicts_tractions)
@@ -155,7 +167,7 @@ namespace tread
           c.prescribe_force        = false;
           c.creepage               = -wheel.target_creepage;
           set_friction(c, scene, scene.path_begin(wheel.number));
-          return reference::estimate_rolling(c).fields;
+          return half_space_answer(scene, c, wheel.number).fields;
         }
       catch (const std::exception &error)
         {
@@ -181,6 +193,7 @@ namespace tread
       supports->set_at_rest(dynamics.positions().data());
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
+    ripple                           = ForceRipple();
     checked_position                 = position();
     last_steps                       = 0;
     prepare_start(progress);

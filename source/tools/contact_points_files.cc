@@ -19,6 +19,7 @@ namespace tread
   {
     struct Row
     {
+      int              number; ///< of steps from the middle
       TouchingWheelset wheelset;
       double           conicity; ///< NaN where the table does not reach to both sides
     };
@@ -78,7 +79,7 @@ namespace tread
             WheelsetPosition position = scene.wheelset.position();
             position.shift            = 1e-3 * i * request.step_mm;
             position.roll             = roll;
-            rows.push_back({touching_wheelset(surfaces, position), std::numeric_limits<double>::quiet_NaN()});
+            rows.push_back({i, touching_wheelset(surfaces, position), 0.});
             roll = rows.back().wheelset.position.roll;
           }
         catch (const std::exception &error)
@@ -87,16 +88,9 @@ namespace tread
             if (complaint.empty())
               complaint = format("at a lateral shift of %g mm ", i * request.step_mm) + error.what();
           }
-      std::vector<double> shifts, differences;
-      for (const Row &row : rows)
-        {
-          shifts.push_back(row.wheelset.position.shift);
-          differences.push_back(row.wheelset.radius_difference());
-        }
+      const RadiusDifferences differences(surfaces, scene.wheelset.position(), 1e-3 * n * request.step_mm);
       for (Row &row : rows)
-        if (const double amplitude = std::abs(row.wheelset.position.shift);
-            amplitude > 0. && -amplitude >= shifts.front() - 1e-12 && amplitude <= shifts.back() + 1e-12)
-          row.conicity = equivalent_conicity(shifts, differences, amplitude);
+        row.conicity = differences.conicity(std::abs(row.wheelset.position.shift));
       return complaint;
     }
   } // namespace
@@ -110,6 +104,10 @@ namespace tread
     require(request.to_mm > 0. && request.to_mm <= 100. && request.step_mm > 0. &&
               request.step_mm <= request.to_mm,
             "--shift-to must be above 0 and at most 100 mm, --shift-step above 0 and at most as much");
+    constexpr double most_rows = 100000.;
+    require(2. * request.to_mm / request.step_mm + 1. <= most_rows,
+            format("--shift-step %g mm makes more than %g rows up to --shift-to %g mm; at least %.2g",
+                   request.step_mm, most_rows, request.to_mm, 2.1 * request.to_mm / most_rows));
     Progress          progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const WheelOnRail surfaces = scene.wheel_on_rail();
     std::vector<Row>  rows;
@@ -127,11 +125,13 @@ namespace tread
       "   shift     roll  y wheel    angle   radius  y wheel    angle   radius  difference  conicity\n"
       "      mm     mrad       mm  degrees       mm       mm  degrees       mm          mm");
     constexpr double degree = 180. / dealii::numbers::PI;
+    // Whole millimetres, or steps of about one.
+    const int every = std::max(1, static_cast<int>(std::lround(1. / request.step_mm)));
     for (const Row &row : rows)
       {
-        const double shift = 1e3 * row.wheelset.position.shift;
-        if (std::abs(shift - std::round(shift)) > 1e-9)
+        if (row.number % every != 0)
           continue;
+        const double         shift = 1e3 * row.wheelset.position.shift;
         const TouchingWheel &own = row.wheelset.own, &other = row.wheelset.other;
         progress.say(format("%8.2f %8.3f %8.2f %8.2f %8.2f %8.2f %8.2f %8.2f %11.3f %9.4f", shift,
                             1e3 * row.wheelset.position.roll, 1e3 * own.wheel_y, degree * own.angle,
@@ -141,6 +141,19 @@ namespace tread
       }
     if (!complaint.empty())
       progress.say("warning: rows are missing: " + complaint);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Row &row : rows)
+      if (row.wheelset.own.is_beyond_flank || row.wheelset.other.is_beyond_flank)
+        least = std::min(least, std::abs(row.wheelset.position.shift));
+    if (std::isfinite(least))
+      progress.say(
+        format("note: from a lateral shift of %g mm on a wheel stands on its flange between the steepest "
+               "part and the tip: it climbs out of the track",
+               1e3 * least));
+    if (scene.wheel.lateral_position != 0.)
+      progress.say(
+        "note: 'Wheel/Lateral position (mm)' does not count here: the lateral shift of the wheelset "
+        "takes its place");
     progress.say(format("\nfinished in %.2f s. Results in ", progress.seconds()) + folder.path("") +
                  ": contact_points.csv");
   }

@@ -154,13 +154,26 @@ namespace tread
   {
     /// How the traction builds up over the distance that a scene rolls at its creepage from a start without
     /// tractions; empty where that is not what the scene asks for, or the half-space knows no answer.
-    std::string transient_table(const Scene &scene, const reference::RollingEstimate &steady)
+    /// @param why there is none, if the scene asks for it
+    std::string transient_table(const Scene                      &scene,
+                                const reference::RollingEstimate &steady,
+                                std::string                      &why)
     {
       reference::TransientCase transient;
       transient.rolling = half_space_case(scene);
       const bool like   = reference::combine(transient.rolling.wheel, transient.rolling.rail).coupling == 0.;
-      if (transient.rolling.slip_friction || scene.start.tractions != StartTractions::none || scene.motion.drive != Drive::creepage || !like ||
+      if (scene.start.tractions != StartTractions::none || scene.motion.drive != Drive::creepage ||
           !(scene.contact.friction_coefficient > 0.))
+        return "";
+      const double half_length = hertz(transient.rolling).semi_axis_x;
+      if (!like)
+        why = "wheel and rail are of unlike materials";
+      else if (transient.rolling.slip_friction)
+        why = "'Contact/Friction law' " + scene.contact.friction_law + " depends on the slip";
+      else if (scene.contact.friction_varies(scene.path_begin() - half_length,
+                                             scene.path_end() + half_length))
+        why = "'Contact/Friction factors' change on the way";
+      if (!why.empty())
         return "";
       // Elements half as large again: some seconds of rolling, 0.1 % of the steady traction.
       transient.rolling.element_size *= 1.5;
@@ -187,7 +200,7 @@ namespace tread
     reference::RollingEstimate estimate;
     try
       {
-        estimate = reference::estimate_rolling(half_space_case(scene));
+        estimate = half_space_answer(scene, half_space_case(scene));
       }
     catch (const std::exception &error)
       {
@@ -229,7 +242,8 @@ namespace tread
     folder.write_patch("patch.csv", nodes);
     folder.write_surface(nodes, half_space.element_size);
     folder.write("subsurface.csv", subsurface);
-    const std::string transient = transient_table(scene, estimate);
+    std::string       no_transient;
+    const std::string transient = transient_table(scene, estimate, no_transient);
     if (!transient.empty())
       folder.write("transient.csv", transient);
     folder.write("summary.json", summary.text());
@@ -243,6 +257,9 @@ namespace tread
                   half_space.traction_coefficient);
     progress.say(text);
     progress.say(summary.table());
+    if (!no_transient.empty())
+      progress.say("no transient.csv, for a solver that knows one friction coefficient and like bodies: " +
+                   no_transient);
     std::snprintf(text, sizeof text, "finished in %.2f s. Results in ", progress.seconds());
     progress.say(text + folder.path("") + ": summary.json, patch.csv, subsurface.csv" +
                  (transient.empty() ? "" : ", transient.csv") + "; for ParaView: surface.pvd");

@@ -16,11 +16,13 @@ namespace tread
 {
   void run_wheelset_reference(const Scene &scene, const std::string &path, const MPI_Comm comm)
   {
-    Progress                       progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    const PlacedWheel             &placed   = scene.placed_wheel();
-    const WheelContact            &contact  = placed.contact;
-    const double                   rail_y   = placed.surfaces.rail_origin_y();
-    const std::vector<std::string> warnings = limits_of_half_space(contact.patches);
+    Progress                 progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    const PlacedWheel       &placed   = scene.placed_wheel();
+    const WheelContact      &contact  = placed.contact;
+    const double             rail_y   = placed.surfaces.rail_origin_y();
+    std::vector<std::string> warnings = limits_of_half_space(contact.patches);
+    for (const std::string &warning : climbing_patches(placed.surfaces, contact.patches))
+      warnings.push_back(warning);
 
     Summary summary;
     summarise_wheelset(summary, scene, "half-space solver", contact, true);

@@ -5,6 +5,7 @@
 #include <tread/geometry/wheel_on_rail.h>
 #include <tread/reference/planar_contact.h>
 
+#include <string>
 #include <vector>
 
 namespace tread
@@ -71,6 +72,10 @@ namespace tread
   WheelContact contact_at_height(const WheelOnRail      &surfaces,
                                  const WheelRolling     &rolling,
                                  const WheelsetPosition &position);
+
+  /// A line for each patch on the flange beyond its steepest part: the wheel has climbed the rail.
+  std::vector<std::string> climbing_patches(const WheelOnRail             &surfaces,
+                                            const std::vector<WheelPatch> &patches);
 
   /// Contact under a vertical load (N), friction forces included: the height is found.
   /// @throws std::runtime_error, one line, where the surfaces do not meet or no height carries the load.

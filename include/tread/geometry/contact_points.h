@@ -4,6 +4,7 @@
 
 #include <tread/geometry/wheel_on_rail.h>
 
+#include <map>
 #include <vector>
 
 namespace tread
@@ -11,10 +12,11 @@ namespace tread
   /// Where a rigid wheel touches its rail, in the axes of its own side (m).
   struct TouchingWheel
   {
-    double x, y;           ///< in the track
-    double wheel_y;        ///< in the wheel's profile
-    double angle;          ///< of the rail, rad
-    double rolling_radius; ///< distance from the axle
+    double x, y;            ///< in the track
+    double wheel_y;         ///< in the wheel's profile
+    double angle;           ///< of the rail, rad
+    double rolling_radius;  ///< distance from the axle
+    bool   is_beyond_flank; ///< WheelOnRail::is_beyond_flank()
   };
 
   /// Both wheels of a wheelset on their rails: the roll and the height at which both touch.
@@ -31,6 +33,27 @@ namespace tread
   /// @param position of which the roll and the height are found. @throws std::runtime_error, one line, where
   /// a wheel meets no rail, or meets it with the edge of its profile only.
   TouchingWheelset touching_wheelset(const WheelOnRail &surfaces, WheelsetPosition position);
+
+  /// Radius differences of a rigid wheelset over its lateral shift, to both sides. Shifts are as near to each
+  /// other as straight lines between them need, and a jump of the contact from one place to another is found
+  /// to a thousandth of a millimetre.
+  class RadiusDifferences
+  {
+  public:
+    /// @param position whose yaw counts; @param largest shift to both sides, m
+    RadiusDifferences(const WheelOnRail &surfaces, const WheelsetPosition &position, double largest);
+
+    /// equivalent_conicity() at an amplitude (m); NaN where a wheel meets no rail on the way.
+    double conicity(double amplitude) const;
+
+  private:
+    void add(const WheelOnRail &surfaces, WheelsetPosition position, double shift);
+    /// Add what is missing between two shifts whose values are known.
+    void refine(const WheelOnRail &surfaces, const WheelsetPosition &position, double begin, double end);
+
+    std::map<double, double> differences; ///< by the shift; NaN where a wheel meets no rail (m)
+    double                   reach;       ///< least shift to either side at which a wheel meets no rail (m)
+  };
 
   /// The inclination of the cone that has, under a lateral motion of the amplitude, the same rolling radius
   /// difference in the mean: integral of dr(a sin t) sin t over a turn, over 2 pi a (harmonic linearisation).

@@ -58,6 +58,12 @@ namespace tread
     double                rail_origin_y() const; ///< where y = 0 of the rail's curve lies in the track (m)
     double                rail_origin_z() const;
     double                wheel_origin_y() const; ///< of the wheel's profile on the axle, from the middle (m)
+    /// Whether a place of the wheel's profile, by its parameter, lies on the flange between its steepest part
+    /// and its tip, where a wheel stands only while it climbs out of the track.
+    bool is_beyond_flank(const double s) const
+    {
+      return s < flank_end;
+    }
 
     /// Unit vector along the axle, to the own side; a wheel that rolls forward turns about it positively.
     static Vector3d axle(const WheelsetPosition &position);
@@ -113,7 +119,8 @@ namespace tread
     ProfileCurve        wheel_profile;
     CurveFromAbove      rail_profile;
     double              nominal_radius, wheel_y, rail_y, rail_z;
-    std::vector<double> samples; ///< of s, at which the wheel is looked at
+    double              flank_end; ///< s where the steepest part ends towards the tip; 0: no flange
+    std::vector<double> samples;   ///< of s, at which the wheel is looked at
   };
 } // namespace tread
 

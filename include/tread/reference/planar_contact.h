@@ -49,7 +49,7 @@ namespace tread::reference
     double adhesion_share   = 0.;    ///< of it [-]
     double max_shear        = 0.;    ///< [Pa]
     double max_slip         = 0.;    ///< [m/s]
-    double frictional_power = 0.;    ///< sum of |shear| |slip| [W]
+    double frictional_power = 0.;    ///< by the balance of forces, as RollingResult::power_balance [W]
     double overlap          = 0.;    ///< largest, of the undeformed surfaces at the elements [m]
     double y_begin = 0., y_end = 0.; ///< outer edges of the elements in contact [m]
     double x_begin = 0., x_end = 0.;

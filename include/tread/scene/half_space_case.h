@@ -27,6 +27,12 @@ namespace tread
   /// Give a case the friction that the scene has at x (m) on the rail.
   void set_friction(reference::RollingCase &c, const Scene &scene, const double x);
 
+  /// reference::estimate_rolling() for a case of the scene. @param wheel whose traction is asked for
+  /// @throws InputError, one line that names the parameters, where there is no answer
+  reference::RollingEstimate half_space_answer(const Scene                  &scene,
+                                               const reference::RollingCase &c,
+                                               const unsigned int            wheel = 0);
+
   /// Hertz's patch of a case with like curvatures along each axis, its true gap aside.
   reference::HertzEllipse hertz(const reference::RollingCase &c);
 

@@ -55,6 +55,9 @@ namespace tread
     /// its folder, then "Section/Name=value" settings in their order, and
     /// check that they make sense together. @throws InputError
     void read(const std::string &file, const std::vector<std::string> &settings);
+    /// The same for the rigid surfaces of a wheelset in its track, which need no more than their own
+    /// sections.
+    void read_surfaces(const std::string &file, const std::vector<std::string> &settings);
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
@@ -92,8 +95,13 @@ namespace tread
     double inertia_error_estimate() const;
 
     /// Numerical assumptions that are not part of the physics of the scene (scaled density, mass damping,
-    /// predicted start), one line each.
-    std::vector<std::string> assumptions() const;
+    /// predicted start), one line each. @param has_tractions at the start: those that were predicted are laid
+    /// on
+    std::vector<std::string> assumptions(const bool has_tractions) const;
+    std::vector<std::string> assumptions() const
+    {
+      return assumptions(start.tractions == StartTractions::predicted);
+    }
 
     /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;

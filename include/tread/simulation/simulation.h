@@ -14,6 +14,7 @@
 #include <tread/output/summary.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
+#include <tread/simulation/force_ripple.h>
 #include <tread/simulation/impact_record.h>
 #include <tread/simulation/rolling_wheel.h>
 #include <tread/solid/solid.h>
@@ -47,6 +48,10 @@ namespace tread
     void serialize(Archive &archive);
 
   private:
+    /// Forces of the summary are means over this end of the way before the solution instant, m: a dozen rows
+    /// of cells of a millimetre, over which what single nodes do as they enter the patch has cancelled.
+    static constexpr double last_way = 10e-3;
+
     void prepare_start(Progress &progress);
     /// Half-space theory's rolling for a wheel's start, from which its creepage is taken if it is to be
     /// predicted; nothing where tractions are not. @returns the fields of its tractions.
@@ -101,9 +106,14 @@ namespace tread
     void show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const;
     void finish(RunFolder &folder, const End end);
     /// Compare the answer with Kalker's solution for the forces that act. If (nearly) the whole patch slips,
-    /// the forces say little about the creepage, and the solution is that for the creepage. @returns the
-    /// half-space patch.
+    /// or friction depends on slip, the forces say little about the creepage, and the solution is that for
+    /// the creepage. @returns the half-space patch.
     std::vector<PatchNode> compare_with_half_space(Summary &summary, const ContactAnswer &answer) const;
+    /// The same where half-space theory knows steady rolling. @param patch of the half-space; @returns why
+    /// nothing is compared, or nothing
+    std::string compare_with_steady_rolling(Summary                &summary,
+                                            const ContactAnswer    &answer,
+                                            std::vector<PatchNode> &patch) const;
     /// The first entries of the summary of a wheelset in a given position, beside the half-space's. @returns
     /// a table of its patches for the screen, and what the half-space cannot tell of them.
     std::string add_wheelset(Summary &summary, const bool completed) const;
@@ -124,6 +134,8 @@ namespace tread
     std::string add_further_wheels(Summary                                   &summary,
                                    const std::vector<std::vector<PatchNode>> &patches) const;
     void        add_cost(Summary &summary) const;
+    /// Add why the answer is perhaps not that of steady rolling.
+    void add_doubts(std::vector<std::string> &warnings) const;
     /// @returns lines about the largest stresses for the screen.
     std::string add_recorded(Summary &summary, RunFolder &folder) const;
     std::string add_peaks(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
@@ -155,8 +167,10 @@ namespace tread
 
     double end_position; ///< of the first wheel, m
     bool   torque_released = false, solution_taken = false;
+    bool   starts_with_tractions = false; ///< those that half-space theory predicts
 
     ImpactRecord impacts;
+    ForceRipple  ripple; ///< of the first wheel over the last way
 
     // Sums since the last row of the history.
     unsigned int interval_steps      = 0;

@@ -48,6 +48,16 @@ namespace tread
   }
 
 
+  bool ContactSection::friction_varies(const double from, const double to) const
+  {
+    const double first  = friction_factor(from);
+    bool         varies = friction_factor(to) != first;
+    for (const double place : friction_places)
+      varies = varies || (place > from && place < to && friction_factor(place) != first);
+    return varies;
+  }
+
+
   void ContactSection::check() const
   {
     require(friction_places.size() == friction_factors.size(),

@@ -18,6 +18,8 @@ namespace tread
 
     /// Of the friction coefficient at x (m), linear between the places.
     double friction_factor(const double x) const;
+    /// Whether that factor changes between two places (m).
+    bool friction_varies(const double from, const double to) const;
 
     /// @throws InputError
     void check() const;
