@@ -209,6 +209,8 @@ namespace tread
     double lateral_radius() const;
 
   private:
+    /// Read a file and settings, unchecked.
+    void take(const std::string &file, const std::vector<std::string> &settings);
     /// Quantities that follow from the positions, files and shapes named by the parameters.
     struct Shapes
     {
