@@ -246,6 +246,26 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// WheelPatch::sink_by_others of all patches (Boussinesq 1885, Johnson 1985, eq. 3.19).
+    void add_sink_by_others(std::vector<WheelPatch> &patches, const reference::ElasticPair &pair)
+    {
+      const double compliance = (1. - pair.poisson) / (dealii::numbers::PI * pair.shear);
+      for (WheelPatch &patch : patches)
+        for (const WheelPatch &other : patches)
+          if (&other != &patch)
+            {
+              const double distance = std::hypot(patch.region.reference[1] - other.region.reference[1],
+                                                 patch.region.reference[2] - other.region.reference[2],
+                                                 patch.region.reference[0] - other.region.reference[0]);
+              patch.sink_by_others += compliance * other.solution.normal_force *
+                                      std::max(0., std::cos(patch.angle() - other.angle())) / distance;
+            }
+    }
+  } // namespace
+
+
   WheelContact contact_at_height(const WheelOnRail      &surfaces,
                                  const WheelRolling     &rolling,
                                  const WheelsetPosition &position)
@@ -260,6 +280,7 @@ namespace tread
         for (unsigned int d = 0; d < 3; ++d)
           contact.force[d] += force[d];
       }
+    add_sink_by_others(contact.patches, reference::combine(rolling.wheel, rolling.rail));
     return contact;
   }
 

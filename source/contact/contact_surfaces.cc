@@ -112,6 +112,23 @@ namespace tread
     nodes.resize(n);
     for (const auto &[key, i] : number)
       nodes[i] = {static_cast<unsigned int>(key[0]), false, -1, -1, Vector3{}};
+    std::map<unsigned int, std::array<unsigned int, 2>> parents_of;
+    std::set<unsigned int> without_parents; // on an edge that is no longer in reach
+    for (const auto &list : dealii::Utilities::MPI::all_gather(comm, own_hanging))
+      for (const auto &names : list)
+        {
+          const auto find = [&](const unsigned int k) {
+            return number.find({{names[4 * k], names[4 * k + 1], names[4 * k + 2], names[4 * k + 3]}});
+          };
+          const auto node = find(0), a = find(1), b = find(2);
+          if (a == number.end() || b == number.end())
+            without_parents.insert(node->second);
+          else
+            parents_of[node->second] = {std::min(a->second, b->second), std::max(a->second, b->second)};
+        }
+    for (const auto &[node, parents] : parents_of)
+      hanging_nodes.push_back({node, parents});
+
     for (const auto &entry : sorted)
       {
         Face face;
@@ -119,25 +136,13 @@ namespace tread
         face.edge_along = entry[14];
         for (unsigned int v = 0; v < 4; ++v)
           face.nodes[v] = number.at({{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}});
-        if (entry[1] == 0)
+        if (entry[1] == 0 && std::none_of(face.nodes.begin(), face.nodes.end(),
+                                          [&](const unsigned int i) { return without_parents.count(i) > 0; }))
           faces.push_back(face);
         else
           for (const unsigned int i : face.nodes)
             nodes[i].at_rim = true;
       }
-
-    std::map<unsigned int, std::array<unsigned int, 2>> parents_of;
-    for (const auto &list : dealii::Utilities::MPI::all_gather(comm, own_hanging))
-      for (const auto &names : list)
-        {
-          const auto node = [&](const unsigned int k) {
-            return number.at({{names[4 * k], names[4 * k + 1], names[4 * k + 2], names[4 * k + 3]}});
-          };
-          const unsigned int a = node(1), b = node(2);
-          parents_of[node(0)] = {std::min(a, b), std::max(a, b)};
-        }
-    for (const auto &[node, parents] : parents_of)
-      hanging_nodes.push_back({node, parents});
 
     // Also copies of contact nodes whose faces belong to other ranks.
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)

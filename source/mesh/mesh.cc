@@ -198,6 +198,7 @@ namespace tread
                    const dealii::DoFHandler<3> &dof_handler,
                    const LocalNumber           &local_number,
                    const LikelyLevels          &likely_level,
+                   const std::vector<Body>     &bodies,
                    std::vector<unsigned int>   &level_of_node)
     {
       // Counter-clockwise from outside, for deal.II's faces 0 to 5.
@@ -226,6 +227,9 @@ namespace tread
                   face.cell     = mesh.cells.size();
                   face.body     = c.body;
                   face.boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
+                  if (const auto &in_reach = bodies[c.body].in_reach;
+                      face.boundary == Boundary::contact && in_reach && !in_reach(cell->face(f)->center()))
+                    face.boundary = Boundary::free;
                   mesh.faces.push_back(face);
                 }
             mesh.cells.push_back(c);
@@ -310,7 +314,7 @@ namespace tread
       return number;
     };
 
-    add_cells(*this, dof_handler, local_number, likely_level, level_of_node);
+    add_cells(*this, dof_handler, local_number, likely_level, bodies, level_of_node);
     add_hanging_nodes(*this, constraints, local_number, global_ids, level_of_node, max_level + 1);
     renumber(level_of_node, global_ids);
     // Parents follow from the constraint itself, so every rank places a hanging node alike:

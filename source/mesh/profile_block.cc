@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <set>
 #include <stdexcept>
 
 namespace tread
@@ -15,8 +13,7 @@ namespace tread
     /// The surface may stand this steep on the base: cosine of the angle. Cells there are sheared by as much.
     constexpr double least_cosine = 0.34; // 70 degrees
 
-    /// Surfaces are in reach of each other this many finest cells beside the fine zones, and to the end of a
-    /// coarse row.
+    /// Surfaces are in reach of each other this many finest cells beside the fine zones.
     constexpr double cells_beside_zone = 4.;
   } // namespace
 
@@ -108,20 +105,14 @@ namespace tread
         size = std::min(size, zone.wanted_size(p[0], p[1], -p[2]));
       return size;
     };
-    // Coarse facets far from the patches would meet where the curved surfaces do not.
-    std::set<double> lines;
-    for (const dealii::Point<3> &vertex : body.vertices)
-      lines.insert(vertex[1]);
-    body.boundary_at = [at = body.boundary_at, charted, lines](const dealii::Point<3> &p) {
-      const Boundary boundary = at(p);
-      const auto     above    = lines.upper_bound(p[1]);
-      const bool     in_reach =
-        above != lines.begin() && above != lines.end() &&
-        std::any_of(charted.begin(), charted.end(), [&](const FineZone &zone) {
-          const double reach = zone.half_width + cells_beside_zone * zone.finest_cell_size;
-          return *above > zone.y_middle - reach && *std::prev(above) < zone.y_middle + reach;
-        });
-      return boundary == Boundary::contact && !in_reach ? Boundary::free : boundary;
+    // Coarse facets would meet where the curved surfaces do not: a chord of the flange's root cuts into the
+    // rail.
+    body.in_reach = [charted](const dealii::Point<3> &p) {
+      return std::any_of(charted.begin(), charted.end(), [&](const FineZone &zone) {
+        const double reach = cells_beside_zone * zone.finest_cell_size;
+        return std::abs(p[1] - zone.y_middle) < zone.half_width + reach && p[0] > zone.x_begin - reach &&
+               p[0] < zone.x_end + reach;
+      });
     };
     body.to_space = [section, sign, to_space](const dealii::Point<3> &p) {
       return to_space(p[0], section.point(sign * p[1], -p[2]));

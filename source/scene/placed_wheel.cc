@@ -56,7 +56,10 @@ namespace tread
   unsigned int PlacedWheel::nearest_patch(const Vector3 place) const
   {
     const auto distance = [&](const WheelPatch &patch) {
-      return norm(place - origin(patch));
+      const Vector3 arm = place - origin(patch), across = along(patch);
+      const double  y    = std::clamp(dot(arm, across), patch.solution.y_begin, patch.solution.y_end);
+      const Vector3 away = arm - y * across;
+      return std::hypot(away[1], away[2]);
     };
     return std::min_element(
              patches().begin(), patches().end(),

@@ -140,6 +140,7 @@ namespace tread
     rolling.angular_velocity     = scene.motion.angular_velocity
                                      ? *scene.motion.angular_velocity
                                      : (1. + *scene.motion.creepage) * scene.motion.speed / scene.wheel.radius;
+    rolling.separation           = scene.wheelset.patch_distance;
     rolling.slip_follows_surface = scene.wheelset.slip_over_patch == SlipOverPatch::surface;
     return rolling;
   }

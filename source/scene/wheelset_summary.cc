@@ -115,6 +115,10 @@ namespace tread
                [](const P &p) {
                  return p.region.overlap;
                }},
+              {"sink_by_others_m", "sinks under other patches, um", 1e6,
+               [](const P &p) {
+                 return p.sink_by_others;
+               }},
               {"normal_turns_rad", "the normal turns by, degrees", 180. / dealii::numbers::PI,
                [](const P &p) {
                  return p.turn;
@@ -197,8 +201,16 @@ namespace tread
                    static_cast<unsigned int>(k + 1), 180. / dealii::numbers::PI * patches[k].turn,
                    180. / dealii::numbers::PI * largest_turn_of_a_plane));
         if (patches[k].region.parts > 1)
-          warnings.push_back(format("patch %u holds %u regions less than 8 mm apart, solved in one plane",
+          warnings.push_back(format("patch %u holds %u regions nearer to each other than 'Wheelset/Patch "
+                                    "distance (mm)', solved in one "
+                                    "plane",
                                     static_cast<unsigned int>(k + 1), patches[k].region.parts));
+        if (const double share = patches[k].sink_by_others / patches[k].region.overlap;
+            share > largest_sink_by_others)
+          warnings.push_back(format(
+            "patch %u gives way under the pressure of the others by about %.0f %% of its overlap, which its "
+            "solution leaves out: its force is too large",
+            static_cast<unsigned int>(k + 1), 100. * share));
       }
     return warnings;
   }

@@ -76,7 +76,8 @@ with tempfile.TemporaryDirectory() as folder:
     heavy = {"Rail/Measured head": "", "Rail/Profile": "60E1", "Rail/Inclination": "1:20", "Vehicle/Sprung mass (kg)": 9000}
     two, wide = (run(program, "curves/manchester-a22-right.prm", path(f"heavy-{shift}"), {**heavy, "Wheelset/Lateral shift (mm)": shift},
                      more=["--reference-only"]) for shift in (6, 6.1))
-    check.that("two patches, no warning", len(two["patches"]) == 2 and not two["warnings"])
+    check.that("two patches, and that one deforms the other", len(two["patches"]) == 2 and len(two["warnings"]) == 1
+               and "patch 1 gives way" in two["warnings"][0])
     check.relative("two patches: their vertical forces, kN", sum(
         math.cos(p["angle_rad"]) * p["normal_force_N"] + math.sin(p["angle_rad"]) * p["lateral_force_N"] for p in two["patches"]),
         9900 * 9.81, 1e-5)
@@ -101,8 +102,6 @@ with tempfile.TemporaryDirectory() as folder:
             print(failed.returncode, failed.stderr)
 
     reference = "--reference-only"
-    must_fail("finite elements", [], "Wheelset", "--reference-only")
-    must_fail("dry run", ["--dry-run"], "Wheelset", "--reference-only")
     must_fail("yaw beyond 5 degrees", [reference, "-s", "Wheelset/Yaw (mrad)=90"], "Wheelset/Yaw (mrad)", "5 degrees")
     must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "lateral shift of -90 mm", "falls between the rails")
     must_fail("profiles that do not meet", [reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")

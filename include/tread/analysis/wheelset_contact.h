@@ -19,7 +19,7 @@ namespace tread
     double             angular_velocity = 0.; ///< of the wheel about its axle, positive forward, rad/s
 
     /// Overlaps nearer to each other than this along the surface are solved in one plane, m.
-    double separation = 8e-3;
+    double separation = 0.;
     /// Edges of the elements along and across, m; 0: a share of the patch.
     double element_x = 0., element_y = 0.;
     /// Of the slip in the element size (reference::PlanarCase::order).
@@ -44,6 +44,9 @@ namespace tread
 
     double wheel_radius = 0., rail_radius = 0.; ///< of the profiles at the reference point (m)
     double turn = 0.; ///< of the rail's normal from one edge of the patch to the other (rad)
+    /// How far both surfaces give way here under the pressure of the other patches, each a point force on
+    /// half-spaces that is felt along their distance (m). The solution leaves it out.
+    double sink_by_others = 0.;
 
     double angle() const
     {
@@ -67,6 +70,10 @@ namespace tread
   /// The normal of the rail must not turn by more over a patch that is solved in one plane: beyond it
   /// pressures of both ends differ in direction by so much that the resultant is 0.5 % too large.
   constexpr double largest_turn_of_a_plane = 0.2; // rad
+
+  /// Patches deform each other by as much of their undeformed overlap at most; the force of a patch changes
+  /// by half as much again.
+  constexpr double largest_sink_by_others = 0.1;
 
   /// Contact with the wheelset at the height of the position. No patches if nothing overlaps.
   WheelContact contact_at_height(const WheelOnRail      &surfaces,

@@ -46,6 +46,10 @@ namespace tread
 
     /// What the boundary is used for at the centre of a coarse boundary face (chart coordinates).
     std::function<Boundary(const dealii::Point<3> &)> boundary_at;
+
+    /// Whether another body can be met at the centre of a face that may touch (chart coordinates). Null:
+    /// everywhere.
+    std::function<bool(const dealii::Point<3> &)> in_reach;
   };
 } // namespace tread
 

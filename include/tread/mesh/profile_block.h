@@ -63,8 +63,8 @@ namespace tread
 
   /// The block between x_begin and x_end of its chart (x, y, -behind), with y = along, or -along where
   /// `mirrored`: a chart that would else be left-handed. Cells are finest in any of the zones, which have the
-  /// same x and lie side by side. Its surface is in reach of the other body where it is the profile, its base
-  /// is held.
+  /// same x and lie side by side. Its surface is in reach of the other body there and a little beside, its
+  /// base is held.
   /// @param to_space from x and the section's y, z to the reference position.
   Body make_profile_block(const ProfileSection                                            &section,
                           const double                                                     x_begin,

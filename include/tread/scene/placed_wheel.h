@@ -33,7 +33,8 @@ namespace tread
     }
     /// That with the largest normal force.
     const WheelPatch &main_patch() const;
-    /// Of the patch whose reference point is nearest to a place relative to the wheelset's middle.
+    /// Of the patch, from one edge across the path to the other, that is nearest to a place relative to the
+    /// wheelset's middle.
     unsigned int nearest_patch(const Vector3 place) const;
 
     /// Middle of the wheelset with the wheel at x = 0, and the direction of the axle.

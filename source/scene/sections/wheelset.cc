@@ -45,6 +45,11 @@ namespace tread
                 "Where the wheel's profile has the back of its flange.", Double(-200., 0.));
     section.choose("Slip over the patch", slip_over_patch,
                    "Rigid slip over a patch that is wide for its profiles.");
+    section.add("Patch distance (mm)", patch_distance,
+                "Half-space theory solves overlaps of wheel and rail that are nearer to each other, along "
+                "the surface, as one patch in "
+                "one plane. Others are patches of their own, which do not deform each other.",
+                Double(0., 100.));
   }
 
 

@@ -24,6 +24,7 @@ namespace tread
     double                yaw = 0., roll = 0.;
     TrackGauge            track;
     SlipOverPatch         slip_over_patch = SlipOverPatch::surface;
+    double patch_distance = 8e-3; ///< along the surface, from which on half-spaces do not feel each other
 
     /// Whether the wheel stands in a position of a wheelset in its track; otherwise it is upright, and its
     /// place over the rail follows from `Wheel/Lateral position (mm)`.

@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A wheelset in any position, meshed and rolled: tread, root of the flange, neighbouring patches, a conformal one; ranks, resuming,
+yielding, and what is refused."""
+
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+from tread.files import read_summary
+from tread.manchester import positions, roll
+from tread.runs import ROOT, command, environment, execute
+from tread_runner import Check, press_ctrl_c, rows_of, run
+
+program = sys.argv[1]
+check = Check()
+ROOT_OF_FLANGE = "curves/flange-root.prm"
+QUIET = {"Output/Write volume": "false"}
+
+
+def beside_half_space(name, summary, normal, tangential, pressure):
+    """Forces in contact axes and the largest pressure against the half-space's; forces along the surface over their resultant."""
+    own, other = summary["patches"][0], summary["half_space_patches"][0]
+    check.relative(f"{name}: normal force, N", own["normal_force_N"], other["normal_force_N"], normal)
+    resultant = math.hypot(other["longitudinal_force_N"], other["lateral_force_N"])
+    for key in ("longitudinal", "lateral"):
+        check.absolute(f"{name}: {key} force over that along the surface", own[f"{key}_force_N"] / resultant,
+                       other[f"{key}_force_N"] / resultant, tangential)
+    check.relative(f"{name}: largest pressure, MPa", 1e-6 * own["max_pressure_Pa"], 1e-6 * other["max_pressure_Pa"], pressure)
+
+
+def force_in_track(summary):
+    """Sum over the patches by their angles: lateral and vertical, N."""
+    lateral = vertical = 0.
+    for patch in summary["patches"]:
+        c, s = math.cos(patch["angle_rad"]), math.sin(patch["angle_rad"])
+        lateral += c * patch["lateral_force_N"] - s * patch["normal_force_N"]
+        vertical += s * patch["lateral_force_N"] + c * patch["normal_force_N"]
+    return lateral, vertical
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+
+    # About half as much again as was found (doc/kinematics.md).
+    settings = next(settings for side, shift, settings, _ in positions() if (side, shift) == ("left", 4))
+    tread = roll(settings, 0.63, program=program)
+    beside_half_space("tread", tread, 0.004, 0.004, 0.005)
+    check.energy("tread: ", tread, 0.006)
+
+    one = run(program, ROOT_OF_FLANGE, path("1"), {**QUIET, "Motion/Rolled distance (mm)": 14}, 2)
+    beside_half_space("flange root", one, 0.002, 0.006, 0.008)
+    check.energy("flange root: ", one, 1e-3)
+    lateral, vertical = force_in_track(one)
+    # The normal turns inside the patch: its middle one stands for all of them as a plane would.
+    check.absolute("flange root: lateral force in the track by the patch's axes over the vertical", lateral / vertical,
+                   one["lateral_force_N"] / one["normal_force_N"], 3e-3)
+    check.relative("flange root: vertical force in the track by the patch's axes", vertical, one["normal_force_N"], 2e-3)
+    check.relative("flange root: vertical force, kN", 1e-3 * one["normal_force_N"], 10., 2e-3)
+    rows = rows_of(path("1"), "patch.csv")
+    check.relative("flange root: pressure of patch.csv over its area, kN", 1e-3 * sum(r["area_mm2"] * r["pressure_MPa"] for r in rows),
+                   1e-3 * one["patches"][0]["normal_force_N"], 0.01)
+    check.that("flange root: no shear beyond the friction bound", all(
+        math.hypot(r["shear_x_MPa"], r["shear_y_MPa"]) <= 0.3 * r["pressure_MPa"] * (1 + 1e-6) for r in rows))
+
+    # Ranks, and a run in two parts.
+    short = {**QUIET, "Mesh/Finest cell (mm)": 0.42, "Motion/Rolled distance (mm)": 6, "Contact/Tolerance": 1e-12,
+             "Output/Checkpoint interval (minutes)": 0, "Time stepping/Levels": 1}
+    whole = run(program, ROOT_OF_FLANGE, path("whole"), short)
+    keys = ("normal_force_N", "longitudinal_force_N", "lateral_force_N", "frictional_power_W", "max_pressure_Pa")
+    on_three = run(program, ROOT_OF_FLANGE, path("on three"), short, 3)
+    for key in keys:
+        check.relative(f"3 ranks against 1: {key}", on_three[key], whole[key], 1e-7)
+    parts = subprocess.Popen(command([os.path.join(ROOT, "prm", ROOT_OF_FLANGE), "--output", path("parts")] + [
+        word for setting in short.items() for word in ("-s", "%s=%s" % setting)], 1, program), env=environment(),
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    press_ctrl_c(parts, os.path.join(path("parts"), "history.csv"), 6)
+    parts.wait(timeout=120)
+    check.that("Ctrl-C: not complete", read_summary(path("parts"))["completed"] is False)
+    resumed = run(program, ROOT_OF_FLANGE, path("parts"), short, more=["--resume"])
+    for key in keys:
+        check.relative(f"resumed against never stopped: {key}", resumed[key], whole[key], 1e-12)
+    check.that("resumed: forces by patch too", resumed["patches"] == whole["patches"])
+
+    # Neighbouring patches: the pressure of the larger one takes half of the other's force away, which half-spaces of their own do not
+    # know. In one plane they do; that plane has no force on the gauge corner's own normal, but the sum along the track, 2.2 kN.
+    two = run(program, "curves/two-patches.prm", path("two"), {**QUIET, "Motion/Rolled distance (mm)": 8}, 2)
+    share = two["patches"][0]["normal_force_N"] / two["half_space_patches"][0]["normal_force_N"]
+    check.absolute("two patches: force of the smaller over that of a half-space alone", share, 0.515, 0.03)
+    check.relative("two patches: vertical force, kN", 1e-3 * two["normal_force_N"], 9900 * 9.81e-3, 3e-3)
+    lateral, vertical = force_in_track(two)
+    check.relative("two patches: vertical force by the patches' axes", vertical, two["normal_force_N"], 2e-3)
+    together = run(program, "curves/two-patches.prm", path("together"), {"Wheelset/Patch distance (mm)": 30}, more=["--reference-only"])
+    for key in ("longitudinal_force_N", "frictional_power_W"):
+        check.relative(f"two patches: {key} of one plane", two[key], together[key], 0.06)
+    apart = run(program, "curves/two-patches.prm", path("apart"), more=["--reference-only"])
+    check.that("half-space: says what it leaves out", any("gives way under the pressure of the others" in w for w in apart["warnings"]))
+    check.that("half-space in one plane: says so", any("Wheelset/Patch distance" in w for w in together["warnings"]))
+
+    # Where no plane stands for the patch. Converged to 2 % at this cell.
+    conformal = execute([os.path.join(ROOT, "prm", "curves", "conformal.prm"), "--output", path("conformal"), "-s", "Mesh/Finest cell (mm)=1",
+                         "-s", "Output/Write volume=false"], 2, program)
+    check.that("conformal: says that half-space theory ends", "half-space: patch 1 is conformal" in conformal.stdout)
+    summary = read_summary(path("conformal"))
+    own, other = summary["patches"][0], summary["half_space_patches"][0]
+    check.relative("conformal: largest pressure over the half-space's", own["max_pressure_Pa"] / other["max_pressure_Pa"], 0.89, 0.03)
+    check.relative("conformal: frictional power over the half-space's", own["frictional_power_W"] / other["frictional_power_W"], 1.065, 0.02)
+    check.energy("conformal: ", summary, 1e-3)
+
+    # Yielding in the root of the flange: the load is carried, and pressure falls to what the steel bears.
+    soft = run(program, ROOT_OF_FLANGE, path("soft"), {**QUIET, "Mesh/Finest cell (mm)": 0.42, "Motion/Rolled distance (mm)": 8,
+                                                       "Mesh/Fine half width (mm)": 4, "Rail/Yield stress (MPa)": 500,
+                                                       "Rail/Tangent modulus (GPa)": 21}, 2)
+    check.relative("yielding: vertical force, kN", 1e-3 * soft["normal_force_N"], 10., 0.02)
+    check.that("yielding: pressure falls", soft["max_pressure_Pa"] < 0.97 * one["max_pressure_Pa"])
+    check.that("yielding: work is done", soft["plastic_work_J"] > 0.)
+    check.energy("yielding: ", soft, 5e-3)
+
+    # What cannot be.
+    def must_fail(what, settings, *words):
+        more = [word for setting in settings for word in ("-s", setting)]
+        failed = execute([os.path.join(ROOT, "prm", ROOT_OF_FLANGE), "--output", path("bad"), *more], program=program)
+        lines = [line for line in failed.stderr.splitlines() if line.startswith("tread:")]
+        if not check.that(f"{what}: exit code 1, one line with {words}", failed.returncode == 1 and len(lines) == 1
+                          and all(word in lines[0] for word in words)):
+            print(failed.returncode, failed.stderr)
+
+    must_fail("cells too large for the patch", ["Mesh/Finest cell (mm)=1"], "Mesh/Finest cell (mm)", "too large for a patch", "at most")
+    must_fail("a torque", ["Motion/Angular velocity (rad per s)=by the drive", "Motion/Creepage=0.001", "Motion/Drive=torque"],
+              "Motion/Angular velocity (rad per s)")
+    must_fail("a track", ["Track/Foundation=two-layer"], "Track/Foundation", "Wheelset")
+    must_fail("a full wheel", ["Wheel/Shape=full"], "Wheel/Shape", "Wheelset")
+    must_fail("a defect", ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"], "Defect/Shape")
+    must_fail("lateral creepage beside the position", ["Motion/Lateral creepage=0.001"], "Motion/Lateral creepage", "Wheelset")
+    must_fail("a short margin", ["Rail/Margin (mm)=9"], "Rail/Margin (mm)", "at least")
+    must_fail("further wheels", ["Further wheels/Distances (mm)=500"], "Further wheels/Distances (mm)")
+    must_fail("fine cells beyond the profile", ["Mesh/Fine half width (mm)=45"], "Mesh/Fine half width (mm)")
+
+check.exit()
