@@ -6,7 +6,7 @@
     manchester-table.py --finite-elements [--sizes 3] [--set ...]
 
 Prints the tables of doc/kinematics.md. With --finite-elements a wheel is rolled through seven of the positions, on meshes whose cells
-under the patch are a fifth of its smaller half length and then half as large each time; the table compares them with the
+under the patch are 1/3.5 of its smaller half length and then 0.7 times as large each time; the table compares them with the
 half-space. Forces act on the wheel in contact axes, each wheel's lateral axis pointing to its own side.
 Differences: of forces over those of CONTACT, or in N where they are more than 1 % of them; of the place in um; of the largest pressure in %.
 """
@@ -16,7 +16,7 @@ from tread.manchester import positions, roll, solve
 
 # Of the tread, the root of the flange, and the flange; the others are like their neighbours.
 ROLLED = (("left", 4), ("left", 8), ("right", 2), ("right", 4), ("right", 6), ("right", 8), ("right", 10))
-CELLS_IN_HALF_LENGTH = 5.
+CELLS_IN_HALF_LENGTH = 3.5
 
 
 def force_text(computed, reference):
@@ -51,7 +51,7 @@ def finite_element_table(sizes, more):
         patch = solve(side, {**settings, **more})["patches"][0]
         largest = 1e3 * min(patch["length_m"], patch["width_m"]) / 2 / CELLS_IN_HALF_LENGTH
         for k in range(sizes):
-            cell = float(f"{largest / 2**k:.2g}")
+            cell = float(f"{largest / 2**(k / 2):.2g}")
             summary = roll({**settings, **more}, cell)
             own, other = summary["patches"][0], summary["half_space_patches"][0]
             # The size of the tangential force says little about that of a small component.
