@@ -8,6 +8,7 @@
   forces.png    forces, traction coefficient and creepage over the rolled position
   energies.png  energy ledger over time
   depth.png     stress below the surface, if the run has subsurface.csv (tread --reference-only)
+  patches.png   instead of the first three where the wheelset has a position: each patch in its contact axes
 
 Lines and borders of reference_patch.csv, the half-space answer at the same forces, are drawn beside. A run without
 history.csv (tread --reference-only) has no pictures over time.
@@ -17,17 +18,19 @@ import argparse
 import os
 
 import numpy as np
-from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
-from matplotlib.patches import Ellipse, Patch as Swatch
+from matplotlib.collections import PatchCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Ellipse, Patch as Swatch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from tread.commands import run_command
-from tread.patches import read_contact, read_patch
+from tread.patches import read_contact, read_patch, spacing
 from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, plt, save, use_style
 from tread.files import reference_value
 from tread.runs import Run
 
+PATCH_COLUMNS = ("x_mm", "y_mm", "z_mm", "area_mm2", "pressure_MPa", "shear_x_MPa", "shear_y_MPa")
 GREY, ADHESION, SLIP = "#666666", "#A9CBE3", "#F3B77E"
 
 use_style({"axes.labelsize": 10, "legend.fontsize": 9, "grid.linewidth": 0.7, "lines.linewidth": 1.6, "figure.dpi": 100,
@@ -43,13 +46,16 @@ class Pictured(Run):
         self.label = "half-space solver" if self.half_space_only else "tread"
         self.averaged = self.reference = self.history = self.depths = None
         if self.half_space_only:
-            self.depths = self.table("subsurface.csv", ("x_mm", "depth_mm", "von_mises_MPa"), text=("body", "line"))
+            if self.has("subsurface.csv"):
+                self.depths = self.table("subsurface.csv", ("x_mm", "depth_mm", "von_mises_MPa"), text=("body", "line"))
         else:
             self.averaged = self.optional("patch_averaged.csv")
             self.reference = self.optional("reference_patch.csv")
             self.history = self.table("history.csv", ("time_s",))
             # A single row is a point, not a line.
             self.marker = "o" if len(self.history["time_s"]) < 3 else None
+        # Of a wheelset in a position, whose patches have axes of their own.
+        self.patch_table = self.table("patch.csv", PATCH_COLUMNS) if "patches" in self.summary else None
         self.references = []  # (label, patch, colour, line style)
         if self.reference is not None:
             self.references.append(("half-space solver", self.reference, ORANGE, "-"))
@@ -60,9 +66,9 @@ class Pictured(Run):
         scale = {"semi_axis_x_m": 1e3, "semi_axis_y_m": 1e3, "max_pressure_Pa": 1e-6}
         hertz = [reference_value(self.summary, key, "Hertz") for key in scale]
         self.hertz = None
-        if None in hertz:
+        if None in hertz and "patches" not in self.summary:
             print("note: summary.json has no Hertz values; drawn without")
-        else:
+        elif None not in hertz:
             self.hertz = [value * factor for value, factor in zip(hertz, scale.values())]
         self.y = 1e3 * self.summary.get("first_contact_y_m", 0.0)
         self.missing = []
@@ -235,6 +241,74 @@ def draw_vectors(run):
     return figure
 
 
+def patch_numbers(run):
+    """Number of the patch of each node of patch.csv and of each element of the half-space, whose plane holds it."""
+    half_space = run.patch_table if run.half_space_only else run.table("reference_patch.csv", PATCH_COLUMNS)
+    planes = [abs(along_patch(half_space, patch)[1]) for patch in run.summary["patches"]]
+    owner = np.argmin(planes, axis=0)
+    if run.half_space_only:
+        return owner, half_space, owner
+    place = np.array([half_space["y_mm"], half_space["z_mm"]])
+    nearest = [np.argmin(np.hypot(place[0] - y, place[1] - z)) for y, z in zip(run.patch_table["y_mm"], run.patch_table["z_mm"])]
+    return owner[nearest], half_space, owner
+
+
+def along_patch(table, patch):
+    """Places in the contact axes of a patch: along its plane across the path, and off it (mm)."""
+    y, z = table["y_mm"] - 1e3 * patch["y_rail_m"], table["z_mm"] - 1e3 * patch["z_m"]
+    c, s = np.cos(patch["angle_rad"]), np.sin(patch["angle_rad"])
+    return c * y + s * z, c * z - s * y
+
+
+def draw_patches(run):
+    """A row for each patch: pressure, and shear stress where it adheres and where it slips."""
+    nodes, patches = run.patch_table, run.summary["patches"]
+    numbers, half_space, owner = patch_numbers(run)
+    figure, axes = plt.subplots(len(patches), 2, figsize=(11.5, 1.5 + 3.6 * len(patches)), squeeze=False, layout="constrained")
+    largest_pressure, largest_shear = nodes["pressure_MPa"].max(), np.hypot(nodes["shear_x_MPa"], nodes["shear_y_MPa"]).max()
+    for k, (patch, row) in enumerate(zip(patches, axes)):
+        mine = numbers == k
+        x, s, area = nodes["x_mm"][mine], along_patch(nodes, patch)[0][mine], nodes["area_mm2"][mine]
+        width = spacing(x)
+        boxes = [Rectangle((x0 - width / 2, s0 - a / width / 2), width, a / width) for x0, s0, a in zip(x, s, area)]
+        filled = PatchCollection(boxes, cmap="viridis", lw=0)
+        filled.set_array(nodes["pressure_MPa"][mine])
+        filled.set_clim(0, largest_pressure)
+        row[0].add_collection(filled)
+        slips = nodes["state"][mine] == "slip"
+        row[1].add_collection(PatchCollection(boxes, facecolors=np.where(slips, SLIP, ADHESION), lw=0))
+        step = max(1, len(x) // 250)
+        row[1].quiver(x[::step], s[::step], nodes["shear_x_MPa"][mine][::step], nodes["shear_y_MPa"][mine][::step], color="#222222",
+                      pivot="middle", angles="xy", scale_units="xy", scale=largest_shear / max(1.0, 0.06 * np.ptp(x)), width=0.0025)
+        if not run.half_space_only:
+            other = owner == k
+            element = [1e3 * run.summary["half_space_patches"][k][f"element_{axis}_m"] for axis in "xy"]
+            ex, es = half_space["x_mm"][other], along_patch(half_space, patch)[0][other]
+            column, line = (np.round((v - v.min()) / h).astype(int) + 1 for v, h in zip((ex, es), element))
+            inside = np.zeros((line.max() + 2, column.max() + 2))
+            inside[line, column] = 1
+            for axis in row:
+                axis.contour(ex.min() + element[0] * (np.arange(inside.shape[1]) - 1), es.min() + element[1] * (np.arange(inside.shape[0]) - 1),
+                             inside, levels=[0.5], colors=RED, linewidths=1.2)
+        for axis in row:
+            axis.autoscale_view()
+            axis.set_aspect("equal", adjustable="datalim")
+            axis.grid(False)
+            axis.set_xlabel("x from the axle, rolling direction [mm]")
+            axis.set_ylabel("s, along the surface [mm]")
+        text = f"patch {k + 1}: contact angle {np.degrees(patch['angle_rad']):.1f}°, normal force {1e-3 * patch['normal_force_N']:.2f} kN"
+        if not run.half_space_only:
+            text += f" (half-space {1e-3 * run.summary['half_space_patches'][k]['normal_force_N']:.2f})"
+        row[0].set_title(text, loc="left", fontsize=9)
+        row[1].set_title(f"shear stress on the wheel; adhesion {100 * patch['adhesion_share']:.0f} % (blue), slip (orange)", loc="left", fontsize=9)
+        figure.colorbar(filled, ax=row[0], shrink=0.9).set_label("pressure [MPa]")
+    if not run.half_space_only:
+        axes[0, 0].legend(handles=[Line2D([], [], color=RED, lw=1.2, label="border of the half-space's patch")], loc="lower right")
+    figure.suptitle(f"shift {1e3 * run.summary['lateral_shift_m']:g} mm, yaw {1e3 * run.summary['yaw_rad']:.3g} mrad, vertical force "
+                    f"{1e-3 * run.summary['normal_force_N']:.2f} kN", fontsize=10)
+    return figure
+
+
 def draw_depth(run):
     depths = run.depths
     figure, axes = plt.subplots(figsize=(6.0, 6.4))
@@ -349,9 +423,10 @@ def main():
     parser.add_argument("--contact", metavar="FILE", help="surface file of CONTACT (.csv or .csv.gz) to compare with")
     arguments = parser.parse_args()
     run = Pictured(arguments.run, arguments.contact)
-    pictures = [("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors)]
+    pictures = ([("axis", draw_axis), ("map", draw_map), ("vectors", draw_vectors)] if run.patch_table is None
+                else [("patches", draw_patches)])
     if run.half_space_only:
-        pictures += [("depth", draw_depth)]
+        pictures += [("depth", draw_depth)] if run.depths is not None else []
     elif len(run.history["time_s"]):
         pictures += [("forces", draw_forces), ("energies", draw_energies)]
     else:

@@ -188,6 +188,7 @@ namespace tread
         component *= rolling.angular_velocity;
       Vector3d velocity = cross(turning, arm);
       velocity[0] += rolling.speed;
+      velocity[1] += rolling.lateral_speed;
       const double V         = rolling.speed - 0.5 * velocity[0];
       patch.wheel_s          = wheel_s;
       patch.wheel_angle      = wheel_angle;

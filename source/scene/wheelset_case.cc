@@ -77,10 +77,8 @@ namespace tread
             "'Motion/Creepage'");
     require(!(motion.angular_velocity && motion.creepage),
             "'Motion/Angular velocity (rad per s)' and a number for 'Motion/Creepage' exclude each other");
-    require(motion.lateral_creepage == 0. && motion.spin == 0.,
-            "'Motion/Lateral creepage' and 'Spin (1 per m)' must be 0 where 'Wheelset' has a position, from "
-            "which they "
-            "follow");
+    require(motion.spin == 0.,
+            "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
     require(contact.friction_places.empty() && friction_law()->is_constant(),
             "'Contact/Friction law' must be Coulomb and 'Friction places (mm)' empty where 'Wheelset' has a "
@@ -140,6 +138,7 @@ namespace tread
     rolling.angular_velocity     = scene.motion.angular_velocity
                                      ? *scene.motion.angular_velocity
                                      : (1. + *scene.motion.creepage) * scene.motion.speed / scene.wheel.radius;
+    rolling.lateral_speed        = scene.motion.lateral_creepage * scene.motion.speed;
     rolling.separation           = scene.wheelset.patch_distance;
     rolling.slip_follows_surface = scene.wheelset.slip_over_patch == SlipOverPatch::surface;
     return rolling;

@@ -72,6 +72,13 @@ with tempfile.TemporaryDirectory() as folder:
                   more=["--reference-only"])
     check.absolute("slip by the wheel's surface: longitudinal force, N", surface["longitudinal_force_N"], 117., 10.)
 
+    # A lateral speed imposed on the wheelset adds to what yaw makes, along the patch.
+    settings, _ = position("right", 4)
+    straight, pushed = (solve("right", {**settings, "Motion/Lateral creepage": creepage}, program)["patches"][0] for creepage in (0, 0.002))
+    check.relative("imposed lateral creepage", pushed["lateral_creepage"] - straight["lateral_creepage"],
+                   0.002 * math.cos(straight["angle_rad"]), 2e-3)
+    check.that("imposed lateral creepage drags the wheel less against it", pushed["lateral_force_N"] < straight["lateral_force_N"])
+
     # From the tread to the flange of a rail that leans more: two patches, then one for which a plane is not enough.
     heavy = {"Rail/Measured head": "", "Rail/Profile": "60E1", "Rail/Inclination": "1:20", "Vehicle/Sprung mass (kg)": 9000}
     two, wide = (run(program, "curves/manchester-a22-right.prm", path(f"heavy-{shift}"), {**heavy, "Wheelset/Lateral shift (mm)": shift},

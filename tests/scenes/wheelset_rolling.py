@@ -12,7 +12,7 @@ import tempfile
 from tread.files import read_summary
 from tread.manchester import positions, roll
 from tread.runs import ROOT, command, environment, execute
-from tread_runner import Check, press_ctrl_c, rows_of, run
+from tread_runner import Check, press_ctrl_c, rows_of, run, script
 
 program = sys.argv[1]
 check = Check()
@@ -99,6 +99,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("half-space: says what it leaves out", any("gives way under the pressure of the others" in w for w in apart["warnings"]))
     check.that("half-space in one plane: says so", any("Wheelset/Patch distance" in w for w in together["warnings"]))
 
+    drawn = script("plot/plot-run.py", path("two"))
+    if not check.that("two patches are drawn", drawn.returncode == 0 and os.path.getsize(os.path.join(path("two"), "pictures", "patches.png"))):
+        print(drawn.stderr)
+
     # Where no plane stands for the patch. Converged to 2 % at this cell.
     conformal = execute([os.path.join(ROOT, "prm", "curves", "conformal.prm"), "--output", path("conformal"), "-s", "Mesh/Finest cell (mm)=1",
                          "-s", "Output/Write volume=false"], 2, program)
@@ -133,7 +137,7 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("a track", ["Track/Foundation=two-layer"], "Track/Foundation", "Wheelset")
     must_fail("a full wheel", ["Wheel/Shape=full"], "Wheel/Shape", "Wheelset")
     must_fail("a defect", ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"], "Defect/Shape")
-    must_fail("lateral creepage beside the position", ["Motion/Lateral creepage=0.001"], "Motion/Lateral creepage", "Wheelset")
+    must_fail("spin beside the position", ["Motion/Spin (1 per m)=0.1"], "Motion/Spin (1 per m)", "Wheelset")
     must_fail("a short margin", ["Rail/Margin (mm)=9"], "Rail/Margin (mm)", "at least")
     must_fail("further wheels", ["Further wheels/Distances (mm)=500"], "Further wheels/Distances (mm)")
     must_fail("fine cells beyond the profile", ["Mesh/Fine half width (mm)=45"], "Mesh/Fine half width (mm)")

@@ -17,6 +17,7 @@ namespace tread
     double             friction         = 0.; ///< Coulomb's f, >= 0
     double             speed            = 1.; ///< of the wheelset along the track, m/s
     double             angular_velocity = 0.; ///< of the wheel about its axle, positive forward, rad/s
+    double             lateral_speed    = 0.; ///< of the wheelset over the track, to the own side, m/s
 
     /// Overlaps nearer to each other than this along the surface are solved in one plane, m.
     double separation = 0.;

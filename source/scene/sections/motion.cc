@@ -52,7 +52,9 @@ namespace tread
     section.add(
       "Lateral creepage", lateral_creepage,
       "Lateral velocity of the wheel relative to the rail / speed, towards +y. The axle stays upright and on "
-      "its line: the surfaces slide over each other as if it did not (CONTACT's module 3).",
+      "its line: the surfaces slide over each other as if it did not (CONTACT's module 3). Where 'Wheelset' "
+      "has a position: "
+      "of the wheelset to its own side, in that position, besides what follows from it.",
       Double(-0.2, 0.2));
     section.add(
       "Spin (1 per m)", spin,
