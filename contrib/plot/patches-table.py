@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Where half-space theory ends: neighbouring patches and a conformal one, rolled with finite elements, beside the half-space.
 

@@ -30,7 +30,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("largest slip in adhesion, m/s", measures["max_slip_in_adhesion_m_per_s"], 1e-6)
     check.energy("", one, 0.004)
     # What the imposed sliding puts in is work from outside: without it a third of the friction would lack its source.
-    check.relative("lateral coefficient in the summary", one["lateral_coefficient"], share(one, "lateral"), 1e-12)
+    # In the plane of the contact, over the passage of a cell instead of the last 10 mm.
+    check.relative("lateral coefficient in the summary", one["lateral_coefficient"], share(one, "lateral"), 3e-3)
 
     # Friction that falls with slip and remembers: traction of the half-space, where the coefficient is that of the slip of each
     # element (0.305 of 0.33), and the same on other ranks, which take over the nodes' memory.
