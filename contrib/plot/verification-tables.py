@@ -220,7 +220,38 @@ def creepage_spin_table(results):
                      "pressure, RMS [%]", "shear stress, RMS [%]", "energy residual [% of the dissipated]"], rows)
 
 
+# Of the scene locomotive-0.63.prm.
+LOCOMOTIVE_CREEPAGES = (0.002, 0.004, 0.01, 0.02, 0.04, 0.075)
+
+
+def locomotive_run(creepage, what):
+    return f"locomotive-{creepage:g}-{what}"
+
+
+def locomotive_table(results):
+    rows = []
+    for creepage in LOCOMOTIVE_CREEPAGES:
+        runs = [os.path.join(results, locomotive_run(creepage, what)) for what in ("half-space", "0.63")]
+        if not all(is_complete(run) for run in runs):
+            print(f"note: no results in {' or '.join(runs)}")
+            return None
+        half_space, own = (read_summary(run) for run in runs)
+        traction = lambda summary: summary["longitudinal_force_N"] / summary["normal_force_N"]
+        rows.append([f"{creepage:g}", f"{traction(half_space):.4f}", f"{traction(own):.4f}", signed(100 * (traction(own) / traction(half_space) - 1)),
+                     signed(100 * (own["adhesion_share"] - half_space["adhesion_share"])),
+                     signed(100 * (own["frictional_power_W"] / half_space["frictional_power_W"] - 1)),
+                     number(100 * own["tangential_force_ripple_share"]), number(100 * own["slip_chatter_share"]),
+                     number(100 * own["energy_residual_of_dissipated"])])
+    return markdown(["creepage", "half-space: Fx/Fn", "0.63 mm: Fx/Fn", "difference [%]", "adhesion [points]", "frictional power [%]",
+                     "ripple of the tangential force [% of Fn]", "chatter of the slip [%]", "energy residual [% of the dissipated]"], rows)
+
+
 def run_missing(results, tables):
+    if "locomotive" in tables:
+        for creepage in LOCOMOTIVE_CREEPAGES:
+            scene, settings = "verification/locomotive-0.63.prm", {"Motion/Creepage": creepage}
+            run_scene(scene, os.path.join(results, locomotive_run(creepage, "half-space")), settings, more=["--reference-only"])
+            run_scene(scene, os.path.join(results, locomotive_run(creepage, "0.63")), settings)
     if "creepage-spin" in tables:
         for case, (_, settings) in enumerate(CREEPAGE_SPIN):
             scene = "verification/creepage-spin-0.63.prm"
@@ -312,7 +343,8 @@ def published_table(results):
 
 
 TABLES = {"half-space": half_space_table, "low-strain": low_strain_table, "strain": strain_table,
-          "sensitivity": sensitivity_table, "creepage-spin": creepage_spin_table, "published": published_table}
+          "sensitivity": sensitivity_table, "creepage-spin": creepage_spin_table,
+          "locomotive": locomotive_table, "published": published_table}
 
 
 def main():
