@@ -2,6 +2,7 @@
 #include <tread/base/version.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/simulation.h>
+#include <tread/tools/batch_files.h>
 #include <tread/tools/contact_points_files.h>
 #include <tread/tools/dynamic_force_files.h>
 #include <tread/tools/modes_files.h>
@@ -26,7 +27,7 @@ namespace
   {
     std::string                 scene;
     std::vector<std::string>    settings;
-    std::string                 output;
+    std::string                 output, batch;
     tread::DynamicForceRequest  dynamic;
     tread::ModesRequest         modes;
     tread::SleeperStressRequest sleeper;
@@ -46,7 +47,7 @@ namespace
     app.add_option("-s", line.settings, "\"Section/Name=value\": set a parameter; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--output", line.output, "folder of the results");
+    app.add_option("--output", line.output, "folder of the results; of --batch, their table");
     app.add_flag("--print-parameters", line.print_parameters,
                  "print all parameters with units, ranges and meaning, and stop");
     CLI::Option_group *how = app.add_option_group("How to run the scene");
@@ -80,6 +81,9 @@ namespace
     app.add_option("--bottom", line.sleeper.bottom, "of the sleeper: fixed or ballast")->needs(seat);
     app.add_option("--cell-size", line.sleeper.cell_size_mm, "largest edge of the sleeper's cells, mm")
       ->needs(seat);
+    CLI::Option *batch =
+      app.add_option("--batch", line.batch, "table of half-space cases: solve each of its rows, on all cores");
+    batch->excludes(defect)->excludes(seat)->excludes(how);
     try
       {
         app.parse(argc, argv);
@@ -94,6 +98,8 @@ namespace
       {
         throw tread::InputError(std::string(error.what()) + "; tread --help lists all options");
       }
+    if (!line.batch.empty() && (!line.scene.empty() || !line.settings.empty() || line.print_parameters))
+      throw tread::InputError("--batch reads a table of cases; it takes no scene, no -s and no --print-parameters");
     if (!line.dynamic.run.empty() && !line.scene.empty())
       throw tread::InputError("--dynamic-force reads two runs; it takes no scene");
     if (!line.dynamic.run.empty() &&
@@ -117,6 +123,11 @@ namespace
     if (!asked)
       return 0;
     CommandLine &line = *asked;
+    if (!line.batch.empty())
+      {
+        tread::write_batch(line.batch, line.output, comm);
+        return 0;
+      }
     if (!line.dynamic.run.empty())
       {
         line.dynamic.output = line.output;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 
@@ -82,22 +83,28 @@ namespace tread::reference
     require_finite("y_first", grid.y_first);
   }
 
-  Grid centred_grid(const double half_x, const double half_y, const double element_size)
+  Grid centred_grid(const double half_x, const double half_y, const double dx, const double dy)
   {
     require_positive("half_x", half_x, "m");
     require_positive("half_y", half_y, "m");
-    require_positive("element_size", element_size, "m");
-    const double m_x = std::ceil(half_x / element_size - 0.5), m_y = std::ceil(half_y / element_size - 0.5);
-    require((2. * m_x + 1.) * (2. * m_y + 1.) <= 2e6, "element_size", element_size,
+    require_positive("element_size", dx, "m");
+    require_positive("element_size_y", dy, "m");
+    const double m_x = std::ceil(half_x / dx - 0.5), m_y = std::ceil(half_y / dy - 0.5);
+    require((2. * m_x + 1.) * (2. * m_y + 1.) <= 2e6, "element_size", std::min(dx, dy),
             "a size that gives at most two million elements on the grid");
     Grid grid;
     grid.n_x     = 2 * static_cast<unsigned int>(std::max(m_x, 0.)) + 1;
     grid.n_y     = 2 * static_cast<unsigned int>(std::max(m_y, 0.)) + 1;
-    grid.dx      = element_size;
-    grid.dy      = element_size;
-    grid.x_first = -0.5 * (grid.n_x - 1) * element_size;
-    grid.y_first = -0.5 * (grid.n_y - 1) * element_size;
+    grid.dx      = dx;
+    grid.dy      = dy;
+    grid.x_first = -0.5 * (grid.n_x - 1) * dx;
+    grid.y_first = -0.5 * (grid.n_y - 1) * dy;
     return grid;
+  }
+
+  Grid centred_grid(const double half_x, const double half_y, const double element_size)
+  {
+    return centred_grid(half_x, half_y, element_size, element_size);
   }
 
   namespace
@@ -124,6 +131,16 @@ namespace tread::reference
            (std::abs(y) < 0.5 * dy ? layer_influence(kind, pair, dx, x) : 0.);
   }
 
+  namespace
+  {
+    /// FFTW makes and destroys plans in one thread at a time; they are executed in any.
+    std::mutex &planner()
+    {
+      static std::mutex mutex;
+      return mutex;
+    }
+  } // namespace
+
   struct FourierGrid::Plans
   {
     double       *real    = nullptr;
@@ -135,8 +152,11 @@ namespace tread::reference
 
     ~Plans()
     {
-      fftw_destroy_plan(forward);
-      fftw_destroy_plan(inverse);
+      {
+        const std::lock_guard<std::mutex> alone(planner());
+        fftw_destroy_plan(forward);
+        fftw_destroy_plan(inverse);
+      }
       fftw_free(real);
       fftw_free(output);
       fftw_free(complex);
@@ -154,8 +174,11 @@ namespace tread::reference
     plans->output       = fftw_alloc_real(n);
     plans->complex      = fftw_alloc_complex(spectrum_size());
     const int rows = static_cast<int>(padded[1]), columns = static_cast<int>(padded[0]);
-    plans->forward = fftw_plan_dft_r2c_2d(rows, columns, plans->real, plans->complex, FFTW_ESTIMATE);
-    plans->inverse = fftw_plan_dft_c2r_2d(rows, columns, plans->complex, plans->output, FFTW_ESTIMATE);
+    {
+      const std::lock_guard<std::mutex> alone(planner());
+      plans->forward = fftw_plan_dft_r2c_2d(rows, columns, plans->real, plans->complex, FFTW_ESTIMATE);
+      plans->inverse = fftw_plan_dft_c2r_2d(rows, columns, plans->complex, plans->output, FFTW_ESTIMATE);
+    }
     std::fill_n(plans->real, n, 0.);
     std::vector<unsigned int> all(grid.size());
     std::iota(all.begin(), all.end(), 0u);
@@ -232,8 +255,10 @@ namespace tread::reference
     const std::size_t n = padded[0], half = n / 2 + 1;
     double           *line    = fftw_alloc_real(n);
     fftw_complex     *complex = fftw_alloc_complex(half);
-    const fftw_plan   back    = fftw_plan_dft_c2r_1d(static_cast<int>(n), complex, line, FFTW_ESTIMATE),
-                    forward   = fftw_plan_dft_r2c_1d(static_cast<int>(n), line, complex, FFTW_ESTIMATE);
+    std::unique_lock<std::mutex> alone(planner());
+    const fftw_plan              back = fftw_plan_dft_c2r_1d(static_cast<int>(n), complex, line, FFTW_ESTIMATE),
+                    forward           = fftw_plan_dft_r2c_1d(static_cast<int>(n), line, complex, FFTW_ESTIMATE);
+    alone.unlock();
     for (unsigned int j = 0; j < padded[1]; ++j)
       {
         std::complex<double> *row = &spectrum[j * half];
@@ -249,8 +274,10 @@ namespace tread::reference
         for (std::size_t i = 0; i < half; ++i)
           row[i] = std::exp(std::complex<double>(complex[i][0], complex[i][1]));
       }
+    alone.lock();
     fftw_destroy_plan(back);
     fftw_destroy_plan(forward);
+    alone.unlock();
     fftw_free(line);
     fftw_free(complex);
   }

@@ -115,9 +115,11 @@ namespace tread::reference
     check_grid(c.grid);
     require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
     require_positive("speed", c.speed, "m/s");
+    require(std::isfinite(c.normal_force) && c.normal_force >= 0., "normal_force", c.normal_force, ">= 0 N");
     const ElasticPair pair = combine(c.wheel, c.rail);
     NormalProblem     normal;
-    normal.prescribe_force = false;
+    normal.prescribe_force = c.normal_force > 0.;
+    normal.force           = c.normal_force;
     normal.approach        = 0.;
     normal.gap.resize(c.grid.size());
     for (std::size_t e = 0; e < c.grid.size(); ++e)
@@ -138,6 +140,8 @@ namespace tread::reference
 
     PlanarResult        result;
     TangentialSolution &t     = contact.tangential;
+    result.approach           = contact.normal.approach;
+    result.iterations         = t.iterations;
     result.grid               = c.grid;
     result.pressure           = std::move(contact.normal.pressure);
     result.shear_x            = std::move(t.shear_x);

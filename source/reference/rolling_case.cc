@@ -21,6 +21,8 @@ namespace tread::reference
     require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
     require_positive("speed", c.speed, "m/s");
     require_positive("element_size", c.element_size, "m");
+    require(std::isfinite(c.element_size_y) && c.element_size_y >= 0., "element_size_y", c.element_size_y,
+            ">= 0 m");
     require_finite("lateral_creepage", c.lateral_creepage);
     require_finite("spin", c.spin);
     require(std::isfinite(c.layer) && c.layer >= 0., "layer", c.layer, ">= 0 m/Pa");
@@ -181,9 +183,9 @@ namespace tread::reference
                                 Edges              &edges)
     {
       constexpr unsigned int parts = 3;
-      const double           size = grid.dx / parts, first = 0.5 * (parts - 1) * size;
-      const Grid             fine{parts * grid.n_x,     parts * grid.n_y,    size, size,
-                      grid.x_first - first, grid.y_first - first};
+      const double           dx = grid.dx / parts, dy = grid.dy / parts, ahead = 0.5 * (parts - 1);
+      const Grid             fine{parts * grid.n_x,          parts * grid.n_y,         dx, dy,
+                      grid.x_first - ahead * dx, grid.y_first - ahead * dy};
       const FourierGrid      fourier(fine);
       NormalSolution         normal =
         solve_normal(fourier, NormalOperator(fourier, pair), normal_problem(c, hertz, fine));
@@ -316,7 +318,8 @@ namespace tread::reference
       RollingResult result;
       result.n_x          = grid.n_x;
       result.n_y          = grid.n_y;
-      result.element_size = c.element_size;
+      result.element_size = grid.dx;
+      result.element_size_y = grid.dy;
       for (unsigned int j = 0; j < grid.n_y; ++j)
         for (unsigned int i = 0; i < grid.n_x; ++i)
           {
@@ -370,18 +373,18 @@ namespace tread::reference
     pair.layer       = c.layer;
     const HertzEllipse hertz =
       hertz_ellipse(c.curvature_x, c.curvature_y, pair.hertz_modulus(), c.normal_force);
-    require(3. * c.element_size <= std::min(hertz.semi_axis_x, hertz.semi_axis_y), "element_size",
-            c.element_size,
-            "at most a third of the smaller Hertz semi-axis, " +
-              std::to_string(std::min(hertz.semi_axis_x, hertz.semi_axis_y) / 3.) + " m");
+    for (const auto &[name, size, semi_axis] : {std::tuple("element_size", c.element_size, hertz.semi_axis_x),
+                                                std::tuple("element_size_y", c.edge_y(), hertz.semi_axis_y)})
+      require(3. * size <= semi_axis, name, size,
+              "at most a third of the Hertz semi-axis, " + std::to_string(semi_axis / 3.) + " m");
 
     TangentialProblem tangential = tangential_problem(c, order);
     const Reach       reach      = patch_reach(c, pair, hertz);
     Grid              grid;
     ContactSolution   contact;
-    for (double margin = 2. * c.element_size;; margin *= 3.)
+    for (double margin = 2.;; margin *= 3.) // elements
       {
-        grid    = centred_grid(reach.x + margin, reach.y + margin, c.element_size);
+        grid    = centred_grid(reach.x + margin * c.element_size, reach.y + margin * c.edge_y(), c.element_size, c.edge_y());
         contact = solve_on_grid(c, pair, hertz, grid, tangential, edges);
         if (!contact.normal.cut)
           break;

@@ -26,7 +26,7 @@ namespace tread::reference
         : c(c)
         , r(r)
         , edges(edges)
-        , grid{r.n_x, r.n_y, r.element_size, r.element_size, r.x[0], r.y[0]}
+        , grid(r.grid())
         , slip_to_shear(0.5 * combine(c.wheel, c.rail).hertz_modulus() / c.speed)
         , bound(r.pressure)
       {
@@ -162,15 +162,19 @@ namespace tread::reference
     // large again are too large for the patch, the finer grid is finer than asked for.
     constexpr double ratio     = 1.5;
     RollingCase      fine_case = rolling_case, coarse_case = rolling_case;
-    coarse_case.element_size *= ratio;
+    const auto       scale = [](RollingCase &c, const double by) {
+      c.element_size *= by;
+      c.element_size_y *= by;
+    };
+    scale(coarse_case, ratio);
     check_case(rolling_case);
     const HertzEllipse hertz = hertz_ellipse(rolling_case.curvature_x, rolling_case.curvature_y,
                                              combine(rolling_case.wheel, rolling_case.rail).hertz_modulus(),
                                              rolling_case.normal_force);
-    if (3. * coarse_case.element_size > std::min(hertz.semi_axis_x, hertz.semi_axis_y))
+    if (3. * coarse_case.element_size > hertz.semi_axis_x || 3. * coarse_case.edge_y() > hertz.semi_axis_y)
       {
-        fine_case.element_size   = rolling_case.element_size / ratio;
-        coarse_case.element_size = rolling_case.element_size;
+        scale(fine_case, 1. / ratio);
+        scale(coarse_case, 1. / ratio);
       }
     Edges           fine_edges, coarse_edges;
     RollingEstimate result;

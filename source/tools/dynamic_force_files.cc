@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/dynamic_force.h>
+#include <tread/base/csv_table.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/scene.h>
 #include <tread/tools/dynamic_force_files.h>
@@ -22,61 +23,32 @@ namespace tread
 {
   namespace
   {
-    std::vector<std::string> split(const std::string &line)
-    {
-      return dealii::Utilities::split_string_list(line, ',');
-    }
-
     ForceHistory read_forces(const std::string &folder)
     {
       if (!std::filesystem::is_directory(folder))
         throw InputError("no folder '" + folder + "'");
-      ForceHistory history;
-      history.name = folder + "/history.csv";
-      std::ifstream file(history.name);
-      std::string   line;
-      if (!std::getline(file, line))
-        throw InputError("cannot read '" + history.name + "': is '" + folder + "' the folder of a run?");
-      const std::vector<std::string> names = split(line);
-      std::vector<std::size_t>       place; // of the forces
-      const auto                     find = [&](const std::string &name) {
-        const auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end())
-          throw InputError(history.name + " has no column '" + name + "'");
-        return static_cast<std::size_t>(at - names.begin());
+      const std::string name     = folder + "/history.csv";
+      const auto        is_force = [](const std::string &column) {
+        return column.size() > 2 && column.compare(column.size() - 2, 2, "_N") == 0;
       };
-      const std::size_t time = find("time_s"), position = find("position_m");
-      for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i].size() > 2 && names[i].compare(names[i].size() - 2, 2, "_N") == 0)
+      const CsvTable table(
+        name,
+        [&](const std::string &column) {
+          return column == "time_s" || column == "position_m" || is_force(column);
+        },
+        "cannot read '" + name + "': is '" + folder + "' the folder of a run?");
+      ForceHistory history;
+      history.name     = name;
+      history.time     = table.column("time_s");
+      history.position = table.column("position_m");
+      for (const std::string &column : table.names())
+        if (is_force(column))
           {
-            place.push_back(i);
-            history.columns.push_back(names[i]);
+            history.columns.push_back(column);
+            history.force.push_back(table.column(column));
           }
-      if (place.empty())
+      if (history.columns.empty())
         throw InputError(history.name + " has no column of a force, whose name ends with _N");
-      history.force.resize(place.size());
-      for (std::size_t row = 1; std::getline(file, line); ++row)
-        {
-          const std::string where = history.name + ", row " + std::to_string(row) + ": ";
-          const auto        parts = split(line);
-          if (parts.size() != names.size())
-            throw InputError(where + std::to_string(parts.size()) + " entries for " +
-                             std::to_string(names.size()) + " columns");
-          const auto number = [&](const std::size_t i) {
-            try
-              {
-                return dealii::Utilities::string_to_double(parts[i]);
-              }
-            catch (const dealii::ExceptionBase &)
-              {
-                throw InputError(where + "'" + parts[i] + "' is no number");
-              }
-          };
-          history.time.push_back(number(time));
-          history.position.push_back(number(position));
-          for (std::size_t i = 0; i < place.size(); ++i)
-            history.force[i].push_back(number(place[i]));
-        }
       return history;
     }
 

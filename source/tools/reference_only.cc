@@ -29,7 +29,7 @@ namespace tread
     public:
       BodyStress(const reference::RollingResult &answer, const Body body, const double poisson)
         : answer(answer)
-        , grid{answer.n_x, answer.n_y, answer.element_size, answer.element_size, answer.x[0], answer.y[0]}
+        , grid(answer.grid())
         , body(body)
         , poisson(poisson)
       {

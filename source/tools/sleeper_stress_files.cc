@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/sleeper_stress.h>
+#include <tread/base/csv_table.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/scene.h>
 #include <tread/tools/sleeper_stress_files.h>
@@ -58,41 +59,26 @@ namespace tread
       if (!std::filesystem::is_directory(folder))
         throw InputError("no folder '" + folder + "'");
       const std::string name = folder + "/" + table_name;
-      std::ifstream     file(name);
-      std::string       line;
-      if (!std::getline(file, line))
-        throw InputError("--sleeper-stress: '" + folder + "' has no " + table_name +
-                         ", which a run on discrete supports writes for those in 'Output/Supports'");
-      const auto names = dealii::Utilities::split_string_list(line, ',');
-      const auto place = [&](const std::string &column) {
-        const auto at = std::find(names.begin(), names.end(), column);
-        if (at == names.end())
-          throw InputError(name + " has no column '" + column + "'");
-        return static_cast<std::size_t>(at - names.begin());
-      };
-      const std::size_t support = place("support"), time = place("time_s"), wheel_x = place("wheel_x_mm"),
-                        x = place("x_mm"), y = place("y_mm"), pressure = place("pressure_MPa");
+      const CsvTable    table(
+        name, [](const std::string &) { return true; },
+        "--sleeper-stress: '" + folder + "' has no " + table_name +
+          ", which a run on discrete supports writes for those in 'Output/Supports'");
+      const std::vector<double> &support = table.column("support"), &time = table.column("time_s"),
+                                &wheel_x = table.column("wheel_x_mm"), &x = table.column("x_mm"),
+                                &y = table.column("y_mm"), &pressure = table.column("pressure_MPa");
       std::vector<RecordedSeat> seats;
-      for (std::size_t row = 1; std::getline(file, line); ++row)
+      for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
-          const std::string where = name + ", row " + std::to_string(row) + ": ";
-          const auto        parts = dealii::Utilities::split_string_list(line, ',');
-          if (parts.size() != names.size())
-            throw InputError(where + std::to_string(parts.size()) + " entries for " +
-                             std::to_string(names.size()) + " columns");
-          const auto value = [&](const std::size_t i) {
-            return number_of(parts[i], where);
-          };
-          if (const int number = std::lround(value(support)); seats.empty() || seats.back().support != number)
+          if (const int number = std::lround(support[row]); seats.empty() || seats.back().support != number)
             {
               seats.emplace_back();
               seats.back().support = number;
-              seats.back().time    = value(time);
-              seats.back().wheel_x = 1e-3 * value(wheel_x);
+              seats.back().time    = time[row];
+              seats.back().wheel_x = 1e-3 * wheel_x[row];
             }
-          seats.back().x.push_back(1e-3 * value(x));
-          seats.back().y.push_back(1e-3 * value(y));
-          seats.back().pressure.push_back(1e6 * value(pressure));
+          seats.back().x.push_back(1e-3 * x[row]);
+          seats.back().y.push_back(1e-3 * y[row]);
+          seats.back().pressure.push_back(1e6 * pressure[row]);
         }
       if (seats.empty())
         throw InputError(name + " has no rows");

@@ -239,7 +239,7 @@ namespace
         sliding.creepage        = -10.;
         const RollingResult r =
           name == "full_slip" ? solve_rolling(sliding) : solved(name == "mu030" ? 0.3 : 0., 0.1);
-        const Grid grid{r.n_x, r.n_y, r.element_size, r.element_size, r.x[0], r.y[0]};
+        const Grid grid = r.grid();
 
         double worst_below = 0., worst_surface = 0., worst_component = 0., maximum = 0., maximum_ours = 0.;
         for (const Body body : {Body::wheel, Body::rail})
@@ -283,7 +283,7 @@ namespace
     c.curvature_x = c.curvature_y        = 1. / 0.7;
     c.element_size                       = 1e-4;
     const RollingResult                r = solve_rolling(c);
-    const Grid                         grid{r.n_x, r.n_y, r.element_size, r.element_size, r.x[0], r.y[0]};
+    const Grid                         grid = r.grid();
     std::vector<std::array<double, 3>> points;
     for (double z = 0.2; z < 0.9; z += 0.005)
       points.push_back({0., 0., z * r.hertz_semi_x});

@@ -41,8 +41,10 @@ namespace tread::reference
     }
   };
 
-  /// A grid of square elements with element centres at x = 0 and y = 0 that covers |x| <= half_x, |y| <=
+  /// A grid of elements dx by dy with element centres at x = 0 and y = 0 that covers |x| <= half_x, |y| <=
   /// half_y.
+  Grid centred_grid(double half_x, double half_y, double dx, double dy);
+  /// The same of square elements.
   Grid centred_grid(double half_x, double half_y, double element_size);
 
   /// Throws std::invalid_argument for an empty or impossible grid.
@@ -68,7 +70,8 @@ namespace tread::reference
                                double             x,
                                double             y);
 
-  /// Zero-padded Fourier transforms for one grid (FFTW). Not thread-safe: one object per thread.
+  /// Zero-padded Fourier transforms for one grid (FFTW). Not thread-safe: one object per thread; objects may be made in
+  /// several threads at once.
   class FourierGrid
   {
   public:

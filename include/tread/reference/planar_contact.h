@@ -11,13 +11,14 @@
 
 namespace tread::reference
 {
-  /// Steady rolling of two bodies that overlap by a given gap, solved in one plane: a patch of any shape in
-  /// its own axes. Axes and signs as in rolling_case.h, the origin anywhere in the plane.
+  /// Steady rolling of two bodies with any gap, solved in one plane: a patch of any shape in its own axes.
+  /// Axes and signs as in rolling_case.h, the origin anywhere in the plane.
   struct PlanarCase
   {
-    Grid grid; ///< rectangular elements over all places with gap < 0
+    Grid grid; ///< rectangular elements over all places in contact
     std::function<double(double, double)>
       gap; ///< of the undeformed surfaces, negative where they overlap [m]
+    double normal_force = 0.; ///< [N]; 0: they stay where the gap has them
 
     double friction = 0.; ///< Coulomb's f [-], >= 0
     double speed    = 1.; ///< rolling speed [m/s]; scales slip and power only
@@ -53,6 +54,8 @@ namespace tread::reference
     double overlap          = 0.;    ///< largest, of the undeformed surfaces at the elements [m]
     double y_begin = 0., y_end = 0.; ///< outer edges of the elements in contact [m]
     double x_begin = 0., x_end = 0.;
+    double approach = 0.;        ///< beyond what the gap has [m]
+    unsigned int iterations = 0; ///< Newton steps of the tangential problem
   };
 
   /// Errors: std::invalid_argument where the surfaces do not overlap or a number makes no sense;

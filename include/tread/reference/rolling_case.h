@@ -3,6 +3,7 @@
 #define tread_reference_rolling_case_h
 
 #include <tread/reference/elastic.h>
+#include <tread/reference/influence.h>
 
 #include <functional>
 #include <memory>
@@ -60,7 +61,13 @@ namespace tread::reference
     /// Of a layer between the bodies: ElasticPair::layer [m/Pa].
     double layer = 0.;
 
-    double element_size = 0.33e-3; ///< edge of the square surface elements [m], > 0
+    double element_size   = 0.33e-3; ///< edge of the surface elements along x [m], > 0
+    double element_size_y = 0.;      ///< along y [m]; 0: square elements
+
+    double edge_y() const
+    {
+      return element_size_y > 0. ? element_size_y : element_size;
+    }
   };
 
   /// State of an element of the grid.
@@ -76,7 +83,8 @@ namespace tread::reference
   {
     unsigned int n_x          = 0;  ///< elements in x
     unsigned int n_y          = 0;  ///< elements in y
-    double       element_size = 0.; ///< [m]
+    double       element_size = 0.; ///< along x [m]
+    double       element_size_y = 0.; ///< along y [m]
 
     std::vector<double> x, y;             ///< element centres [m]; one lies at (0, 0)
     std::vector<double> pressure;         ///< [Pa], >= 0
@@ -117,13 +125,19 @@ namespace tread::reference
     double       normal_residual       = 0.; ///< largest error of the gap in contact over the approach [-]
     double       tangential_residual   = 0.; ///< largest violation of Coulomb's law over f p_max [-]
     double       solve_seconds         = 0.; ///< wall time [s]
+
+    Grid grid() const
+    {
+      return {n_x, n_y, element_size, element_size_y, x[0], y[0]};
+    }
   };
 
   /// Solve a case with the half-space solver. Chooses the grid itself: with the centre element at (0, 0), it
   /// holds the patch.
   ///
   /// Errors: std::invalid_argument for non-positive curvatures, force, speed or element size, negative
-  /// friction, |Fx| >= f Fn > 0, or an element size that gives fewer than 3 elements along a semi-axis
+  /// friction, |Fx| >= f Fn > 0, or an element size that gives fewer than 3 elements along a semi-axis of the
+  /// ellipse
   /// or more than two million elements; std::runtime_error if the solver does not converge.
   RollingResult solve_rolling(const RollingCase &rolling_case);
 } // namespace tread::reference

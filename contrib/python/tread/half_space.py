@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Steady rolling of two elastic half-spaces, many contacts at once: the library libtread_half_space.
+
+    import numpy as np
+    from tread import half_space
+
+    answers = half_space.solve(curvature_x=1.087, curvature_y=1.667, normal_force=127.1e3, friction=0.3,
+                               creepage=np.linspace(-4e-3, 0, 1000))
+    answers["longitudinal_force"]                 # (1000,) array, N
+
+Axes, signs and units are those of include/tread/half_space.h: forces act on the wheel, a driving wheel has a negative creepage.
+"""
+
+import ctypes
+import ctypes.util
+import functools
+import os
+import shutil
+
+import numpy as np
+
+from .files import Error
+from .runs import ROOT
+
+VERSION = 1  # TREAD_HALF_SPACE_VERSION
+
+# tread_half_space_case and tread_half_space_answer.
+_NUMBERS = ("curvature_x", "curvature_y", "normal_force", "friction", "young", "poisson", "creepage", "lateral_creepage", "spin",
+            "element_x", "element_y")
+_CASE = np.dtype([(name, float) for name in _NUMBERS] + [
+    ("slip_order", np.intc), ("gap", np.uintp), ("n_x", np.uintc), ("n_y", np.uintc), ("x_first", float), ("y_first", float)], align=True)
+_ANSWER = np.dtype([("status", np.intc), ("iterations", np.intc)] + [(name, float) for name in (
+    "longitudinal_force", "lateral_force", "spin_moment", "max_pressure", "adhesion_share", "area", "approach", "frictional_work")],
+    align=True)
+_GRID = np.dtype([("n_x", np.uintc), ("n_y", np.uintc)] + [(name, float) for name in ("element_x", "element_y", "x_first", "y_first")],
+                 align=True)
+FIELDS = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")
+
+
+def library_path():
+    """Of $TREAD_HALF_SPACE_LIBRARY, of the source tree's build, beside the program, or where the system looks. @raises Error"""
+    name = "libtread_half_space.so"
+    program = shutil.which("tread")
+    beside = [os.path.join(os.path.dirname(os.path.realpath(program)), os.pardir, folder, name) for folder in ("lib", "lib64")] if program else []
+    for path in (os.environ.get("TREAD_HALF_SPACE_LIBRARY"), os.path.join(ROOT, "build/source", name), *beside,
+                 ctypes.util.find_library("tread_half_space")):
+        if path and (os.path.exists(path) or os.sep not in path):
+            return path
+    raise Error(f"{name} is not found; build it, or name it in $TREAD_HALF_SPACE_LIBRARY")
+
+
+@functools.lru_cache(maxsize=None)
+def _library():
+    path = library_path()
+    try:
+        library = ctypes.CDLL(path)
+        version = library.tread_half_space_version()
+    except (OSError, AttributeError) as error:
+        raise Error(f"{path}: {error}") from None
+    if version != VERSION:
+        raise Error(f"{path}: has version {version} of the interface where this package knows {VERSION}")
+    pointer = ctypes.c_void_p
+    library.tread_half_space_create.restype = pointer
+    library.tread_half_space_destroy.argtypes = [pointer]
+    library.tread_half_space_solve.argtypes = [pointer] * 3
+    library.tread_half_space_message.argtypes = [pointer]
+    library.tread_half_space_message.restype = ctypes.c_char_p
+    library.tread_half_space_get_grid.argtypes = [pointer] * 2
+    library.tread_half_space_get_field.argtypes = [pointer, ctypes.c_int, pointer]
+    library.tread_half_space_solve_all.argtypes = [pointer, ctypes.c_size_t, ctypes.c_uint, pointer]
+    library.tread_half_space_solve_all.restype = ctypes.c_size_t
+    return library
+
+
+def _cases(settings, slip_order, contact_sixth):
+    """(cases, their shape): numbers and arrays that broadcast become structs."""
+    unknown = sorted(set(settings) - set(_NUMBERS))
+    if unknown:
+        raise TypeError(f"unknown: {', '.join(unknown)}; known are {', '.join(_NUMBERS)}")
+    settings = {"young": 210e9, "poisson": 0.3, **settings}
+    arrays = np.broadcast_arrays(*[np.asarray(value, dtype=float) for value in settings.values()], np.asarray(slip_order, dtype=np.intc))
+    cases = np.zeros(arrays[0].shape, _CASE)
+    for name, values in zip([*settings, "slip_order"], arrays):
+        cases[name] = values
+    if contact_sixth:
+        cases["lateral_creepage"] += cases["spin"] * cases["element_x"] / 6.
+    return np.ascontiguousarray(cases.reshape(-1)), arrays[0].shape
+
+
+class HalfSpaceError(Error):
+    """A case that was not solved, with the library's reason."""
+
+
+def solve(*, slip_order=2, contact_sixth=False, threads=0, on_failure="raise", **settings):
+    """Solve cases of Hertzian contacts on all cores.
+
+    curvature_x, curvature_y  A, B of the gap A x^2 + B y^2, 1/m
+    normal_force, friction    N, Coulomb's coefficient
+    young, poisson            of both bodies, Pa; steel by default
+    creepage, lateral_creepage, spin   rigid slip over the speed, spin in rad/m; 0 by default
+    element_x, element_y      edges of the elements, m; 0, the default: a 16th of the semi-axes
+    slip_order                2, or 1: slip as in CONTACT
+    contact_sixth             add spin element_x/6 to the lateral creepage, as CONTACT does for its steps; needs element_x
+    threads                   0: all cores
+    on_failure                "raise", or "nan": cases that are not solved have nan and a status that is not 0
+
+    Each a number or an array; they are broadcast. Returns {name: array of their shape}: status, iterations, longitudinal_force and
+    lateral_force (N, on the wheel), spin_moment (N m), max_pressure (Pa), adhesion_share, area (m^2), approach (m), frictional_work
+    (J for each metre). Raises HalfSpaceError.
+    """
+    cases, shape = _cases(settings, slip_order, contact_sixth)
+    answers = np.zeros(len(cases), _ANSWER)
+    failed = _library().tread_half_space_solve_all(cases.ctypes.data, len(cases), threads, answers.ctypes.data)
+    if failed and on_failure == "raise":
+        first = int(np.flatnonzero(answers["status"])[0])
+        with _Solver() as solver:
+            solver.solve(cases[first:first + 1], f"{failed} of {len(cases)} cases were not solved; the first is number {first}: ")
+    return {name: answers[name].reshape(shape) for name in _ANSWER.names}
+
+
+class _Solver:
+    def __enter__(self):
+        self.library = _library()
+        self.handle = self.library.tread_half_space_create()
+        return self
+
+    def __exit__(self, *_):
+        self.library.tread_half_space_destroy(self.handle)
+
+    def solve(self, case, what=""):
+        answer = np.zeros(1, _ANSWER)
+        if self.library.tread_half_space_solve(self.handle, case.ctypes.data, answer.ctypes.data):
+            raise HalfSpaceError(what + self.library.tread_half_space_message(self.handle).decode())
+        return answer
+
+
+def solve_patch(*, gap=None, x_first=0., y_first=0., slip_order=2, contact_sixth=False, **settings):
+    """Solve one case, of any gap, with its fields.
+
+    gap    (n_y, n_x) array of the undeformed gap, m, on elements element_x by element_y whose first centre is (x_first, y_first);
+           without it that of curvature_x and curvature_y
+    Others as for solve(), numbers all.
+
+    Returns {name: value}: as of solve(), and x (n_x,), y (n_y,) in m, and (n_y, n_x) arrays pressure, shear_x, shear_y (Pa, on the
+    wheel), slip_x, slip_y (over the speed) and state (0: no contact, 1: adhesion, 2: slip). Raises HalfSpaceError.
+    """
+    case, _ = _cases(settings, slip_order, contact_sixth)
+    if gap is not None:
+        gap = np.ascontiguousarray(gap, dtype=float)
+        if gap.ndim != 2:
+            raise TypeError("gap must be an (n_y, n_x) array")
+        case["gap"], case["n_y"], case["n_x"] = gap.ctypes.data, *gap.shape
+        case["x_first"], case["y_first"] = x_first, y_first
+    with _Solver() as solver:
+        answer = solver.solve(case)
+        grid = np.zeros(1, _GRID)
+        solver.library.tread_half_space_get_grid(solver.handle, grid.ctypes.data)
+        grid = grid[0]
+        result = {name: answer[name][0] for name in _ANSWER.names}
+        result["x"] = grid["x_first"] + grid["element_x"] * np.arange(grid["n_x"])
+        result["y"] = grid["y_first"] + grid["element_y"] * np.arange(grid["n_y"])
+        for number, name in enumerate(FIELDS):
+            values = np.empty((grid["n_y"], grid["n_x"]))
+            solver.library.tread_half_space_get_field(solver.handle, number, values.ctypes.data)
+            result[name] = values
+    return result

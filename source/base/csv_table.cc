@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/csv_table.h>
+#include <tread/base/input_error.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+namespace tread
+{
+  namespace
+  {
+    std::string_view without_blanks(std::string_view text)
+    {
+      const auto first = text.find_first_not_of(" \t\r");
+      return first == text.npos ? std::string_view() :
+                                  text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+    }
+
+    std::vector<std::string_view> split(const std::string_view line)
+    {
+      std::vector<std::string_view> parts;
+      for (std::size_t begin = 0; begin <= line.size();)
+        {
+          const std::size_t end = std::min(line.find(',', begin), line.size());
+          parts.push_back(without_blanks(line.substr(begin, end - begin)));
+          begin = end + 1;
+        }
+      return parts;
+    }
+
+    /// The same in any locale. @returns NaN for what is no number.
+    double number(std::string_view text)
+    {
+      if (!text.empty() && text.front() == '+')
+        text.remove_prefix(1);
+      double     value  = 0.;
+      const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+      return result.ec == std::errc() && result.ptr == text.data() + text.size() ? value : std::nan("");
+    }
+  } // namespace
+
+
+  CsvTable::CsvTable(const std::string                              &file,
+                     const std::function<bool(const std::string &)> &wanted,
+                     const std::string                              &unreadable)
+    : file(file)
+  {
+    std::ifstream stream(file);
+    std::string   line;
+    if (!std::getline(stream, line))
+      throw InputError(unreadable);
+    const std::vector<std::string_view> all = split(line);
+    std::vector<std::size_t>            place;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (const std::string name(all[i]); wanted(name))
+        {
+          if (has(name))
+            throw InputError("'" + file + "' has two columns '" + name + "'");
+          place.push_back(i);
+          read_names.push_back(name);
+        }
+    const std::size_t n_columns = all.size();
+    values.resize(place.size());
+    while (std::getline(stream, line))
+      {
+        if (without_blanks(line).empty())
+          continue;
+        const std::string where = "'" + file + "', row " + std::to_string(++rows) + ": ";
+        const auto        parts = split(line);
+        if (parts.size() != n_columns)
+          throw InputError(where + std::to_string(parts.size()) + " entries for " + std::to_string(n_columns) +
+                           " columns");
+        for (std::size_t i = 0; i < place.size(); ++i)
+          {
+            values[i].push_back(number(parts[place[i]]));
+            if (!std::isfinite(values[i].back()))
+              throw InputError(where + "'" + read_names[i] + "' is '" + std::string(parts[place[i]]) +
+                               "', which is no number");
+          }
+      }
+  }
+
+
+  bool CsvTable::has(const std::string &name) const
+  {
+    return std::find(read_names.begin(), read_names.end(), name) != read_names.end();
+  }
+
+
+  const std::vector<double> &CsvTable::column(const std::string &name) const
+  {
+    const auto at = std::find(read_names.begin(), read_names.end(), name);
+    if (at == read_names.end())
+      throw InputError("'" + file + "' has no column '" + name + "'");
+    return values[at - read_names.begin()];
+  }
+} // namespace tread

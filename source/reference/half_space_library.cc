@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/half_space.h>
+#include <tread/reference/hertz.h>
+#include <tread/reference/planar_contact.h>
+
+#include "require.h"
+#include "rolling_solve.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+// The C interface of the half-space solver: translates structs, and exceptions into a status.
+
+using namespace tread::reference;
+
+/// Fields of the case that was solved last.
+struct tread_half_space
+{
+  Grid                      grid;
+  std::vector<double>       pressure, shear_x, shear_y, slip_x, slip_y;
+  std::vector<ElementState> state;
+  std::string               message;
+};
+
+namespace
+{
+  constexpr double elements_along_semi_axis = 16.;
+
+  unsigned int order_of(const tread_half_space_case &problem)
+  {
+    require(problem.slip_order >= 0 && problem.slip_order <= 2, "slip_order", problem.slip_order, "1 or 2, or 0 for 2");
+    return problem.slip_order == 1 ? 1 : 2;
+  }
+
+  template <typename Result>
+  void keep_fields(tread_half_space &solver, const Grid &grid, Result &result)
+  {
+    solver.grid     = grid;
+    solver.pressure = std::move(result.pressure);
+    solver.shear_x  = std::move(result.shear_x);
+    solver.shear_y  = std::move(result.shear_y);
+    solver.slip_x   = std::move(result.slip_x);
+    solver.slip_y   = std::move(result.slip_y);
+    solver.state    = std::move(result.state);
+  }
+
+  template <typename Result>
+  void set_common(tread_half_space_answer &answer, const Result &result)
+  {
+    answer.longitudinal_force = result.longitudinal_force;
+    answer.lateral_force      = result.lateral_force;
+    answer.spin_moment        = result.spin_moment;
+    answer.max_pressure       = result.max_pressure;
+    answer.adhesion_share     = result.adhesion_share;
+    answer.area               = result.area;
+    answer.approach           = result.approach;
+  }
+
+  void solve_ellipse(tread_half_space &solver, const tread_half_space_case &problem, tread_half_space_answer &answer)
+  {
+    RollingCase c;
+    c.curvature_x = problem.curvature_x;
+    c.curvature_y = problem.curvature_y;
+    require_positive("curvature_x", c.curvature_x, "1/m");
+    require_positive("curvature_y", c.curvature_y, "1/m");
+    c.normal_force = problem.normal_force;
+    require_positive("normal_force", c.normal_force, "N");
+    c.friction = problem.friction;
+    c.wheel = c.rail   = {problem.young, problem.poisson};
+    c.prescribe_force  = false;
+    c.creepage         = problem.creepage;
+    c.lateral_creepage = problem.lateral_creepage;
+    c.spin             = problem.spin;
+    const HertzEllipse hertz =
+      hertz_ellipse(c.curvature_x, c.curvature_y, combine(c.wheel, c.rail).hertz_modulus(), c.normal_force);
+    c.element_size   = problem.element_x != 0. ? problem.element_x : hertz.semi_axis_x / elements_along_semi_axis;
+    c.element_size_y = problem.element_y != 0. ? problem.element_y : hertz.semi_axis_y / elements_along_semi_axis;
+    Edges         edges;
+    RollingResult result = solve_rolling(c, order_of(problem), edges);
+    set_common(answer, result);
+    if (order_of(problem) == 2)
+      {
+        answer.max_pressure = result.hertz_pressure;
+        answer.area         = edges.area(result.grid());
+      }
+    answer.frictional_work = result.power_balance;
+    answer.iterations      = static_cast<int>(result.tangential_iterations);
+    const Grid grid        = result.grid();
+    keep_fields(solver, grid, result);
+  }
+
+  void solve_gap(tread_half_space &solver, const tread_half_space_case &problem, tread_half_space_answer &answer)
+  {
+    PlanarCase c;
+    c.grid = {problem.n_x, problem.n_y, problem.element_x, problem.element_y, problem.x_first, problem.y_first};
+    check_grid(c.grid);
+    c.gap = [&](const double x, const double y) {
+      const auto i = std::lround((x - problem.x_first) / problem.element_x),
+                 j = std::lround((y - problem.y_first) / problem.element_y);
+      return problem.gap[j * problem.n_x + i];
+    };
+    require_positive("normal_force", problem.normal_force, "N");
+    c.normal_force = problem.normal_force;
+    c.friction     = problem.friction;
+    c.longitudinal = problem.creepage;
+    c.lateral      = problem.lateral_creepage;
+    c.spin         = problem.spin;
+    c.wheel = c.rail = {problem.young, problem.poisson};
+    c.order          = order_of(problem);
+    PlanarResult result = solve_planar(c);
+    set_common(answer, result);
+    answer.frictional_work = result.frictional_power;
+    answer.iterations      = static_cast<int>(result.iterations);
+    keep_fields(solver, c.grid, result);
+  }
+
+  tread_half_space_answer no_answer()
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {TREAD_HALF_SPACE_NOT_SOLVED, 0, nan, nan, nan, nan, nan, nan, nan, nan};
+  }
+
+  /// Texts of exceptions are short: what has no memory for them has none for a case either.
+  int solve(tread_half_space &solver, const tread_half_space_case &problem, tread_half_space_answer &answer) noexcept
+  {
+    answer = no_answer();
+    solver.message.clear();
+    solver.state.clear();
+    try
+      {
+        if (problem.gap)
+          solve_gap(solver, problem, answer);
+        else
+          solve_ellipse(solver, problem, answer);
+        answer.status = TREAD_HALF_SPACE_SOLVED;
+      }
+    catch (const std::bad_alloc &)
+      {
+        answer        = no_answer();
+        answer.status = TREAD_HALF_SPACE_OUT_OF_MEMORY;
+      }
+    catch (const std::invalid_argument &error)
+      {
+        answer         = no_answer();
+        answer.status  = TREAD_HALF_SPACE_WRONG_INPUT;
+        solver.message = error.what();
+      }
+    catch (const std::exception &error)
+      {
+        answer         = no_answer();
+        solver.message = error.what();
+      }
+    return answer.status;
+  }
+} // namespace
+
+
+extern "C"
+{
+  int tread_half_space_version(void)
+  {
+    return TREAD_HALF_SPACE_VERSION;
+  }
+
+  tread_half_space *tread_half_space_create(void)
+  {
+    return new (std::nothrow) tread_half_space;
+  }
+
+  void tread_half_space_destroy(tread_half_space *solver)
+  {
+    delete solver;
+  }
+
+  int tread_half_space_solve(tread_half_space            *solver,
+                             const tread_half_space_case *problem,
+                             tread_half_space_answer     *answer)
+  {
+    return solve(*solver, *problem, *answer);
+  }
+
+  const char *tread_half_space_message(const tread_half_space *solver)
+  {
+    return solver->message.c_str();
+  }
+
+  int tread_half_space_get_grid(const tread_half_space *solver, tread_half_space_grid *grid)
+  {
+    const Grid &g = solver->grid;
+    *grid         = {g.n_x, g.n_y, g.dx, g.dy, g.x_first, g.y_first};
+    return solver->state.empty();
+  }
+
+  int tread_half_space_get_field(const tread_half_space *solver, const int field, double *values)
+  {
+    const std::vector<double> *of[] = {&solver->pressure, &solver->shear_x, &solver->shear_y, &solver->slip_x,
+                                       &solver->slip_y};
+    if (solver->state.empty() || field < TREAD_HALF_SPACE_PRESSURE || field > TREAD_HALF_SPACE_STATE)
+      return 1;
+    if (field == TREAD_HALF_SPACE_STATE)
+      std::transform(solver->state.begin(), solver->state.end(), values,
+                     [](const ElementState state) { return static_cast<double>(state); });
+    else
+      std::copy(of[field]->begin(), of[field]->end(), values);
+    return 0;
+  }
+
+  size_t tread_half_space_solve_all(const tread_half_space_case *problems,
+                                    const size_t                 n_problems,
+                                    const unsigned int           n_threads,
+                                    tread_half_space_answer     *answers)
+  {
+    const std::size_t n = std::min<std::size_t>(
+      n_problems, n_threads > 0 ? n_threads : std::max(1u, std::thread::hardware_concurrency()));
+    std::atomic<std::size_t> next{0}, failed{0};
+    const auto               work = [&]() noexcept {
+      tread_half_space solver;
+      for (std::size_t k = next++; k < n_problems; k = next++)
+        if (solve(solver, problems[k], answers[k]) != TREAD_HALF_SPACE_SOLVED)
+          ++failed;
+    };
+    std::vector<std::thread> helpers;
+    try
+      {
+        while (helpers.size() + 1 < n)
+          helpers.emplace_back(work);
+      }
+    catch (const std::exception &)
+      {
+        // The threads that there are do it.
+      }
+    work();
+    for (std::thread &helper : helpers)
+      helper.join();
+    return failed;
+  }
+}

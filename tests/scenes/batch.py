@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The half-space solver as a library: tread --batch and tread.half_space beside CONTACT's creep-force table, finer elements, a gap
+given by points, and what is wrong on purpose."""
+
+import csv
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+from tread import half_space
+from tread.creep_table import FORCE, FRICTION, beside_table, random_cases, table_cases
+from tread.files import read_table
+from tread.runs import environment
+from tread_runner import Check
+
+program = os.path.abspath(sys.argv[1])
+check = Check()
+
+cases, forces = table_cases()
+COLUMNS = dict(zip(cases, ("A_per_m", "B_per_m", "normal_force_N", "friction", "young_Pa", "poisson", "creepage", "lateral_creepage",
+                           "spin_per_m", "element_x_m", "element_y_m")))
+
+
+answers = half_space.solve(slip_order=1, contact_sixth=True, **cases)
+for name, difference in beside_table(answers, cases, forces).items():
+    check.below(f"creep table: {name}, over friction times load", difference, 1e-4)
+without = half_space.solve(slip_order=1, **cases)
+check.that("without CONTACT's sixth of an element the table is missed",
+           np.abs(without["lateral_force"] - answers["lateral_force"]).max() > 1e-2 * FRICTION * FORCE)
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+
+    def batch(columns, output="out.csv", more=(), ranks=1):
+        with open(path("cases.csv"), "w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(columns)
+            writer.writerows(zip(*[[f"{value:.17g}" if isinstance(value, float) else value for value in column] for column in columns.values()]))
+        launch = ["mpirun", "-np", str(ranks), "--oversubscribe"] if ranks > 1 else []
+        return subprocess.run([*launch, program, "--batch", path("cases.csv"), *(["--output", path(output)] if output else []), *more],
+                              env=environment(), capture_output=True, text=True)
+
+    full = {COLUMNS[name]: np.broadcast_to(value, len(answers["status"])).astype(float) for name, value in cases.items()}
+    full["lateral_creepage"] = full["lateral_creepage"] + full["spin_per_m"] * full["element_x_m"] / 6.
+    full["name"] = np.array([f"case {i}" for i in range(len(answers["status"]))])
+    done = batch(full)
+    check.that("the batch ends well and names the column that it only keeps", done.returncode == 0 and ": name\n" in done.stdout)
+    out = read_table(path("out.csv"), text=("name",))
+    check.that("its rows are those of the table of cases", np.array_equal(out["name"], full["name"])
+               and np.array_equal(out["spin_per_m"], full["spin_per_m"]))
+    check.below("batch less library, over the largest force", np.abs(out["lateral_force_N"] - answers["lateral_force"]).max()
+                / FRICTION / FORCE, 1e-8)
+    check.that("its other columns", all(np.allclose(out[column], answers[name], rtol=1e-8) for column, name in (
+        ("longitudinal_force_N", "longitudinal_force"), ("spin_moment_Nm", "spin_moment"), ("max_pressure_Pa", "max_pressure"),
+        ("adhesion_share", "adhesion_share"), ("iterations", "iterations"), ("area_m2", "area"), ("approach_m", "approach"),
+        ("frictional_work_J_per_m", "frictional_work"), ("status", "status"))))
+
+    def refused(name, result, code, words):
+        said = result.stderr.strip().splitlines()
+        check.that(f"{name}: one line", result.returncode == code and len(said) == 1 and all(word in said[0] for word in words))
+
+    one = {name: values[:3] for name, values in full.items()}
+    bad = {**one, "friction": np.array([0.3, -1., 0.3])}
+    refused("a negative coefficient", batch(bad), 2, ["1 of 3 cases", "row 2", "friction = -1"])
+    out = read_table(path("out.csv"), text=("name",))
+    check.that("its row has nan and a status", np.isnan(out["lateral_force_N"][1]) and list(out["status"]) == [0, 1, 0])
+    refused("a missing column", batch({name: values for name, values in one.items() if name != "friction"}), 1, ["'friction'"])
+    refused("a word for a number", batch({**one, "poisson": np.array(["0.3", "much", "0.3"])}), 1, ["row 2", "'poisson'", "much"])
+    refused("an unknown order", batch({**one, "slip_order": np.array([1., 2., 3.])}), 1, ["row 3", "slip_order"])
+    refused("no rows", batch({name: values[:0] for name, values in one.items()}), 1, ["no rows"])
+    refused("no --output", batch(one, None), 1, ["--output"])
+    refused("a scene beside it", batch(one, more=["scene.prm"]), 1, ["--batch"])
+    refused("mpirun", batch(one, ranks=2), 1, ["mpirun"])
+    refused("a folder that is not there", batch(one, "no/out.csv"), 1, ["no/out.csv"])
+
+# Elements as they are chosen, and half as large.
+N = 400
+drawn, semi_axes = random_cases(N)
+chosen = half_space.solve(**drawn)
+finer = half_space.solve(**drawn, element_x=semi_axes[0] / 32., element_y=semi_axes[1] / 32.)
+change = np.hypot(*[chosen[name] - finer[name] for name in ("longitudinal_force", "lateral_force")])
+check.below("chosen elements: change of the force by halves, over friction times load", change.max() / FRICTION / FORCE, 5e-3)
+force = np.hypot(finer["longitudinal_force"], finer["lateral_force"])
+check.below("the same over the force itself", (change / force).max(), 5e-3)
+check.below("frictional work", np.abs(chosen["frictional_work"] / finer["frictional_work"] - 1.).max(), 0.01)
+serial = half_space.solve(threads=1, **drawn)
+check.that("one thread gives the same bits", all(np.array_equal(serial[name], chosen[name]) for name in serial))
+check.that("broadcast: a table of 2 by 3", half_space.solve(**{**drawn, **{k: v[0] for k, v in drawn.items() if np.ndim(v)}, "creepage": [[0.], [1e-3]],
+           "spin": [0., .1, .2]})["lateral_force"].shape == (2, 3))
+
+# A gap by points.
+single = {name: float(np.broadcast_to(value, (N,))[0]) for name, value in drawn.items()}
+size = {"element_x": semi_axes[0][0] / 12.3, "element_y": semi_axes[1][0] / 12.3}
+ellipse = half_space.solve_patch(slip_order=1, **single, **size)
+x, y = ellipse["x"], ellipse["y"]
+rest = {name: value for name, value in single.items() if not name.startswith("curvature")}
+points = half_space.solve_patch(slip_order=1, gap=single["curvature_x"] * x ** 2 + single["curvature_y"] * y[:, None] ** 2,
+                                x_first=x[0], y_first=y[0], **rest, **size)
+for name in ("longitudinal_force", "lateral_force", "spin_moment", "max_pressure"):
+    check.relative(f"gap by points: {name}", points[name], ellipse[name], 1e-7)
+area = size["element_x"] * size["element_y"]
+check.relative("its fields sum up: load", points["pressure"].sum() * area, FORCE, 1e-9)
+check.relative("and longitudinal force", points["shear_x"].sum() * area, points["longitudinal_force"], 1e-6)
+check.that("stick where the bound is not reached, none outside", set(np.unique(points["state"])) <= {0., 1., 2.}
+           and not points["pressure"][points["state"] == 0.].any())
+for name, change_of, words in (("no curvature", {"curvature_x": 0.}, "curvature_x"), ("elements too large", {"element_x": 1.}, "element_x"),
+                               ("Poisson's ratio", {"poisson": 0.7}, "poisson"), ("nan", {"spin": np.nan}, "spin")):
+    try:
+        half_space.solve(**{**single, **change_of})
+        check.that(f"{name} is refused", False)
+    except half_space.HalfSpaceError as error:
+        check.that(f"{name} is refused by its name", words.replace("element_x", "element") in str(error))
+check.that("or leaves nan", np.isnan(half_space.solve(on_failure="nan", **{**single, "friction": -1.})["longitudinal_force"]))
+
+# Memory.
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+for _ in range(10):
+    half_space.solve(**drawn)
+check.below("memory that 4000 more cases left, MB", (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024., 5.)
+check.exit()
