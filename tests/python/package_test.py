@@ -20,7 +20,7 @@ from unittest import mock
 import numpy as np
 
 import tread
-from tread import limits, measured_runs, studies, tables
+from tread import files, limits, measured_runs, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch, read_patches
 from tread.files import read_table
@@ -49,10 +49,11 @@ with open(os.path.join(folder, "summary.json"), "w") as stream:
 """
 
 
-def write(path, text):
+def write(path, text, mode=0o644):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w", encoding="utf-8") as stream:
         stream.write(text)
+    os.chmod(path, mode)
     return path
 
 
@@ -358,6 +359,32 @@ class Studies(InFolder):
                                                             ["0.9", "", "", "failed: 'Motion/Creepage' cannot be '0.9'"]])
 
 
+    def test_results_of_other_input_are_not_taken(self):
+        profile = write(self.path("profile.txt"), "0 0\n")
+        scene = write(self.path("scene.prm"), "subsection Defect\n  set Profile = profile.txt\nend\n")
+        study = lambda creepage, settings="": write(self.path("one.study"), f"set Scene = {scene}\nset Settings = {settings}\nset Figures = normal_force_N\n"
+                                                    f"subsection Vary\n  set Motion/Creepage = {creepage}\nend\n")
+        folder = self.path("results", "one", "creepage-0.001")
+        state = lambda: self.perform(study("0.001")).stdout.split("\n")[0]
+        self.assertEqual(state(), "creepage-0.001: begins")
+        self.assertNotIn("begins", state())
+        write(profile, "0 0.1\n")
+        self.assertEqual(state(), "creepage-0.001: begins")
+        # A start that fails under other settings, and then once more.
+        for _ in range(2):
+            result = self.perform(study("0.001", "Motion/Speed (km per h)=70"), "--program", write(self.path("fails"), "#!/bin/sh\nexit 1\n", 0o755))
+            self.assertEqual((result.returncode, "0 of 1 runs complete" in result.stdout), (1, True))
+        self.assertFalse(os.path.exists(os.path.join(folder, "summary.json")))
+
+    def test_a_study_that_cannot_be(self):
+        text = f"set Scene = {ROOT}/prm/smooth-rolling.prm\nsubsection Vary\n  set Motion/Creepage = 0.001\n  set Motion/Creepage = 0.002\nend\n"
+        for arguments, what, code in (((write(self.path("twice.study"), text),), "'Motion/Creepage' is there twice", 1),
+                                      ((write(self.path("two.study"), text.replace("  set Motion/Creepage = 0.002\n", "")), "--processes", "-1"), "'-1' must be 1, 2, ...", 2)):
+            result = self.perform(*arguments)
+            self.assertEqual((result.returncode, what in result.stderr), (code, True), result.stderr)
+        with self.assertRaisesRegex(tread.DataError, "is included by files that it includes"):
+            files.texts_of(write(self.path("self.prm"), "include self.prm\n"))
+
     def test_where_a_figure_reaches_a_limit(self):
         self.assertEqual(limits.crossing([4, 6, 8], [700, 800, 1000], 900), (8, 6, 7))
         self.assertEqual(limits.crossing([8, 4, 6], [1000, None, 800], 900), (8, 6, 7))
@@ -370,8 +397,8 @@ class Studies(InFolder):
         return write(self.path("limit.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\n" + "".join(e + "\n" for e in entries) +
                      f"subsection Vary\n  set Mesh/Finest cell (mm) = 2 | 1\n  set Defect/Length (mm) & Defect/Depth (mm) = {lengths}\nend\n")
 
-    def perform(self, study):
-        return subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program], capture_output=True, text=True)
+    def perform(self, study, *more):
+        return subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program, *more], capture_output=True, text=True)
 
     def test_a_limit(self):
         study = studies.Study(self.limit_study("set Figures = f", "set Limit = f = 900 over Defect/Length (mm)", "set Mesh = Mesh/Finest cell (mm)",

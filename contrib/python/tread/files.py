@@ -6,6 +6,7 @@ numpy is imported where columns are read: without it commands can say in one lin
 
 import csv
 import gzip
+import hashlib
 import json
 import os
 import re
@@ -91,19 +92,35 @@ def parameters_in(lines):
     return result
 
 
-def texts_of(scene):
+def texts_of(scene, depth=0):
     """[text] of a parameter file and of those that it includes, one after the other. @raises DataError"""
+    if depth > 20:
+        raise DataError(f"{scene}: is included by files that it includes")
     try:
         with open(scene, encoding="utf-8") as stream:
             text = stream.read()
     except OSError as error:
         raise DataError(f"{scene}: {error.strerror}") from None
     included = re.findall(r"^\s*include\s+([^#\n]*[^#\s])", text, re.MULTILINE)
-    return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name))]
+    return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name), depth + 1)]
+
+
+def input_of(scene, settings):
+    """What decides about a run's results: its settings, {"Section/Name": value}, the texts of the scene, and what the files contain that
+    parameters name, such as profiles. @raises DataError"""
+    texts = texts_of(scene)
+    named = {str(value) for text in texts for value in parameters_in(text.splitlines()).values()} | {str(value) for value in settings.values()}
+    files = {}
+    for name in sorted(named - {""}):
+        path = os.path.join(os.path.dirname(scene), name)
+        if os.path.isfile(path):
+            with open(path, "rb") as stream:
+                files[name] = hashlib.sha256(stream.read()).hexdigest()
+    return {"settings": {name: str(value) for name, value in settings.items()}, "scene": texts, "files": files}
 
 
 def read_parameters(path):
-    """The same of a file, empty if there is none."""
+    """{"Section/Name": text} of a parameter file, empty if there is none."""
     if not os.path.exists(path):
         return {}
     with open(path, encoding="utf-8") as stream:

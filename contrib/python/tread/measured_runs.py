@@ -8,7 +8,7 @@ import subprocess
 import time
 
 from .comparison import compare
-from .files import is_complete, read_summary
+from .files import input_of, is_complete, read_summary
 from .runs import ROOT, ProgramError, arguments_of, command, environment, execute, must_end_well, own_line
 
 
@@ -23,7 +23,7 @@ def available_ranks():
 
 def run_scene(scene, folder, settings=None, ranks=None, more=()):
     """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command and
-    the same scene.
+    the same input.
 
     Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
     the memory of its largest process.
@@ -34,9 +34,8 @@ def run_scene(scene, folder, settings=None, ranks=None, more=()):
     if is_complete(folder) and os.path.exists(cost_file):
         with open(cost_file, encoding="utf-8") as stream:
             cost = json.load(stream)
-    with open(shipped(scene), encoding="utf-8") as stream:
-        scene_text = stream.read()
-    if cost.get("command") != line or cost.get("scene") != scene_text:
+    known = input_of(shipped(scene), settings or {})
+    if cost.get("command") != line or cost.get("input") != known:
         print(" ".join(line), flush=True)
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as output:
@@ -48,7 +47,7 @@ def run_scene(scene, folder, settings=None, ranks=None, more=()):
             with open(output.name, encoding="utf-8") as stream:
                 said = own_line(stream.read()) or "it did not say why"
             raise ProgramError(f"{scene} ended with {process.returncode} ({said}), see {output.name}", process.returncode)
-        cost = {"command": line, "scene": scene_text, "peak_bytes": 1024 * usage.ru_maxrss,
+        cost = {"command": line, "input": known, "peak_bytes": 1024 * usage.ru_maxrss,
                 "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began}
         with open(cost_file, "w", encoding="utf-8") as stream:
             json.dump(cost, stream, indent=2)

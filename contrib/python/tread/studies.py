@@ -32,6 +32,7 @@ interrupted one goes on from its last checkpoint, and one that fails leaves the 
 checkpoint. The table is study.csv in the study's folder. Exit code 0: all complete; 1: something failed; 130: interrupted.
 """
 
+import argparse
 import csv
 import io
 import itertools
@@ -43,7 +44,7 @@ import subprocess
 import time
 
 from .commands import command_parser, run_command
-from .files import DataError, is_complete, texts_of
+from .files import DataError, input_of, is_complete
 from .limits import Limit
 from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line
 
@@ -124,17 +125,22 @@ class Study:
                 lines = [line.split("#")[0].strip() for line in stream]
         except (OSError, UnicodeDecodeError) as error:
             raise DataError(f"{path}: {getattr(error, 'strerror', None) or error}") from None
-        entries, vary, inside = dict(DEFAULTS), {}, False
+        entries, vary, given, inside = dict(DEFAULTS), {}, set(), False
         for number, line in enumerate(lines, 1):
             where = f"{path}, line {number}"
             found = re.fullmatch(r"set\s+([^=]+?)\s*=\s*(.*)", line)
             if found and inside:
                 if "/" not in found[1]:
                     raise DataError(f"{where}: '{found[1]}' must be Section/Name")
+                if found[1] in vary:
+                    raise DataError(f"{where}: '{found[1]}' is there twice")
                 vary[found[1]] = found[2]
             elif found:
                 if found[1] not in DEFAULTS:
                     raise DataError(f"{where}: no entry '{found[1]}'; there are {', '.join(DEFAULTS)} and subsection Vary")
+                if found[1] in given:
+                    raise DataError(f"{where}: '{found[1]}' is there twice")
+                given.add(found[1])
                 entries[found[1]] = found[2]
             elif re.fullmatch(r"subsection\s+Vary", line) and not inside:
                 inside = True
@@ -155,6 +161,13 @@ class Study:
         if not re.fullmatch(r"[1-9]\d*", entries[name]):
             raise DataError(f"{path}: '{name}' cannot be '{entries[name]}'; allowed: 1, 2, ...")
         return int(entries[name])
+
+
+def natural(text):
+    """1, 2, ... of the command line."""
+    if not re.fullmatch(r"[1-9]\d*", text):
+        raise argparse.ArgumentTypeError(f"'{text}' must be 1, 2, ...")
+    return int(text)
 
 
 def split_together(text):
@@ -188,7 +201,7 @@ class Member(Run):
         self.name, self.state, self.process = name, "", None
         self.line = arguments_of(study.scene, settings, self.folder)
         self.ranks, self.program = arguments.ranks or study.ranks, arguments.program
-        self.input = {"settings": settings, "scene": texts_of(study.scene)}
+        self.input = input_of(study.scene, settings)
 
     def same_input(self):
         try:
@@ -205,6 +218,8 @@ class Member(Run):
             return
         resume = known and self.has("checkpoint.last")
         os.makedirs(self.folder, exist_ok=True)
+        if not known and self.has("summary.json"):
+            os.remove(self.path("summary.json"))  # of other input: never to be taken for what this run does not come to
         with open(self.path("input.json"), "w", encoding="utf-8") as stream:
             json.dump(self.input, stream, indent=1)
         line = command(self.line + (["--resume"] if resume else []), self.ranks, self.program)
@@ -352,8 +367,8 @@ def main():
     parser = command_parser(__doc__)
     parser.add_argument("study", metavar="STUDY")
     parser.add_argument("--output", help="folder of the study, instead of 'Directory'")
-    parser.add_argument("--processes", type=int, help="runs at a time, instead of 'Processes'")
-    parser.add_argument("--ranks", type=int, help="of each run, instead of 'Ranks'")
+    parser.add_argument("--processes", type=natural, help="runs at a time, instead of 'Processes'")
+    parser.add_argument("--ranks", type=natural, help="of each run, instead of 'Ranks'")
     parser.add_argument("--program", default=PROGRAM, help="tread itself")
     parser.add_argument("--dry-run", action="store_true", help="list the runs and run nothing")
     arguments = parser.parse_args()
