@@ -12,7 +12,7 @@ packages=(
   libcli11-dev                         # command line
   openmpi-bin                          # mpirun
   python3 python3-numpy python3-matplotlib # pictures
-  python3-vtk9                         # tests read the ParaView files back
+  python3-vtk9 python3-h5py            # tests read the files for ParaView and run.h5 back
 )
 
 fail()

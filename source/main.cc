@@ -81,9 +81,9 @@ namespace
     app.add_option("--bottom", line.sleeper.bottom, "of the sleeper: fixed or ballast")->needs(seat);
     app.add_option("--cell-size", line.sleeper.cell_size_mm, "largest edge of the sleeper's cells, mm")
       ->needs(seat);
-    CLI::Option *batch =
-      app.add_option("--batch", line.batch, "table of half-space cases: solve each of its rows, on all cores");
-    batch->excludes(defect)->excludes(seat)->excludes(how);
+    CLI::Option *batch = app.add_option("--batch", line.batch,
+                                        "table of half-space cases: solve each of its rows, on all cores");
+    batch->excludes(defect)->excludes(seat);
     try
       {
         app.parse(argc, argv);
@@ -98,8 +98,12 @@ namespace
       {
         throw tread::InputError(std::string(error.what()) + "; tread --help lists all options");
       }
-    if (!line.batch.empty() && (!line.scene.empty() || !line.settings.empty() || line.print_parameters))
-      throw tread::InputError("--batch reads a table of cases; it takes no scene, no -s and no --print-parameters");
+    if (!line.batch.empty() &&
+        (!line.scene.empty() || !line.settings.empty() || line.print_parameters || line.resume ||
+         line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run))
+      throw tread::InputError(
+        "--batch reads a table of cases; -s, --print-parameters, --resume, --reference-only, "
+        "--modes, --contact-points and --dry-run are for a scene");
     if (!line.dynamic.run.empty() && !line.scene.empty())
       throw tread::InputError("--dynamic-force reads two runs; it takes no scene");
     if (!line.dynamic.run.empty() &&

@@ -17,6 +17,7 @@ from tread.commands import command_parser, run_command
 from tread.runs import ROOT, run
 
 SCENE = "curves/groove.prm"
+LOAD = 10e3  # N
 WHEEL_RADIUS, HALF_ARC = 10., 55.  # of the arc across, mm; degrees to both sides
 # groove's radius, mm: (creepages about free rolling, cells in mm)
 GROOVES = {10.25: ((2e-4, 3e-4), (0.42, 0.3, 0.21)), 10.05: ((6e-4, 8e-4), (0.42, 0.3, 0.21)), 10.02: ((8e-4, 1.1e-3), (0.42, 0.3, 0.21))}
@@ -62,14 +63,16 @@ def write_profiles():
 
 
 def free_rolling(radius, creepages, settings, options=(), ranks=2):
-    """(creepage, run's summary) without longitudinal force: the secant through two runs, then a third one there."""
-    def at(creepage):
+    """(creepage, run's summary) without longitudinal force: the secant through two runs, then a third one there, under the load that
+    makes the vertical force LOAD: tractions of conformal contact carry some of it, which the start does not know."""
+    def at(creepage, load=LOAD):
         with tempfile.TemporaryDirectory() as folder:
             return run(SCENE, {**settings, "Rail/Measured head": os.path.join(ROOT, f"prm/curves/profiles/groove-{radius}.txt"), "Motion/Creepage": creepage,
-                               "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), options=options).summary
-    forces = [at(creepage)["longitudinal_force_N"] for creepage in creepages]
+                               "Vehicle/Sprung mass (kg)": load / 9.81 - 900., "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), options=options).summary
+    runs = [at(creepage) for creepage in creepages]
+    forces = [summary["longitudinal_force_N"] for summary in runs]
     free = creepages[0] - forces[0] * (creepages[1] - creepages[0]) / (forces[1] - forces[0])
-    return free, at(free)
+    return free, at(free, LOAD * LOAD / runs[0]["normal_force_N"])
 
 
 def main():

@@ -17,6 +17,18 @@ namespace tread
   }
 
 
+  std::string unit_of_heading(const std::string &heading)
+  {
+    // Longer ones before those that they end with.
+    for (const std::string unit : {"m_per_s2", "m_per_s", "N_per_m", "m_per_N", "percent", "degrees", "MPa",
+                                   "Pa", "Hz", "mm2", "mm", "um", "m2", "rad", "m", "N", "J", "W", "s"})
+      if (heading.size() > unit.size() + 1 &&
+          heading.compare(heading.size() - unit.size() - 1, std::string::npos, "_" + unit) == 0)
+        return unit;
+    return "";
+  }
+
+
   namespace
   {
     /// Of a wheel: what acts in its contact.

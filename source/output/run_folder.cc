@@ -81,6 +81,20 @@ namespace tread
   }
 
 
+  bool RunFolder::is_own(const std::string &name)
+  {
+    static const std::regex own(
+      "(summary\\.json|run\\.h5|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
+      "transient|"
+      "rail_cells|"
+      "rail_surface|strip|peak_stress(_wheel)?|rail_seats|cells|passages|dynamic|spectrum|modes|"
+      "receptance)\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
+      "checkpoint-[01]|checkpoint\\.last|"
+      "(volume|surface|modes)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
+    return std::regex_match(name, own);
+  }
+
+
   void RunFolder::remove_results() const
   {
     if (!writes_tables)
@@ -89,16 +103,8 @@ namespace tread
     std::vector<std::filesystem::path> old;
     for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
       {
-        const std::string       name = entry.path().filename();
-        static const std::regex own(
-          "(summary\\.json|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
-          "transient|"
-          "rail_cells|"
-          "rail_surface|strip|peak_stress(_wheel)?|rail_seats|cells|passages|dynamic|spectrum|modes|"
-          "receptance)\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
-          "checkpoint-[01]|checkpoint\\.last|"
-          "(volume|surface|modes)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
-        if (std::regex_match(name, own) && entry.is_regular_file(ignored))
+        const std::string name = entry.path().filename();
+        if (is_own(name) && entry.is_regular_file(ignored))
           old.push_back(entry.path());
       }
     for (const std::filesystem::path &path : old)

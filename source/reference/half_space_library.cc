@@ -33,7 +33,8 @@ namespace
 
   unsigned int order_of(const tread_half_space_case &problem)
   {
-    require(problem.slip_order >= 0 && problem.slip_order <= 2, "slip_order", problem.slip_order, "1 or 2, or 0 for 2");
+    require(problem.slip_order >= 0 && problem.slip_order <= 2, "slip_order", problem.slip_order,
+            "1 or 2, or 0 for 2");
     return problem.slip_order == 1 ? 1 : 2;
   }
 
@@ -61,7 +62,9 @@ namespace
     answer.approach           = result.approach;
   }
 
-  void solve_ellipse(tread_half_space &solver, const tread_half_space_case &problem, tread_half_space_answer &answer)
+  void solve_ellipse(tread_half_space            &solver,
+                     const tread_half_space_case &problem,
+                     tread_half_space_answer     &answer)
   {
     RollingCase c;
     c.curvature_x = problem.curvature_x;
@@ -78,8 +81,10 @@ namespace
     c.spin             = problem.spin;
     const HertzEllipse hertz =
       hertz_ellipse(c.curvature_x, c.curvature_y, combine(c.wheel, c.rail).hertz_modulus(), c.normal_force);
-    c.element_size   = problem.element_x != 0. ? problem.element_x : hertz.semi_axis_x / elements_along_semi_axis;
-    c.element_size_y = problem.element_y != 0. ? problem.element_y : hertz.semi_axis_y / elements_along_semi_axis;
+    c.element_size =
+      problem.element_x != 0. ? problem.element_x : hertz.semi_axis_x / elements_along_semi_axis;
+    c.element_size_y =
+      problem.element_y != 0. ? problem.element_y : hertz.semi_axis_y / elements_along_semi_axis;
     Edges         edges;
     RollingResult result = solve_rolling(c, order_of(problem), edges);
     set_common(answer, result);
@@ -94,10 +99,13 @@ namespace
     keep_fields(solver, grid, result);
   }
 
-  void solve_gap(tread_half_space &solver, const tread_half_space_case &problem, tread_half_space_answer &answer)
+  void solve_gap(tread_half_space            &solver,
+                 const tread_half_space_case &problem,
+                 tread_half_space_answer     &answer)
   {
     PlanarCase c;
-    c.grid = {problem.n_x, problem.n_y, problem.element_x, problem.element_y, problem.x_first, problem.y_first};
+    c.grid = {problem.n_x,       problem.n_y,     problem.element_x,
+              problem.element_y, problem.x_first, problem.y_first};
     check_grid(c.grid);
     c.gap = [&](const double x, const double y) {
       const auto i = std::lround((x - problem.x_first) / problem.element_x),
@@ -110,8 +118,8 @@ namespace
     c.longitudinal = problem.creepage;
     c.lateral      = problem.lateral_creepage;
     c.spin         = problem.spin;
-    c.wheel = c.rail = {problem.young, problem.poisson};
-    c.order          = order_of(problem);
+    c.wheel = c.rail    = {problem.young, problem.poisson};
+    c.order             = order_of(problem);
     PlanarResult result = solve_planar(c);
     set_common(answer, result);
     answer.frictional_work = result.frictional_power;
@@ -126,7 +134,9 @@ namespace
   }
 
   /// Texts of exceptions are short: what has no memory for them has none for a case either.
-  int solve(tread_half_space &solver, const tread_half_space_case &problem, tread_half_space_answer &answer) noexcept
+  int solve(tread_half_space            &solver,
+            const tread_half_space_case &problem,
+            tread_half_space_answer     &answer) noexcept
   {
     answer = no_answer();
     solver.message.clear();

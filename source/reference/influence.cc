@@ -20,20 +20,45 @@ namespace tread::reference
       return y == 0. ? 0. : y * std::asinh(x / std::abs(y));
     }
 
-    // Primitive F with d^2F/dxdy = kernel, to be summed over the corners with alternating signs.
-    double primitive(const Influence kind, const ElasticPair &pair, const double x, const double y)
+    /// What the primitives of 1/r, x^2/r^3, y^2/r^3 and x y/r^3 consist of, at a corner of an element.
+    struct Corner
     {
-      const double nu = pair.poisson;
+      double y_log_x, x_log_y; ///< y ln(x + r), x ln(y + r), odd in x and in y
+      double distance;         ///< r, even
+    };
+
+    Corner corner_at(const double x, const double y)
+    {
+      return {y_log(x, y), y_log(y, x), std::hypot(x, y)};
+    }
+
+    bool is_of_like_bodies(const Influence kind)
+    {
+      return kind != Influence::zx && kind != Influence::zy;
+    }
+
+    double primitive(const Influence kind, const double nu, const Corner &c)
+    {
       switch (kind)
         {
         case Influence::zz:
-          return (1. - nu) * (y_log(x, y) + y_log(y, x));
-        case Influence::xx: // 1/r = x^2/r^3 + y^2/r^3, primitives y ln(x + r) and x ln(y + r)
-          return y_log(x, y) + (1. - nu) * y_log(y, x);
+          return (1. - nu) * (c.y_log_x + c.x_log_y);
+        case Influence::xx: // 1/r = x^2/r^3 + y^2/r^3
+          return c.y_log_x + (1. - nu) * c.x_log_y;
         case Influence::yy:
-          return (1. - nu) * y_log(x, y) + y_log(y, x);
-        case Influence::xy:
-          return -nu * std::hypot(x, y);
+          return (1. - nu) * c.y_log_x + c.x_log_y;
+        default:
+          return -nu * c.distance;
+        }
+    }
+
+    // Primitive F with d^2F/dxdy = kernel, to be summed over the corners with alternating signs.
+    double primitive(const Influence kind, const ElasticPair &pair, const double x, const double y)
+    {
+      if (is_of_like_bodies(kind))
+        return primitive(kind, pair.poisson, corner_at(x, y));
+      switch (kind)
+        {
         case Influence::zx:
           {
             const double r2 = x * x + y * y;
@@ -221,16 +246,47 @@ namespace tread::reference
     double           *values = fftw_alloc_real(n);
     std::fill_n(values, n, 0.);
     const int n_x = static_cast<int>(grid.n_x), n_y = static_cast<int>(grid.n_y);
+    // Corners lie at half elements, whatever whole number of elements the offset is: a quarter of the plane
+    // has them all.
+    int  widest        = 0;
+    bool whole_offsets = is_of_like_bodies(kind);
+    for (const auto &[weight, offset] : weights_and_offsets)
+      {
+        const double elements = offset / grid.dx;
+        whole_offsets         = whole_offsets && std::abs(elements - std::round(elements)) < 1e-9;
+        widest                = std::max(widest, static_cast<int>(std::ceil(std::abs(elements))));
+      }
+    if (whole_offsets && quarter.size() < static_cast<std::size_t>(n_x + widest) * n_y)
+      {
+        quarter.clear();
+        for (int i = 0; i < n_x + widest; ++i)
+          for (int j = 0; j < n_y; ++j)
+            {
+              const Corner c = corner_at((i + 0.5) * grid.dx, (j + 0.5) * grid.dy);
+              quarter.push_back({c.y_log_x, c.x_log_y, c.distance});
+            }
+      }
+    const auto in_quarter = [](const int i) {
+      return i < 0 ? -1 - i : i;
+    };
+    const auto at_corner = [&](const int i, const int j) {
+      const auto  &c    = quarter[static_cast<std::size_t>(in_quarter(i)) * n_y + in_quarter(j)];
+      const double sign = (i < 0) == (j < 0) ? 1. : -1.;
+      return primitive(kind, pair.poisson, {sign * c[0], sign * c[1], c[2]});
+    };
 
     for (const auto &[weight, offset] : weights_and_offsets)
       {
         // the primitive at the corners of all element offsets -(n-1) .. n-1
         const int           corners_x = 2 * n_x, corners_y = 2 * n_y;
         std::vector<double> corner(static_cast<std::size_t>(corners_x) * corners_y);
+        const int           ahead = static_cast<int>(std::lround(offset / grid.dx));
         for (int j = 0; j < corners_y; ++j)
           for (int i = 0; i < corners_x; ++i)
             corner[static_cast<std::size_t>(j) * corners_x + i] =
-              primitive(kind, pair, (i - n_x + 0.5) * grid.dx + offset, (j - n_y + 0.5) * grid.dy);
+              whole_offsets
+                ? at_corner(i - n_x + ahead, j - n_y)
+                : primitive(kind, pair, (i - n_x + 0.5) * grid.dx + offset, (j - n_y + 0.5) * grid.dy);
         const double scale = weight / (std::numbers::pi * pair.shear * static_cast<double>(n));
         for (int j = -n_y + 1; j < n_y; ++j)
           for (int i = -n_x + 1; i < n_x; ++i)
@@ -252,12 +308,12 @@ namespace tread::reference
 
   void FourierGrid::factorise(Spectrum &spectrum, const double least) const
   {
-    const std::size_t n = padded[0], half = n / 2 + 1;
-    double           *line    = fftw_alloc_real(n);
-    fftw_complex     *complex = fftw_alloc_complex(half);
+    const std::size_t            n = padded[0], half = n / 2 + 1;
+    double                      *line    = fftw_alloc_real(n);
+    fftw_complex                *complex = fftw_alloc_complex(half);
     std::unique_lock<std::mutex> alone(planner());
-    const fftw_plan              back = fftw_plan_dft_c2r_1d(static_cast<int>(n), complex, line, FFTW_ESTIMATE),
-                    forward           = fftw_plan_dft_r2c_1d(static_cast<int>(n), line, complex, FFTW_ESTIMATE);
+    const fftw_plan back    = fftw_plan_dft_c2r_1d(static_cast<int>(n), complex, line, FFTW_ESTIMATE),
+                    forward = fftw_plan_dft_r2c_1d(static_cast<int>(n), line, complex, FFTW_ESTIMATE);
     alone.unlock();
     for (unsigned int j = 0; j < padded[1]; ++j)
       {

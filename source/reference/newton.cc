@@ -27,8 +27,11 @@ namespace tread::reference
     , n(equations.patch->size())
     , fourier(equations.patch->grid)
     , op(fourier, equations.pair, equations.stencil)
-    , inverse(fourier, equations.pair)
   {
+    // Its transforms cost twice those of a product; with so few elements in a row they save less.
+    constexpr unsigned int worth_it = 40;
+    if (equations.patch->grid.n_x > worth_it)
+      inverse.emplace(fourier, equations.pair);
     fourier.select(equations.patch->inner);
     p_ref                = *std::max_element(equations.bound.begin(), equations.bound.end());
     const Grid &grid     = equations.patch->grid;
@@ -153,8 +156,10 @@ namespace tread::reference
           out[k] = out[n + k] = 0.;
     };
     std::copy_n(in, n_unknowns, out);
+    if (!inverse)
+      return;
     restrict_to_adhesion();
-    inverse.apply_forward(out);
+    inverse->apply_forward(out);
     restrict_to_adhesion();
     const auto sum_from_the_front = [&](const double share) {
       for (std::size_t k = n - 1; k-- > 0;)
@@ -169,7 +174,7 @@ namespace tread::reference
       sum_from_the_front(1.);
     if (equations.stencil.size() == 3)
       sum_from_the_front(1. / 3.);
-    inverse.apply_backward(out);
+    inverse->apply_backward(out);
     for (std::size_t k = 0; k < n; ++k)
       {
         const bool adheres = weight[k] < 0.;

@@ -6,6 +6,7 @@
 
 #include "gmres.h"
 
+#include <optional>
 #include <vector>
 
 namespace tread::reference
@@ -74,18 +75,18 @@ namespace tread::reference
     void   jacobian(const double *in, double *out);
     void   precondition(const double *in, double *out);
 
-    const FrictionEquations &equations;
-    const std::size_t        n;
-    FourierGrid              fourier;
-    TangentialOperator       op;
-    const FactoredInverse    inverse; // preconditioner
-    double                   p_ref, r;
-    double                   border; // 1/sqrt(n): scales the rows and columns of prescribed forces
-    int                      row[2]; // of the prescribed forces, -1: none
-    std::size_t              n_unknowns;
-    std::vector<double>      bound, fixed, sigma, weight, e_x, e_y, work;
-    std::vector<double>      softness; // r times compliance, two blocks
-    Gmres                    gmres;
+    const FrictionEquations       &equations;
+    const std::size_t              n;
+    FourierGrid                    fourier;
+    TangentialOperator             op;
+    std::optional<FactoredInverse> inverse; // preconditioner; none for a patch of few elements
+    double                         p_ref, r;
+    double                         border; // 1/sqrt(n): scales the rows and columns of prescribed forces
+    int                            row[2]; // of the prescribed forces, -1: none
+    std::size_t                    n_unknowns;
+    std::vector<double>            bound, fixed, sigma, weight, e_x, e_y, work;
+    std::vector<double>            softness; // r times compliance, two blocks
+    Gmres                          gmres;
   };
 } // namespace tread::reference
 

@@ -316,9 +316,9 @@ namespace tread::reference
                             ContactSolution   &&contact)
     {
       RollingResult result;
-      result.n_x          = grid.n_x;
-      result.n_y          = grid.n_y;
-      result.element_size = grid.dx;
+      result.n_x            = grid.n_x;
+      result.n_y            = grid.n_y;
+      result.element_size   = grid.dx;
       result.element_size_y = grid.dy;
       for (unsigned int j = 0; j < grid.n_y; ++j)
         for (unsigned int i = 0; i < grid.n_x; ++i)
@@ -384,7 +384,8 @@ namespace tread::reference
     ContactSolution   contact;
     for (double margin = 2.;; margin *= 3.) // elements
       {
-        grid    = centred_grid(reach.x + margin * c.element_size, reach.y + margin * c.edge_y(), c.element_size, c.edge_y());
+        grid = centred_grid(reach.x + margin * c.element_size, reach.y + margin * c.edge_y(), c.element_size,
+                            c.edge_y());
         contact = solve_on_grid(c, pair, hertz, grid, tangential, edges);
         if (!contact.normal.cut)
           break;

@@ -52,7 +52,7 @@ namespace tread::reference
     // are large at all edges: with all that Hertz's ellipse touches its stiffness would be 3 % too high.
     Edges               edges;
     const RollingResult normal = solve_rolling(pressed, 1, edges);
-    const Grid grid = normal.grid();
+    const Grid          grid   = normal.grid();
 
     if (!c.gap)
       edges = ellipse_edges(grid, normal.hertz_semi_x, normal.hertz_semi_y);

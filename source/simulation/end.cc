@@ -432,6 +432,11 @@ namespace tread
                            of_table.average.nodes());
     if (!reference_patch.empty())
       folder.write_patch("reference_patch.csv", reference_patch);
+    std::vector<std::pair<std::string, std::string>> parameters;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      for (const Scene::Parameter &parameter : Scene::parameters_in(folder.path("parameters.prm")))
+        parameters.emplace_back(parameter.path, parameter.value);
+    folder.write_hdf5(summary.text(), parameters);
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
@@ -450,7 +455,7 @@ namespace tread
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
                       rolled.patch_lengths, torque_released ? "torque acts" : "start",
                       rolled.lengths_to_be_steady);
-        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv%s%s\n",
+        std::printf("%s in %.1f s. Results in %s: summary.json, history.csv, run.h5%s%s\n",
                     completed                 ? "finished"
                     : end == End::interrupted ? "INTERRUPTED: stopped"
                                               : "STOPPED",

@@ -25,26 +25,27 @@ namespace tread
       double tread_half_space_case::*value;
       bool                           required;
     };
-    const CaseColumn case_columns[] = {{"A_per_m", &tread_half_space_case::curvature_x, true},
-                                       {"B_per_m", &tread_half_space_case::curvature_y, true},
-                                       {"normal_force_N", &tread_half_space_case::normal_force, true},
-                                       {"friction", &tread_half_space_case::friction, true},
-                                       {"young_Pa", &tread_half_space_case::young, true},
-                                       {"poisson", &tread_half_space_case::poisson, true},
-                                       {"creepage", &tread_half_space_case::creepage, true},
-                                       {"lateral_creepage", &tread_half_space_case::lateral_creepage, true},
-                                       {"spin_per_m", &tread_half_space_case::spin, true},
-                                       {"element_x_m", &tread_half_space_case::element_x, false},
-                                       {"element_y_m", &tread_half_space_case::element_y, false}};
-    constexpr const char *order_column = "slip_order";
+    const CaseColumn      case_columns[] = {{"A_per_m", &tread_half_space_case::curvature_x, true},
+                                            {"B_per_m", &tread_half_space_case::curvature_y, true},
+                                            {"normal_force_N", &tread_half_space_case::normal_force, true},
+                                            {"friction", &tread_half_space_case::friction, true},
+                                            {"young_Pa", &tread_half_space_case::young, true},
+                                            {"poisson", &tread_half_space_case::poisson, true},
+                                            {"creepage", &tread_half_space_case::creepage, true},
+                                            {"lateral_creepage", &tread_half_space_case::lateral_creepage, true},
+                                            {"spin_per_m", &tread_half_space_case::spin, true},
+                                            {"element_x_m", &tread_half_space_case::element_x, false},
+                                            {"element_y_m", &tread_half_space_case::element_y, false}};
+    constexpr const char *order_column   = "slip_order";
 
     std::vector<tread_half_space_case> read_cases(const std::string &file, std::string &not_read)
     {
       const CsvTable table(
         file,
         [&](const std::string &name) {
-          const bool known = name == order_column || std::any_of(std::begin(case_columns), std::end(case_columns),
-                                                                 [&](const CaseColumn &c) { return c.name == name; });
+          const bool known =
+            name == order_column || std::any_of(std::begin(case_columns), std::end(case_columns),
+                                                [&](const CaseColumn &c) { return c.name == name; });
           if (!known)
             not_read += (not_read.empty() ? "" : ", ") + name;
           return known;
@@ -59,9 +60,9 @@ namespace tread
             cases[row].*c.value = table.column(c.name)[row];
       for (std::size_t row = 0; row < cases.size(); ++row)
         {
-          const double order = table.has(order_column) ? table.column(order_column)[row] :
-                               cases[row].element_x > 0. ? 1. :
-                                                           2.;
+          const double order = table.has(order_column)     ? table.column(order_column)[row]
+                               : cases[row].element_x > 0. ? 1.
+                                                           : 2.;
           if (order != 1. && order != 2.)
             throw InputError("'" + file + "', row " + std::to_string(row + 1) + ": '" + order_column +
                              "' must be 1 or 2");
@@ -75,7 +76,7 @@ namespace tread
                        const std::string                          &output,
                        const std::vector<tread_half_space_answer> &answers)
     {
-      std::ifstream rows(cases);
+      std::ifstream     rows(cases);
       const std::string part = output + ".part"; // never a half-written table under its own name
       std::ofstream     file(part);
       std::string       line;
@@ -84,9 +85,10 @@ namespace tread
         line.erase(line.find_last_not_of(" \t\r") + 1);
       };
       copy();
-      file << line
-           << ",longitudinal_force_N,lateral_force_N,spin_moment_Nm,max_pressure_Pa,adhesion_share,iterations,"
-              "area_m2,approach_m,frictional_work_J_per_m,status\n";
+      file
+        << line
+        << ",longitudinal_force_N,lateral_force_N,spin_moment_Nm,max_pressure_Pa,adhesion_share,iterations,"
+           "area_m2,approach_m,frictional_work_J_per_m,status\n";
       for (const tread_half_space_answer &a : answers)
         {
           do
@@ -94,8 +96,8 @@ namespace tread
           while (line.empty());
           char text[300];
           std::snprintf(text, sizeof(text), ",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d\n",
-                        a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure, a.adhesion_share,
-                        a.iterations, a.area, a.approach, a.frictional_work, a.status);
+                        a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure,
+                        a.adhesion_share, a.iterations, a.area, a.approach, a.frictional_work, a.status);
           file << line << text;
         }
       file.close();
@@ -126,19 +128,22 @@ namespace tread
     const std::size_t                    failed =
       tread_half_space_solve_all(problems.data(), problems.size(), 0, answers.data());
     write_answers(cases, output, answers);
-    progress.say(format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
+    progress.say(
+      format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
     if (failed > 0)
       {
         const std::size_t first =
-          std::find_if(answers.begin(), answers.end(), [](const auto &a) { return a.status != TREAD_HALF_SPACE_SOLVED; }) -
+          std::find_if(answers.begin(), answers.end(),
+                       [](const auto &a) { return a.status != TREAD_HALF_SPACE_SOLVED; }) -
           answers.begin();
-        const std::unique_ptr<tread_half_space, void (*)(tread_half_space *)> solver(tread_half_space_create(),
-                                                                                     tread_half_space_destroy);
-        tread_half_space_answer                                               again;
+        const std::unique_ptr<tread_half_space, void (*)(tread_half_space *)> solver(
+          tread_half_space_create(), tread_half_space_destroy);
+        tread_half_space_answer again;
         tread_half_space_solve(solver.get(), &problems[first], &again);
-        throw std::runtime_error(format("%zu of %zu cases were not solved, in their rows stands nan; the first is row %zu: ",
-                                        failed, problems.size(), first + 1) +
-                                 tread_half_space_message(solver.get()));
+        throw std::runtime_error(
+          format("%zu of %zu cases were not solved, in their rows stands nan; the first is row %zu: ", failed,
+                 problems.size(), first + 1) +
+          tread_half_space_message(solver.get()));
       }
   }
 } // namespace tread

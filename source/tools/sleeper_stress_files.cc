@@ -60,9 +60,9 @@ namespace tread
         throw InputError("no folder '" + folder + "'");
       const std::string name = folder + "/" + table_name;
       const CsvTable    table(
-        name, [](const std::string &) { return true; },
-        "--sleeper-stress: '" + folder + "' has no " + table_name +
-          ", which a run on discrete supports writes for those in 'Output/Supports'");
+           name, [](const std::string &) { return true; },
+           "--sleeper-stress: '" + folder + "' has no " + table_name +
+             ", which a run on discrete supports writes for those in 'Output/Supports'");
       const std::vector<double> &support = table.column("support"), &time = table.column("time_s"),
                                 &wheel_x = table.column("wheel_x_mm"), &x = table.column("x_mm"),
                                 &y = table.column("y_mm"), &pressure = table.column("pressure_MPa");

@@ -280,9 +280,9 @@ namespace
 
     std::printf("\n--- under Hertz pressure on a circle\n");
     RollingCase c = thesis_case(0., 0.1);
-    c.curvature_x = c.curvature_y        = 1. / 0.7;
-    c.element_size                       = 1e-4;
-    const RollingResult                r = solve_rolling(c);
+    c.curvature_x = c.curvature_y           = 1. / 0.7;
+    c.element_size                          = 1e-4;
+    const RollingResult                r    = solve_rolling(c);
     const Grid                         grid = r.grid();
     std::vector<std::array<double, 3>> points;
     for (double z = 0.2; z < 0.9; z += 0.005)

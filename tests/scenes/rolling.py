@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Rolling scenes on the 1.3 mm mesh: ranks, interruption and resuming, torque, energies, drives."""
 
+import json
 import os
 import re
 import subprocess
 import sys
 import tempfile
+
+import h5py
+import numpy as np
 
 from tread.files import read_summary
 from tread.runs import ROOT, arguments_of, command, environment, execute, parameters_of
@@ -341,6 +345,22 @@ with tempfile.TemporaryDirectory() as folder:
             row = min(rows_of(path("files"), "history.csv"), key=lambda row: abs(row["time_s"] - when))
             # One step against the mean over an interval; the normals of the rail head are inclined by a few mrad.
             check.relative(f"patch at {1e3 * when:.3f} ms: its pressure carries the load", force, row["normal_force_N"], 0.01)
+        with h5py.File(path("files/run.h5"), "r") as all_tables:
+            names = [name[:-len(".csv")] for name in os.listdir(path("files")) if name.endswith(".csv")]
+            check.that("run.h5 has every table", {"history", "patch", "patches", "strip"} <= set(names) <= set(all_tables))
+            for name in names:
+                own, columns = all_tables[name], table(path("files"), name + ".csv")
+                check.that(f"run.h5: columns of {name}.csv", set(own) == set(columns))
+                check.that(f"run.h5: numbers of {name}.csv",
+                           all(np.array_equal(own[column][:], values) for column, values in columns.items() if column != "state"))
+            check.that("run.h5: states", [{1: "adhesion", 2: "slip"}[state] for state in all_tables["patches/state"][:]] == [row["state"] for row in patches])
+            check.that("run.h5: units", [all_tables[column].attrs["unit"] for column in ("history/normal_force_N", "patch/slip_x_m_per_s", "history/creepage",
+                       "patches/area_mm2")] == ["N", "m_per_s", "", "mm2"])
+            check.that("run.h5: parameters", all_tables["parameters"].attrs["Output/Surface interval (mm)"] == "4")
+            check.that("run.h5: summary", json.loads(all_tables["summary.json"][()]) == read_summary(path("files")))
+        # A reader sees a small part of what the tables have as text.
+        check.below("run.h5: its size over that of the tables", os.path.getsize(path("files/run.h5"))
+                    / sum(os.path.getsize(path("files", name + ".csv")) for name in names), 1.)
         one_row = run(program, "smooth-rolling.prm", path("one-row"), COARSE + [
             "Motion/Rolled distance (mm)=4", "Output/History interval (mm)=100", "Output/Write volume=false"], 2)
         rows = rows_of(path("one-row"), "history.csv")
@@ -359,7 +379,7 @@ with tempfile.TemporaryDirectory() as folder:
 
         # A disk that is full when one file is written.
         short = COARSE + ["Motion/Rolled distance (mm)=4"]
-        for name, ranks in (("volume-0000.vtu", 2), ("surface.pvd", 1), ("summary.json", 2), ("reference_patch.csv", 1)):
+        for name, ranks in (("volume-0000.vtu", 2), ("surface.pvd", 1), ("summary.json", 2), ("reference_patch.csv", 1), ("run.h5", 2)):
             output = path("full-" + name)
             os.mkdir(output)
             os.symlink("/dev/full", os.path.join(output, name + ".part"))

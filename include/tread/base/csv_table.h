@@ -8,17 +8,19 @@
 
 namespace tread
 {
-  /// Columns of finite numbers from a file: names in its first line, commas between entries.
+  /// Columns of numbers from a file: names in its first line, commas between entries.
   class CsvTable
   {
   public:
     /// @param wanted     whether a column is read, by its name; entries of others may be anything
     /// @param unreadable what an InputError says if the file cannot be read
+    /// @param is_word    whether a column that is read has words and no numbers
     /// @throws InputError with file and row also if a row has too few or too many entries, or one that is no
-    /// finite number
+    /// number
     CsvTable(const std::string                              &file,
              const std::function<bool(const std::string &)> &wanted,
-             const std::string                              &unreadable);
+             const std::string                              &unreadable,
+             const std::function<bool(const std::string &)> &is_word = {});
 
     const std::string file;
 
@@ -28,17 +30,24 @@ namespace tread
       return read_names;
     }
     bool has(const std::string &name) const;
-    /// @throws InputError if there is none
+    /// @throws InputError if there is none, or if it has a nan
     const std::vector<double> &column(const std::string &name) const;
-    std::size_t                n_rows() const
+    /// May have nan.
+    const std::vector<double> &column_as_it_is(const std::string &name) const;
+    /// Of one with words. @throws InputError if there is none
+    const std::vector<std::string> &words(const std::string &name) const;
+    std::size_t                     n_rows() const
     {
       return rows;
     }
 
   private:
-    std::vector<std::string>         read_names;
-    std::vector<std::vector<double>> values;
-    std::size_t                      rows = 0;
+    std::vector<std::string>              read_names;
+    std::vector<std::vector<double>>      values; // empty for words
+    std::vector<std::vector<std::string>> texts;  // empty for numbers
+    std::size_t                           place_of(const std::string &name) const;
+    [[noreturn]] void fail(std::size_t row, std::size_t place, const std::string &text) const;
+    std::size_t       rows = 0;
   };
 } // namespace tread
 

@@ -33,6 +33,9 @@ namespace tread
   /// What a value in SI units is multiplied by to have a column's unit, 1 for SI units themselves.
   double factor_of(const std::string &unit);
 
+  /// The unit that a column's heading ends with, such as m_per_s of slip_x_m_per_s; "" of a pure number.
+  std::string unit_of_heading(const std::string &heading);
+
   /// Names with their units, separated by commas, without an end of line.
   template <typename Record>
   std::string heading(const Columns<Record> &columns)

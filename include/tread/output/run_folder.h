@@ -77,6 +77,12 @@ namespace tread
                            const unsigned int      body,
                            const double            depth) const;
 
+    /// run.h5: all tables of the folder, compressed, with the units of their columns, the summary and the
+    /// parameters; through a temporary file. By HDF5's own interface, as deal.II's has no compression.
+    /// @param parameters Section/Name and value
+    void write_hdf5(const std::string                                      &summary,
+                    const std::vector<std::pair<std::string, std::string>> &parameters) const;
+
     /// passages.csv: one row for each passage of a wheel so far.
     void write_passages(const std::vector<Passage> &passages) const;
 
@@ -118,6 +124,8 @@ namespace tread
     void write_surface(const std::vector<PatchNode> &elements, const double element_size);
 
   private:
+    /// Whether a file of this name is a result of a run.
+    static bool is_own(const std::string &name);
     /// On rank 0: one of the tables that grow row by row.
     void open_table(std::ofstream     &table,
                     const std::string &name,

@@ -70,8 +70,8 @@ namespace tread::reference
                                double             x,
                                double             y);
 
-  /// Zero-padded Fourier transforms for one grid (FFTW). Not thread-safe: one object per thread; objects may be made in
-  /// several threads at once.
+  /// Zero-padded Fourier transforms for one grid (FFTW). Not thread-safe: one object per thread; objects may
+  /// be made in several threads at once.
   class FourierGrid
   {
   public:
@@ -149,6 +149,8 @@ namespace tread::reference
     std::array<unsigned int, 2> padded;
     std::vector<unsigned int>   positions; // of the selected elements in the padded array
     std::unique_ptr<Plans>      plans;
+    /// Of kernels: y ln(x + r), x ln(y + r) and r at the corners of elements in the quarter x, y > 0.
+    mutable std::vector<std::array<double, 3>> quarter;
   };
 
   /// Normal displacement difference by pressure, as convolution.

@@ -17,7 +17,7 @@ namespace tread::reference
   {
     Grid grid; ///< rectangular elements over all places in contact
     std::function<double(double, double)>
-      gap; ///< of the undeformed surfaces, negative where they overlap [m]
+           gap;               ///< of the undeformed surfaces, negative where they overlap [m]
     double normal_force = 0.; ///< [N]; 0: they stay where the gap has them
 
     double friction = 0.; ///< Coulomb's f [-], >= 0
@@ -43,19 +43,19 @@ namespace tread::reference
     std::vector<double>       slip_x, slip_y;   ///< of the wheel over the rail [m/s]
     std::vector<ElementState> state;
 
-    double normal_force = 0., longitudinal_force = 0., lateral_force = 0.; ///< on the wheel [N]
-    double spin_moment      = 0.;    ///< of the shear about the normal through the origin, on the wheel [N m]
-    double max_pressure     = 0.;    ///< [Pa]
-    double area             = 0.;    ///< of elements in contact [m^2]
-    double adhesion_share   = 0.;    ///< of it [-]
-    double max_shear        = 0.;    ///< [Pa]
-    double max_slip         = 0.;    ///< [m/s]
-    double frictional_power = 0.;    ///< by the balance of forces, as RollingResult::power_balance [W]
-    double overlap          = 0.;    ///< largest, of the undeformed surfaces at the elements [m]
-    double y_begin = 0., y_end = 0.; ///< outer edges of the elements in contact [m]
-    double x_begin = 0., x_end = 0.;
-    double approach = 0.;        ///< beyond what the gap has [m]
-    unsigned int iterations = 0; ///< Newton steps of the tangential problem
+    double       normal_force = 0., longitudinal_force = 0., lateral_force = 0.; ///< on the wheel [N]
+    double       spin_moment  = 0.; ///< of the shear about the normal through the origin, on the wheel [N m]
+    double       max_pressure = 0.; ///< [Pa]
+    double       area         = 0.; ///< of elements in contact [m^2]
+    double       adhesion_share   = 0.;    ///< of it [-]
+    double       max_shear        = 0.;    ///< [Pa]
+    double       max_slip         = 0.;    ///< [m/s]
+    double       frictional_power = 0.;    ///< by the balance of forces, as RollingResult::power_balance [W]
+    double       overlap          = 0.;    ///< largest, of the undeformed surfaces at the elements [m]
+    double       y_begin = 0., y_end = 0.; ///< outer edges of the elements in contact [m]
+    double       x_begin = 0., x_end = 0.;
+    double       approach   = 0.; ///< beyond what the gap has [m]
+    unsigned int iterations = 0;  ///< Newton steps of the tangential problem
   };
 
   /// Errors: std::invalid_argument where the surfaces do not overlap or a number makes no sense;

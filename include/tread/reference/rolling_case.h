@@ -81,9 +81,9 @@ namespace tread::reference
   /// The answer to a RollingCase. Vectors have one entry per grid element, x fastest.
   struct RollingResult
   {
-    unsigned int n_x          = 0;  ///< elements in x
-    unsigned int n_y          = 0;  ///< elements in y
-    double       element_size = 0.; ///< along x [m]
+    unsigned int n_x            = 0;  ///< elements in x
+    unsigned int n_y            = 0;  ///< elements in y
+    double       element_size   = 0.; ///< along x [m]
     double       element_size_y = 0.; ///< along y [m]
 
     std::vector<double> x, y;             ///< element centres [m]; one lies at (0, 0)
