@@ -55,7 +55,9 @@ namespace tread
     std::ifstream stream(file);
     std::string   line;
     if (!std::getline(stream, line))
-      throw InputError(unreadable);
+      throw InputError(stream.is_open() && stream.eof() ? "'" + file + "' is empty" : unreadable);
+    if (line.compare(0, 3, "\xef\xbb\xbf") == 0) // byte order mark
+      line.erase(0, 3);
     const std::vector<std::string_view> all = split(line);
     std::vector<std::size_t>            place;
     for (std::size_t i = 0; i < all.size(); ++i)

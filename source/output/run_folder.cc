@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/base/input_error.h>
 #include <tread/output/run_folder.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -201,9 +204,25 @@ namespace tread
         std::ifstream old(path(name));
         std::string   line;
         std::getline(old, line);
+        const auto n_commas = [](const std::string &text) {
+          return std::count(text.begin(), text.end(), ',');
+        };
+        double last = 0., widest = 0.; // instants, and what lies between them
         while (std::getline(old, line))
-          if (!line.empty() && std::atof(line.c_str()) <= time)
-            kept += line + '\n';
+          if (const double when = std::atof(line.c_str()); !line.empty() && when <= time)
+            {
+              if (n_commas(line) != n_commas(header))
+                throw InputError("--resume: '" + path(name) + "' has a damaged row");
+              if (last > 0.)
+                widest = std::max(widest, when - last);
+              last = when;
+              kept += line + '\n';
+            }
+        // Nothing is known of an interval of which there is no second row.
+        if (widest > 0. && time - last > 2. * widest)
+          throw InputError("--resume: '" + path(name) + "' ends at " +
+                           format("%g ms, before the checkpoint of %g ms", 1e3 * last, 1e3 * time) +
+                           ": rows are missing");
       }
     write(name, kept);
     table.open(path(name), std::ios::app);

@@ -13,6 +13,7 @@
 #include <new>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
 // The C interface of the half-space solver: translates structs, and exceptions into a status.
 
@@ -36,6 +37,26 @@ namespace
     require(problem.slip_order >= 0 && problem.slip_order <= 2, "slip_order", problem.slip_order,
             "1 or 2, or 0 for 2");
     return problem.slip_order == 1 ? 1 : 2;
+  }
+
+  /// What no contact has, and what would overflow.
+  void check_magnitudes(const tread_half_space_case &problem)
+  {
+    for (const auto &[name, value, largest] :
+         {std::tuple("creepage", problem.creepage, 1e3),
+          std::tuple("lateral_creepage", problem.lateral_creepage, 1e3),
+          std::tuple("spin", problem.spin, 1e6), std::tuple("friction", problem.friction, 1e6)})
+      require(std::abs(value) <= largest, name, value,
+              "a number up to " + std::to_string(static_cast<int>(largest)) + " in size");
+  }
+
+  bool is_finite(const tread_half_space_answer &a)
+  {
+    for (const double value : {a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure,
+                               a.adhesion_share, a.area, a.approach, a.frictional_work})
+      if (!std::isfinite(value))
+        return false;
+    return true;
   }
 
   template <typename Result>
@@ -143,16 +164,21 @@ namespace
     solver.state.clear();
     try
       {
+        check_magnitudes(problem);
         if (problem.gap)
           solve_gap(solver, problem, answer);
         else
           solve_ellipse(solver, problem, answer);
-        answer.status = TREAD_HALF_SPACE_SOLVED;
+        if (!is_finite(answer))
+          throw std::runtime_error("numbers overflow");
+        answer.frictional_work = std::max(answer.frictional_work, 0.); // no negative round-off
+        answer.status          = TREAD_HALF_SPACE_SOLVED;
       }
     catch (const std::bad_alloc &)
       {
-        answer        = no_answer();
-        answer.status = TREAD_HALF_SPACE_OUT_OF_MEMORY;
+        answer         = no_answer();
+        answer.status  = TREAD_HALF_SPACE_OUT_OF_MEMORY;
+        solver.message = "no memory";
       }
     catch (const std::invalid_argument &error)
       {

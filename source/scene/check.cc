@@ -154,6 +154,11 @@ namespace tread
             "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
               " must hold the patch from y = " + text_in_mm(patch_extent().begin) + " to " +
               text_in_mm(patch_extent().end) + " mm; at least " + text_in_mm(needed_half_width()));
+    const double longest = 0.7 * a;
+    require(mesh.path_cell <= longest, "'Mesh/Path cell (mm)' " + text_in_mm(mesh.path_cell) +
+                                         " is too large for a patch with a semi-axis of " + text_in_mm(a) +
+                                         " mm along the path, whose force it would make ripple; at most " +
+                                         text_in_mm(longest));
     require(rail.margin >= 3. * a, "'Rail/Margin (mm)' " + text_in_mm(rail.margin) +
                                      " lets the wheel leave the rail; at least three semi-axes, " +
                                      text_in_mm(3. * a));

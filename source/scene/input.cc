@@ -136,15 +136,19 @@ namespace tread
     {
       const std::vector<Entry> entries = all_entries(handler);
       const auto               name_of = [](const std::string &p) {
-        return p.substr(p.rfind('/') + 1);
+        return p.substr(p.rfind('/', p.find('(')) + 1); // a unit may have one, too
+      };
+      const auto without_unit = [](const std::string &p) {
+        return p.substr(0, p.find(" ("));
       };
       std::string best;
       std::size_t least = std::numeric_limits<std::size_t>::max();
       for (const Entry &entry : entries)
         {
           // The right name in another section is the likeliest slip.
-          const std::size_t distance =
-            std::min(edit_distance(path, entry.path), edit_distance(name_of(path), entry.name) + 1);
+          const std::size_t distance = std::min(
+            {edit_distance(path, entry.path), edit_distance(without_unit(path), without_unit(entry.path)) + 1,
+             edit_distance(name_of(path), entry.name) + 1});
           if (distance < least)
             {
               least = distance;
@@ -189,6 +193,19 @@ namespace tread
       parse(file);
     for (const std::string &setting : settings)
       set(setting);
+    if (vehicle.wheel_load)
+      {
+        require(vehicle.gravity > 0., "'Vehicle/Wheel load (kN)' needs 'Vehicle/Gravity (m per s2)' above 0");
+        const double weight = wheel.mass * vehicle.gravity;
+        require(*vehicle.wheel_load >= weight,
+                "'Vehicle/Wheel load (kN)' " + text_of(1e-3 * *vehicle.wheel_load) +
+                  " is less than the weight of 'Wheel/Mass (kg)', " + text_of(1e-3 * weight) + " kN");
+        vehicle.sprung_mass = *vehicle.wheel_load / vehicle.gravity - wheel.mass;
+      }
+    constexpr double largest_load = 1e8; // N
+    require(static_load() <= largest_load,
+            "'Wheel/Mass (kg)' and 'Vehicle/Sprung mass (kg)' press a wheel with " +
+              text_of(1e-3 * static_load()) + " kN; at most " + text_of(1e-3 * largest_load));
     folder = std::filesystem::path(file).parent_path();
   }
 

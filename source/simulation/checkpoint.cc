@@ -127,6 +127,45 @@ namespace tread
   }
 
 
+  void Checkpoint::require_parameters_of_run() const
+  {
+    // All but those of the output, whose section is the last one.
+    const auto settings_in = [](std::istream &&text) {
+      std::vector<std::string> settings;
+      std::string              section;
+      for (std::string line; std::getline(text, line) && line.find("subsection Output") != 0;)
+        {
+          std::istringstream words(line);
+          std::string        word, setting;
+          words >> word;
+          if (word == "subsection")
+            words >> section;
+          else if (word == "set")
+            {
+              while (words >> word)
+                setting += (setting.empty() ? "" : " ") + word;
+              settings.push_back(section + "/" + setting);
+            }
+        }
+      return settings;
+    };
+    std::string problem;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        const auto of_run             = settings_in(std::ifstream(folder.path("parameters.prm"))),
+                   own                = settings_in(std::istringstream(parameters()));
+        const auto [old_one, new_one] = std::mismatch(of_run.begin(), of_run.end(), own.begin(), own.end());
+        if (old_one != of_run.end() && new_one != own.end())
+          problem = "--resume: the run in '" + folder.path("") +
+                    "' is complete, and was made with other parameters: '" + *old_one + "', now '" +
+                    *new_one + "'; without --resume it starts anew";
+      }
+    problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
+    if (!problem.empty())
+      throw InputError(problem);
+  }
+
+
   void Checkpoint::read(Simulation &simulation)
   {
     std::string name;

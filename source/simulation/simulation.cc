@@ -338,6 +338,7 @@ namespace tread
 
     if (resume && folder.is_complete())
       {
+        checkpoint.require_parameters_of_run();
         progress.say("the run in '" + path +
                      "' is complete: nothing to resume; without --resume it starts anew");
         return true;

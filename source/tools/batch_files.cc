@@ -37,6 +37,9 @@ namespace tread
                                             {"element_x_m", &tread_half_space_case::element_x, false},
                                             {"element_y_m", &tread_half_space_case::element_y, false}};
     constexpr const char *order_column   = "slip_order";
+    const std::string answer_columns = ",longitudinal_force_N,lateral_force_N,spin_moment_Nm,max_pressure_Pa,"
+                                       "adhesion_share,iterations,area_m2,"
+                                       "approach_m,frictional_work_J_per_m,status,";
 
     std::vector<tread_half_space_case> read_cases(const std::string &file, std::string &not_read)
     {
@@ -46,6 +49,8 @@ namespace tread
           const bool known =
             name == order_column || std::any_of(std::begin(case_columns), std::end(case_columns),
                                                 [&](const CaseColumn &c) { return c.name == name; });
+          if (answer_columns.find("," + name + ",") != std::string::npos)
+            throw InputError("'" + file + "' has a column '" + name + "', which is one of the answers");
           if (!known)
             not_read += (not_read.empty() ? "" : ", ") + name;
           return known;
@@ -76,8 +81,10 @@ namespace tread
                        const std::string                          &output,
                        const std::vector<tread_half_space_answer> &answers)
     {
-      std::ifstream     rows(cases);
-      const std::string part = output + ".part"; // never a half-written table under its own name
+      std::ifstream rows(cases);
+      // Never a half-written table under its own name, but devices and pipes are written to as they are.
+      const bool is_file     = !std::filesystem::exists(output) || std::filesystem::is_regular_file(output);
+      const std::string part = is_file ? output + ".part" : output;
       std::ofstream     file(part);
       std::string       line;
       const auto        copy = [&] {
@@ -85,10 +92,9 @@ namespace tread
         line.erase(line.find_last_not_of(" \t\r") + 1);
       };
       copy();
-      file
-        << line
-        << ",longitudinal_force_N,lateral_force_N,spin_moment_Nm,max_pressure_Pa,adhesion_share,iterations,"
-           "area_m2,approach_m,frictional_work_J_per_m,status\n";
+      if (line.compare(0, 3, "\xef\xbb\xbf") == 0)
+        line.erase(0, 3);
+      file << line << answer_columns.substr(0, answer_columns.size() - 1) << '\n';
       for (const tread_half_space_answer &a : answers)
         {
           do
@@ -102,8 +108,14 @@ namespace tread
         }
       file.close();
       if (!file)
-        throw InputError("cannot write '" + part + "'");
-      std::filesystem::rename(part, output);
+        {
+          std::error_code ignored;
+          if (is_file)
+            std::filesystem::remove(part, ignored);
+          throw std::runtime_error("cannot write '" + output + "': is the disk full?");
+        }
+      if (is_file)
+        std::filesystem::rename(part, output);
     }
   } // namespace
 

@@ -71,12 +71,16 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("its row has nan and a status", np.isnan(out["lateral_force_N"][1]) and list(out["status"]) == [0, 1, 0])
     refused("a missing column", batch({name: values for name, values in one.items() if name != "friction"}), 1, ["'friction'"])
     refused("a word for a number", batch({**one, "poisson": np.array(["0.3", "much", "0.3"])}), 1, ["row 2", "'poisson'", "much"])
+    refused("a column of answers", batch({**one, "status": np.zeros(3)}), 1, ["'status'", "answers"])
     refused("an unknown order", batch({**one, "slip_order": np.array([1., 2., 3.])}), 1, ["row 3", "slip_order"])
     refused("no rows", batch({name: values[:0] for name, values in one.items()}), 1, ["no rows"])
     refused("no --output", batch(one, None), 1, ["--output"])
     refused("a scene beside it", batch(one, more=["scene.prm"]), 1, ["--batch"])
     check.that("mpirun is refused, once", batch(one, ranks=2).stderr.count("start it without mpirun") == 1)
-    refused("a folder that is not there", batch(one, "no/out.csv"), 1, ["no/out.csv"])
+    refused("a folder that is not there", batch(one, "no/out.csv"), 2, ["no/out.csv"])
+    os.symlink("/dev/full", path("full"))
+    refused("a full disk", batch(one, "full"), 2, ["full"])
+    check.that("a device stays one", os.path.islink(path("full")) and not os.path.isfile("/dev/full"))
 
 # Elements as they are chosen, and half as large.
 N = 200
@@ -108,7 +112,12 @@ check.relative("its fields sum up: load", points["pressure"].sum() * area, FORCE
 check.relative("and longitudinal force", points["shear_x"].sum() * area, points["longitudinal_force"], 1e-6)
 check.that("stick where the bound is not reached, none outside", set(np.unique(points["state"])) <= {0., 1., 2.}
            and not points["pressure"][points["state"] == 0.].any())
-for name, change_of, words in (("no curvature", {"curvature_x": 0.}, "curvature_x"), ("elements too large", {"element_x": 1.}, "element_x"),
+# Far below the friction bound the force is linear in the creepage.
+linear = [half_space.solve(curvature_x=1., curvature_y=1., normal_force=1e5, friction=f, creepage=xi)["longitudinal_force"] / xi
+          for f, xi in ((0.3, -1e-7), (0.3, -1e-12), (1e4, -1e-3))]
+check.relative("slope at a creepage of 1e-12", linear[1], linear[0], 1e-3)
+check.relative("slope under large friction", linear[2], linear[0], 1e-3)
+for name, change_of, words in (("a spin that overflows", {"spin": 1e300}, "spin"), ("no curvature", {"curvature_x": 0.}, "curvature_x"), ("elements too large", {"element_x": 1.}, "element_x"),
                                ("Poisson's ratio", {"poisson": 0.7}, "Poisson"), ("nan", {"spin": np.nan}, "spin")):
     try:
         half_space.solve(**{**single, **change_of})

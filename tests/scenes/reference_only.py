@@ -137,6 +137,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("creepage given: the same adhesion share", given["adhesion_share"], base["adhesion_share"], 1e-3)
     torque = reference_only("Motion/Drive=torque", "Motion/Creepage=0", "Motion/Hold distance (mm)=10")
     check.relative("torque: its traction, whatever the start", torque["creepage"], base["creepage"], 1e-9)
+    loaded = reference_only("Vehicle/Wheel load (kN)=100")
+    check.relative("a given wheel load, N", loaded["normal_force_N"], 100e3, 1e-9)
     brake = reference_only("Motion/Traction coefficient=-0.3")
     check.relative("braking: the opposite creepage", brake["creepage"], -base["creepage"], 1e-5)
     slide = reference_only("Motion/Creepage=0.1")

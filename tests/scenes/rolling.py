@@ -116,6 +116,18 @@ with tempfile.TemporaryDirectory() as folder:
         again = execute(arguments_of(SCENE, settings, path("parts")) + ["--resume"], program=program)
         check.that("a complete run is left as it is", again.returncode == 0 and "complete" in again.stdout
                    and read_summary(path("parts")) == resumed)
+        fails("a complete run is not taken for one with other parameters",
+              arguments_of(SCENE, settings, path("parts")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
+              ["complete", "Friction coefficient", "0.5", "0.4"])
+        with open(path("other-parameters/history.csv"), encoding="utf-8") as stream:
+            rows = stream.readlines()
+        for name, kept, words in (("that ends too soon", rows[:4], ["history.csv", "rows are missing"]),
+                                  ("with a row cut short", rows[:5] + [rows[5][:40] + "\n"] + rows[6:], ["history.csv", "damaged row"])):
+            with open(path("other-parameters/history.csv"), "w", encoding="utf-8") as stream:
+                stream.writelines(kept)
+            fails(f"a history {name} is refused", arguments_of(SCENE, settings, path("other-parameters")) + ["--resume"], words)
+        with open(path("other-parameters/history.csv"), "w", encoding="utf-8") as stream:
+            stream.writelines(rows)
         fails("other parameters are refused and named",
               arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])

@@ -108,6 +108,8 @@ def solve(*, slip_order=2, contact_sixth=False, threads=0, on_failure="raise", *
     lateral_force (N, on the wheel), spin_moment (N m), max_pressure (Pa), adhesion_share, area (m^2), approach (m), frictional_work
     (J for each metre). Raises HalfSpaceError.
     """
+    if threads < 0:
+        raise TypeError("threads must be 0 or more")
     cases, shape = _cases(settings, slip_order, contact_sixth)
     answers = np.zeros(len(cases), _ANSWER)
     failed = _library().tread_half_space_solve_all(cases.ctypes.data, len(cases), threads, answers.ctypes.data)

@@ -32,6 +32,10 @@ namespace tread
     /// damaged or was written by another version, or if it belongs to other parameters.
     void read(Simulation &simulation);
 
+    /// Of a complete run, which has no checkpoint to go on from. Collective. @throws InputError if it has
+    /// other parameters.
+    void require_parameters_of_run() const;
+
   private:
     /// Of the slot that checkpoint.last names: what follows the first line, on all ranks.
     std::string content_of(const std::string &name) const;

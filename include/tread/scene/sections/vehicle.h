@@ -10,6 +10,7 @@ namespace tread
   struct VehicleSection
   {
     double sprung_mass = 13400., suspension_stiffness = 1150e3, suspension_damping = 2500., gravity = 9.81;
+    std::optional<double> wheel_load; ///< N; sets the sprung mass
 
     void declare(dealii::ParameterHandler &handler);
   };
