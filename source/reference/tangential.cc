@@ -415,7 +415,6 @@ namespace tread::reference
           converged = newton.iterate(level.state, tolerance, problem.max_iterations);
         }
       scatter(grid, patch, level);
-      solution.linear_iterations += newton.linear_iterations;
       if (!finest)
         return level;
 
@@ -423,11 +422,12 @@ namespace tread::reference
         throw std::runtime_error("tangential contact: Newton's method reached a violation of " +
                                  std::to_string(newton.violation) + " f p_max, the tolerance is " +
                                  std::to_string(tolerance));
-      solution.iterations   = newton.iterations;
-      solution.residual     = newton.violation;
-      solution.longitudinal = equations.prescribed[0] ? level.state.creepage[0] : problem.longitudinal;
-      solution.lateral      = equations.prescribed[1] ? level.state.creepage[1] : problem.lateral;
-      solution.spin         = problem.spin;
+      solution.iterations        = newton.iterations;
+      solution.linear_iterations = newton.linear_iterations;
+      solution.residual          = newton.violation;
+      solution.longitudinal      = equations.prescribed[0] ? level.state.creepage[0] : problem.longitudinal;
+      solution.lateral           = equations.prescribed[1] ? level.state.creepage[1] : problem.lateral;
+      solution.spin              = problem.spin;
       for (Vector *field :
            {&solution.slip_x, &solution.slip_y, &solution.displacement_x, &solution.displacement_y})
         field->assign(grid.size(), 0.);

@@ -107,11 +107,11 @@ namespace
         std::printf(
           "    %u x %u elements: %u conjugate gradients, %u Newton steps, %u Krylov steps, %.4f s\n", r.n_x,
           r.n_y, r.normal_iterations, r.tangential_iterations, r.linear_iterations, r.solve_seconds);
-        // Newton steps do not grow with the grid (seen: 3 to 5), Krylov steps hardly on each of the grids (5
-        // to 25 a Newton step, where a preconditioner that does not know the leading edge takes 90 at 0.1
-        // mm); the total of all coarser grids is seen at 24 to 207
+        // Newton steps do not grow with the grid (seen: 3 to 5), Krylov steps hardly (10 to 20 a Newton step,
+        // where a preconditioner that does not know the leading edge takes 90 at 0.1 mm); the smallest grids
+        // have no preconditioner.
         check.that(name + "at most 8 Newton steps", r.tangential_iterations <= 8);
-        check.that(name + "at most 300 Krylov steps", r.linear_iterations <= 300);
+        check.that(name + "Krylov steps", r.linear_iterations <= (r.n_x > 40 ? 100 : 200));
       }
   }
 

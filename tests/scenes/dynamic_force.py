@@ -204,9 +204,10 @@ with tempfile.TemporaryDirectory() as folder:
     fails("a row that is cut off", ["--dynamic-force", path("damaged"), "--smooth-twin", path("twin")], ["row 22", "2 entries"])
     write(path("nan"), 2000)
     with open(path("nan/history.csv"), encoding="utf-8") as stream:
-        lines = stream.read().splitlines()
+        lines = [line.rstrip("\n").split(",") for line in stream]
+    lines[100][lines[0].index("normal_force_N")] = "nan"
     with open(path("nan/history.csv"), "w", encoding="utf-8") as stream:
-        stream.write("\n".join(lines[:100] + [lines[100].rpartition(",")[0] + ",nan"] + lines[101:]) + "\n")
+        stream.write("\n".join(",".join(line) for line in lines) + "\n")
     fails("a force that is none", ["--dynamic-force", path("nan"), "--smooth-twin", path("twin")], ["row 100", "nan"])
     fails("an unknown window", both + ["--window", "Hamming"], ["Hamming", "rectangular", "Hann"])
     fails("no position", both + ["--from", "here"], ["--from", "here", "mm"])

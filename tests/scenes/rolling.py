@@ -303,7 +303,7 @@ with tempfile.TemporaryDirectory() as folder:
 
         no_mesh = ("Title", "Rounded trailing edge (mm)", "Depth (mm)", "Creepage", "Friction coefficient", "Traction coefficient",
                    "Yield stress (MPa)", "Tangent modulus (GPa)")
-        start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "9", "Mesh/Fine layers": "2",
+        start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "0", "Mesh/Fine layers": "2",
                  "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false"}
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
         shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
@@ -372,7 +372,7 @@ with tempfile.TemporaryDirectory() as folder:
             check.that("run.h5: summary", json.loads(all_tables["summary.json"][()]) == read_summary(path("files")))
         # A reader sees a small part of what the tables have as text.
         check.below("run.h5: its size over that of the tables", os.path.getsize(path("files/run.h5"))
-                    / sum(os.path.getsize(path("files", name + ".csv")) for name in names), 1.)
+                    / sum(os.path.getsize(os.path.join(path("files"), name + ".csv")) for name in names), 1.)
         one_row = run(program, "smooth-rolling.prm", path("one-row"), COARSE + [
             "Motion/Rolled distance (mm)=4", "Output/History interval (mm)=100", "Output/Write volume=false"], 2)
         rows = rows_of(path("one-row"), "history.csv")

@@ -121,7 +121,7 @@ namespace tread::reference
     double longitudinal_force = 0., lateral_force = 0., spin_moment = 0.;
 
     unsigned int iterations        = 0;  ///< Newton steps on this grid (coarser ones give the first guess)
-    unsigned int linear_iterations = 0;  ///< Krylov steps of all, coarser grids included
+    unsigned int linear_iterations = 0;  ///< Krylov steps on this grid
     unsigned int fallback_steps    = 0;  ///< transient steps taken because Newton alone did not converge
     double       residual          = 0.; ///< largest violation of Coulomb's law over f p_max [-]
   };

@@ -120,8 +120,8 @@ namespace tread::reference
                                ///< faster, the better reference
 
     unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
-    unsigned int tangential_iterations = 0;  ///< Newton steps
-    unsigned int linear_iterations     = 0;  ///< Krylov steps of all Newton steps
+    unsigned int tangential_iterations = 0;  ///< Newton steps on the grid itself
+    unsigned int linear_iterations     = 0;  ///< Krylov steps on the grid itself
     double       normal_residual       = 0.; ///< largest error of the gap in contact over the approach [-]
     double       tangential_residual   = 0.; ///< largest violation of Coulomb's law over f p_max [-]
     double       solve_seconds         = 0.; ///< wall time [s]
