@@ -183,12 +183,19 @@ namespace tread
       Vector3d       arm = difference(region.reference, WheelOnRail::middle(position, surfaces.radius()));
       for (unsigned int d = 0; d < 3; ++d)
         arm[d] += at_origin * normal[d];
+      // The motion across the track goes along the surfaces, not into them.
+      const Vector3d frame{-rolling.roll_rate, rolling.yaw_rate * std::sin(position.roll),
+                           rolling.yaw_rate * std::cos(position.roll)};
+      Vector3d       across = cross(frame, arm);
+      across[1] += rolling.across_speed;
+      patch.rise       = -dot(across, normal) / normal[2];
       Vector3d turning = axle;
-      for (double &component : turning)
-        component *= rolling.angular_velocity;
+      for (unsigned int d = 0; d < 3; ++d)
+        turning[d] = rolling.angular_velocity * axle[d] + frame[d];
       Vector3d velocity = cross(turning, arm);
       velocity[0] += rolling.speed;
-      velocity[1] += rolling.lateral_speed;
+      velocity[1] += rolling.lateral_speed + rolling.across_speed;
+      velocity[2] += patch.rise;
       const double V         = rolling.speed - 0.5 * velocity[0];
       patch.wheel_s          = wheel_s;
       patch.wheel_angle      = wheel_angle;

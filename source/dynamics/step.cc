@@ -71,8 +71,7 @@ namespace tread
         const WheelHub    &hub   = *wheel.hub;
         BodyLoads::OfWheel of_run;
         const double       inward = -compensation(wheel);
-        const Vector3      middle = hub.middle(), velocity = hub.velocity(),
-                      turning = hub.motion.angular_velocity * hub.axle();
+        const Vector3      middle = hub.middle(), velocity = hub.velocity(), turning = hub.turning();
         loop([&](const unsigned int i) {
           const double  mass     = free_mass(i, scaled);
           const Vector3 arm      = position(i) - middle;
@@ -135,13 +134,16 @@ namespace tread
     double *of_wheel = sums.data();
     for (const Wheel &wheel : wheels)
       {
-        const Vector3 middle = wheel.hub->middle(), axle = wheel.hub->axle();
+        const Vector3 middle = wheel.hub->middle();
         for (const unsigned int i : wheel.nodes)
           if (mesh.shared_nodes.is_owned(i))
             {
+              const Vector3 moment = cross(position(i) - middle, force[i]);
               for (unsigned int d = 0; d < 3; ++d)
-                of_wheel[d] += force[i][d];
-              of_wheel[3] += dot(axle, cross(position(i) - middle, force[i]));
+                {
+                  of_wheel[d] += force[i][d];
+                  of_wheel[3 + d] += moment[d];
+                }
             }
         of_wheel += n_hub_sums;
       }
@@ -201,10 +203,11 @@ namespace tread
         const BodyLoads::OfWheel &of_wheel = loads.wheels[k];
         double                   *sums     = rank_sums.data() + n_hub_sums * k;
         for (unsigned int d = 0; d < 3; ++d)
-          sums[d] += parameters.mass_damping * of_wheel.momentum[d];
-        sums[3] += parameters.mass_damping * dot(wheels[k].hub->axle(), of_wheel.moments);
-        sums[4] = of_wheel.arms[0];
-        sums[5] = of_wheel.arms[2];
+          {
+            sums[d] += parameters.mass_damping * of_wheel.momentum[d];
+            sums[3 + d] += parameters.mass_damping * of_wheel.moments[d];
+            sums[6 + d] = of_wheel.arms[d];
+          }
       }
     if (supports)
       supports->predict(v.data(), force.data(), inverse_mass, time_step, rank_sums.data() + n_sums_of_hubs());
@@ -238,14 +241,13 @@ namespace tread
     const double *sums = rank_sums.data();
     for (const Wheel &wheel : wheels)
       {
-        const WheelHub::Motion &motion = wheel.hub->motion;
-        const WheelHub::Motion  before = motion;
-        wheel.hub->advance(Vector3{sums[0], sums[1], sums[2], 0.}, sums[3], time_step);
+        const Vector3 before = wheel.hub->velocity();
+        wheel.hub->advance(Vector3{sums[0], sums[1], sums[2], 0.}, Vector3{sums[3], sums[4], sums[5], 0.},
+                           time_step);
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
         const double work = -0.5 * time_step * compensation(wheel) *
-                            (sums[4] * (before.velocity_x + motion.velocity_x) +
-                             sums[5] * (before.velocity_z + motion.velocity_z));
+                            dot(Vector3{sums[6], sums[7], sums[8], 0.}, before + wheel.hub->velocity());
         if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
           {
             totals.external_work += work;

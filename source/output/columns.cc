@@ -79,6 +79,24 @@ namespace tread
       return columns;
     }
 
+    /// Of a wheelset that moves across its track.
+    const Columns<WheelRecord> &across_columns()
+    {
+      using R = WheelRecord;
+      static const Columns<R> columns{{"lateral_shift", "m",
+                                       [](const R &r) {
+                                         return r.lateral_shift;
+                                       }},
+                                      {"yaw", "rad",
+                                       [](const R &r) {
+                                         return r.yaw;
+                                       }},
+                                      {"guidance_force", "N", [](const R &r) {
+                                         return r.guidance_force;
+                                       }}};
+      return columns;
+    }
+
     const Columns<EnergyLedger> &energy_columns()
     {
       using R = EnergyLedger;
@@ -144,7 +162,9 @@ namespace tread
   } // namespace
 
 
-  Columns<HistoryRow> history_columns(const unsigned int n_wheels, const std::vector<int> &supports)
+  Columns<HistoryRow> history_columns(const unsigned int      n_wheels,
+                                      const bool              moves_across,
+                                      const std::vector<int> &supports)
   {
     using R          = HistoryRow;
     const auto wheel = [](const std::size_t i) {
@@ -162,6 +182,8 @@ namespace tread
     add_columns(columns, contact_columns(), "", wheel(0));
     add_columns(columns, energy_columns(), "", [](const R &r) -> const EnergyLedger & { return r.energy; });
     add_columns(columns, axle_columns(), "", wheel(0));
+    if (moves_across)
+      add_columns(columns, across_columns(), "", wheel(0));
     if (!supports.empty())
       columns.push_back({"spring_energy", "J", [](const R &r) {
                            return r.energy.springs;

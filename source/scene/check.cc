@@ -25,6 +25,9 @@ namespace tread
   {
     if (is_positioned())
       return check_wheelset();
+    require(guidance.kind == Guidance::rigid,
+            "'Guidance/Kind' " + name_of(guidance.kind) +
+              " moves a wheelset in its track: 'Wheelset/Lateral shift (mm)' puts it there");
     general.check();
     check_motion();
     rail.check();

@@ -207,6 +207,26 @@ namespace tread
             "'Wheel/Mass (kg)' and 'Vehicle/Sprung mass (kg)' press a wheel with " +
               text_of(1e-3 * static_load()) + " kN; at most " + text_of(1e-3 * largest_load));
     folder = std::filesystem::path(file).parent_path();
+    guidance.check();
+    if (guidance.kind == Guidance::file)
+      take_wheelset_motion();
+  }
+
+
+  void Scene::take_wheelset_motion()
+  {
+    wheelset_motion = std::make_shared<const WheelsetMotion>(located(guidance.file));
+    const Across start =
+      wheelset_motion->at(0., {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
+    wheelset.shift = start.y;
+    wheelset.yaw   = start.yaw;
+    wheelset.roll  = start.roll;
+    if (start.angular_velocity)
+      {
+        require(!motion.angular_velocity, "'Motion/Angular velocity (rad per s)' and the angular velocity in "
+                                          "'Guidance/File' exclude each other");
+        motion.angular_velocity = start.angular_velocity;
+      }
   }
 
 

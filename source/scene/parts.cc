@@ -185,6 +185,7 @@ namespace tread
     p.suspension_stiffness = scene.vehicle.suspension_stiffness;
     p.suspension_damping   = scene.vehicle.suspension_damping;
     p.gravity              = scene.vehicle.gravity;
+    p.yaw_inertia          = scene.guidance.yaw_inertia;
     return p;
   }
 

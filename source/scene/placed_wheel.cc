@@ -16,20 +16,21 @@ namespace tread
       return Vector3{v[0], v[1], v[2], 0.};
     }
 
-    WheelContact solve(const Scene &scene, const WheelOnRail &surfaces)
+    WheelContact solve(const Scene            &scene,
+                       const WheelOnRail      &surfaces,
+                       const WheelsetPosition &position,
+                       const WheelRolling     &rolling)
     {
       try
         {
-          return contact_under_load(surfaces, wheel_rolling(scene), scene.wheelset.position(),
-                                    scene.static_load());
+          return contact_under_load(surfaces, rolling, position, scene.static_load());
         }
       catch (const std::exception &error)
         {
           throw InputError(
             format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and a roll of "
                    "%g mrad: ",
-                   1e3 * scene.wheelset.position().shift, 1e3 * scene.wheelset.yaw,
-                   1e3 * scene.wheelset.roll) +
+                   1e3 * position.shift, 1e3 * position.yaw, 1e3 * position.roll) +
             error.what());
         }
     }
@@ -37,8 +38,14 @@ namespace tread
 
 
   PlacedWheel::PlacedWheel(const Scene &scene)
+    : PlacedWheel(scene, scene.wheelset.position(), wheel_rolling(scene))
+  {
+  }
+
+
+  PlacedWheel::PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling)
     : surfaces(scene.wheel_on_rail())
-    , contact(solve(scene, surfaces))
+    , contact(solve(scene, surfaces, position, rolling))
     , load(scene.static_load())
   {
   }
@@ -214,15 +221,59 @@ namespace tread
       return at;
     }
 
+    /// By how much the rigid contact moves from where it is at the start, m.
+    struct Wandering
+    {
+      /// Least and largest on one of the bodies, 0 among them.
+      struct OnBody
+      {
+        double x[2] = {0., 0.}, s[2] = {0., 0.};
+
+        void add(const double x_now, const double s_now)
+        {
+          x[0] = std::min(x[0], x_now);
+          x[1] = std::max(x[1], x_now);
+          s[0] = std::min(s[0], s_now);
+          s[1] = std::max(s[1], s_now);
+        }
+      };
+      OnBody rail, wheel;
+    };
+
+    Wandering wandering(const Scene &scene, const WheelOnRail &surfaces)
+    {
+      Wandering all;
+      if (scene.guidance.kind != Guidance::file)
+        return all;
+      constexpr unsigned int n_instants = 40;
+      const double           duration   = scene.motion.rolled_distance / scene.motion.speed,
+                   shift                = scene.wheelset.position().shift;
+      std::optional<WheelOnRail::OutlinePoint> first;
+      for (unsigned int i = 0; i <= n_instants; ++i)
+        {
+          const Across                    now = scene.across(duration * i / n_instants);
+          const WheelOnRail::OutlinePoint at = surfaces.nearest({shift + now.y, now.yaw, now.roll, 0.}).point;
+          if (!first)
+            first = at;
+          const auto on_rail = [&](const WheelOnRail::OutlinePoint &p) {
+            return surfaces.rail().parameter(p.place[1]);
+          };
+          all.rail.add(at.place[0] - first->place[0], on_rail(at) - on_rail(*first));
+          all.wheel.add(surfaces.radius() * (at.angle - first->angle), at.s - first->s);
+        }
+      return all;
+    }
+
     /// The finest cells at a patch on one of the bodies. @param x_reference of its reference point at the
     /// start
     /// @param s, s_middle parameters of the body's profile there and in the middle of its block
-    FineZone zone_of(const Scene        &scene,
-                     const WheelPatch   &patch,
-                     const ProfileCurve &profile,
-                     const double        x_reference,
-                     const double        s,
-                     const double        s_middle)
+    FineZone zone_of(const Scene             &scene,
+                     const WheelPatch        &patch,
+                     const ProfileCurve      &profile,
+                     const double             x_reference,
+                     const double             s,
+                     const double             s_middle,
+                     const Wandering::OnBody &wanders)
     {
       // Contact that a plane does not stand for may reach farther than in one.
       const double                   wider = 1.1 + 0.3 * patch.turn;
@@ -232,10 +283,11 @@ namespace tread
                    end = parameter_at(profile, patch, s, r.y_end), half_width = 0.5 * (end - begin);
       FineZone zone;
       zone.finest_cell_size = scene.mesh.finest_cell;
-      zone.x_begin          = x - beyond_path(scene, r);
-      zone.x_end            = x + scene.motion.rolled_distance + beyond_path(scene, r);
-      zone.y_middle         = 0.5 * (begin + end) - s_middle;
-      zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell);
+      zone.x_begin          = x - beyond_path(scene, r) + wanders.x[0];
+      zone.x_end            = x + scene.motion.rolled_distance + beyond_path(scene, r) + wanders.x[1];
+      zone.y_middle         = 0.5 * (begin + end + wanders.s[0] + wanders.s[1]) - s_middle;
+      zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell +
+                                                               0.5 * (wanders.s[1] - wanders.s[0]));
       zone.depth      = scene.mesh.fine_layers * zone.finest_cell_size;
       zone.cells_per_level = scene.mesh.cells_per_level;
       zone.level_depth     = scene.mesh.level_depth * std::sqrt(half_width * 0.5 * (r.x_end - r.x_begin));
@@ -295,10 +347,11 @@ namespace tread
     const Middle          middle = middle_of(patches(), parameter_of);
     const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
                                   scene.wheel.sector_thickness, scene.wheel.half_width());
+    const Wandering       wanders = wandering(scene, surfaces);
     std::vector<FineZone> zones;
     for (const WheelPatch &patch : patches())
       zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
-                              parameter_of(patch), middle.s));
+                              parameter_of(patch), middle.s, wanders.rail));
     require_on_profile(section, zones,
                        scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head");
     Body body = make_profile_block(
@@ -316,15 +369,16 @@ namespace tread
     const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
                                  scene.wheel.sector_thickness, scene.wheel.half_width());
     // Along the tread arcs have the length that they have on the circle through the middle.
-    const double          radius = surfaces.radius() - profile.at(middle.s).z;
+    const double          radius  = surfaces.radius() - profile.at(middle.s).z;
+    const Wandering       wanders = wandering(scene, surfaces);
     std::vector<FineZone> zones;
     double                begin = 1e300, end = -1e300;
     for (const WheelPatch &patch : patches())
       {
         const double arc = radius * patch.wheel_angle;
-        zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s));
-        begin = std::min(begin, arc);
-        end   = std::max(end, arc);
+        zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, wanders.wheel));
+        begin = std::min(begin, arc + wanders.wheel.x[0]);
+        end   = std::max(end, arc + wanders.wheel.x[1]);
       }
     require_on_profile(section, zones, "Wheel/Tread profile");
     const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();

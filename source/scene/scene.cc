@@ -9,6 +9,7 @@ namespace tread
     general.declare(handler);
     wheel.declare(handler);
     wheelset.declare(handler);
+    guidance.declare(handler);
     rail.declare(handler);
     defect.declare(handler);
     mesh.declare(handler);

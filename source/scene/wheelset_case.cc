@@ -57,9 +57,39 @@ namespace tread
   }
 
 
+  Across Scene::across(const double time) const
+  {
+    Across now = wheelset_motion->at(time, {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
+    now.y -= wheelset.shift.value_or(0.);
+    return now;
+  }
+
+
+  void Scene::check_guidance() const
+  {
+    if (!wheelset_motion)
+      return;
+    const double cell     = 2. * mesh.finest_cell; // half a one and the last group of steps
+    const double duration = (motion.rolled_distance + cell) / motion.speed;
+    require(wheelset_motion->end() >= duration - cell / motion.speed,
+            "'Guidance/File' ends at " + text_of(wheelset_motion->end()) + " s; the run takes " +
+              text_of(motion.rolled_distance / motion.speed) + " s");
+    constexpr unsigned int n_instants = 200;
+    for (unsigned int i = 0; i <= n_instants; ++i)
+      {
+        const Across    now  = across(duration * i / n_instants);
+        WheelsetSection then = wheelset;
+        then.yaw             = now.yaw;
+        then.roll            = now.roll;
+        then.check();
+      }
+  }
+
+
   void Scene::check_wheelset() const
   {
     wheelset.check();
+    check_guidance();
     motion.check();
     rail.check();
     wheel.check();
@@ -141,6 +171,14 @@ namespace tread
     rolling.lateral_speed        = scene.motion.lateral_creepage * scene.motion.speed;
     rolling.separation           = scene.wheelset.patch_distance;
     rolling.slip_follows_surface = scene.wheelset.slip_over_patch == SlipOverPatch::surface;
+    if (scene.guidance.kind == Guidance::file)
+      {
+        const double step = 1e-3 / scene.motion.speed;
+        const Across now = scene.across(0.), next = scene.across(step);
+        rolling.across_speed = (next.y - now.y) / step;
+        rolling.yaw_rate     = (next.yaw - now.yaw) / step;
+        rolling.roll_rate    = (next.roll - now.roll) / step;
+      }
     return rolling;
   }
 } // namespace tread

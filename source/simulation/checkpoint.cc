@@ -129,22 +129,20 @@ namespace tread
 
   void Checkpoint::require_parameters_of_run() const
   {
-    // All but those of the output, whose section is the last one.
+    // All but those of the output.
     const auto settings_in = [](std::istream &&text) {
       std::vector<std::string> settings;
       std::string              section;
-      for (std::string line; std::getline(text, line) && line.find("subsection Output") != 0;)
+      for (std::string line; std::getline(text, line);)
         {
-          std::istringstream words(line);
-          std::string        word, setting;
-          words >> word;
-          if (word == "subsection")
-            words >> section;
-          else if (word == "set")
+          line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+          if (line.compare(0, 11, "subsection ") == 0)
+            section = line.substr(11);
+          else if (line.compare(0, 4, "set ") == 0 && section != "Output")
             {
-              while (words >> word)
-                setting += (setting.empty() ? "" : " ") + word;
-              settings.push_back(section + "/" + setting);
+              const std::size_t equals = line.find('=');
+              settings.push_back(section + "/" + dealii::Utilities::trim(line.substr(4, equals - 4)) +
+                                 line.substr(equals - 1));
             }
         }
       return settings;

@@ -128,7 +128,7 @@ namespace tread
   std::vector<WheelPatch> Simulation::computed_patches() const
   {
     const RollingWheel     &wheel   = wheels.front();
-    std::vector<WheelPatch> patches = scene.placed_wheel().patches();
+    std::vector<WheelPatch> patches = placed().patches();
     for (unsigned int k = 0; k < patches.size(); ++k)
       {
         const PatchMeasures      m = wheel.averages_of_patches[k].measures();
@@ -154,17 +154,18 @@ namespace tread
 
   std::string Simulation::add_wheelset(Summary &summary, const bool completed) const
   {
-    const PlacedWheel  &placed = scene.placed_wheel();
-    const RollingWheel &wheel  = wheels.front();
-    const Vector3       force  = last_force_on(wheel);
+    const PlacedWheel  &half_space_wheel = placed();
+    const RollingWheel &wheel            = wheels.front();
+    const Vector3       force            = last_force_on(wheel);
     WheelContact        computed;
-    computed.position        = placed.contact.position;
-    computed.position.height = placed.contact.position.height + wheel.hub.motion.z - wheel.hub.start()[2];
-    computed.force           = {force[0], force[1], force[2]};
-    computed.patches         = computed_patches();
+    computed.position = half_space_wheel.contact.position;
+    computed.position.height =
+      half_space_wheel.contact.position.height + wheel.hub.motion.z - wheel.hub.start()[2];
+    computed.force   = {force[0], force[1], force[2]};
+    computed.patches = computed_patches();
     summarise_wheelset(summary, scene, "explicit finite elements", computed, completed);
     summary.set("free_rolling_creepage", wheel.free_creepage);
-    const Vector3d &half_space = placed.contact.force;
+    const Vector3d &half_space = half_space_wheel.contact.force;
     // As good as nothing beside the force that is given.
     const double negligible = 0.01 * scene.static_load();
     summary.compare("normal_force_N", "vertical force, kN", 1e-3, force[2], "half-space", half_space[2]);
@@ -173,12 +174,12 @@ namespace tread
     summary.compare("lateral_force_N", "lateral force in the track, kN", 1e-3, force[1], "half-space",
                     half_space[1], negligible);
     summary.compare("frictional_power_W", "frictional power, W", 1., frictional_power(computed), "half-space",
-                    frictional_power(placed.contact));
-    const double rail_y = placed.surfaces.rail_origin_y();
+                    frictional_power(half_space_wheel.contact));
+    const double rail_y = half_space_wheel.surfaces.rail_origin_y();
     summary.set("patches", patches_as_json(computed.patches, rail_y));
-    summary.set("half_space_patches", patches_as_json(placed.patches(), rail_y));
-    std::string text = table_of_patches(computed.patches, rail_y, placed.patches()) + "\n";
-    for (const std::string &limit : limits_of_half_space(placed.patches()))
+    summary.set("half_space_patches", patches_as_json(half_space_wheel.patches(), rail_y));
+    std::string text = table_of_patches(computed.patches, rail_y, half_space_wheel.patches()) + "\n";
+    for (const std::string &limit : limits_of_half_space(half_space_wheel.patches()))
       text += "half-space: " + limit + "\n";
     return text;
   }
@@ -397,7 +398,7 @@ namespace tread
     std::string            note;
     std::vector<PatchNode> reference_patch;
     if (scene.is_positioned())
-      reference_patch = scene.placed_wheel().table_nodes();
+      reference_patch = placed().table_nodes();
     else if (completed || scene.has_defect())
       note = compare_with_steady_rolling(summary, answer, reference_patch);
     if (!note.empty())
@@ -418,8 +419,7 @@ namespace tread
     add_cost(summary);
     std::vector<std::string> warnings = quality.warnings();
     if (scene.is_positioned())
-      for (const std::string &warning :
-           climbing_patches(scene.placed_wheel().surfaces, scene.placed_wheel().patches()))
+      for (const std::string &warning : climbing_patches(placed().surfaces, placed().patches()))
         warnings.push_back(warning);
     if (completed)
       add_doubts(warnings);

@@ -22,7 +22,12 @@ namespace tread
     const Vector3 start = Vector3{scene.path_begin(number), 0., 0., 0.};
     if (scene.is_positioned())
       {
-        hub.place(start + scene.placed_wheel().middle(), scene.placed_wheel().axle());
+        const WheelsetPosition &position = scene.placed_wheel().contact.position;
+        hub.place(start + scene.placed_wheel().middle(), position.yaw, position.roll);
+        if (scene.guidance.kind == Guidance::file)
+          hub.follow([&scene](const double time) { return scene.across(time); });
+        else if (scene.guidance.kind == Guidance::springs)
+          hub.release(scene.guidance.springs);
         hub.motion.angular_velocity = wheel_rolling(scene).angular_velocity;
       }
     else
@@ -65,8 +70,13 @@ namespace tread
                                          const unsigned int            n_steps,
                                          const double                  seconds)
   {
-    const WheelRecord record{(1. / n_steps) * interval_force, creepage(scene), measure(now),
-                             (hub.motion.velocity_z - interval_start_speed) / seconds};
+    const WheelRecord record{(1. / n_steps) * interval_force,
+                             creepage(scene),
+                             measure(now),
+                             (hub.motion.velocity_z - interval_start_speed) / seconds,
+                             hub.motion.y + scene.wheelset.position().shift,
+                             hub.motion.yaw,
+                             hub.guidance_force()};
     interval_force       = Vector3{};
     interval_start_speed = hub.motion.velocity_z;
     return record;

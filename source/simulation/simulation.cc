@@ -2,6 +2,7 @@
 #include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/wheelset_case.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/simulation.h>
 
@@ -124,6 +125,9 @@ namespace tread
     for (StressPeaks *peaks : {rail_peaks.get(), wheel_peaks.get()})
       if (peaks)
         peaks->serialize(archive);
+    archive.same(motion_at_solution);
+    if (motion_at_solution && !placed_at_solution)
+      place_at_solution();
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
     archive.same(torque_released, solution_taken, starts_with_tractions, passages, next_wheel_due,
@@ -198,16 +202,43 @@ namespace tread
     last_steps += is_last;
     if (std::abs(position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell)
       {
+        if (scene.guidance.kind != Guidance::rigid && !motion_at_solution)
+          {
+            motion_at_solution = wheels.front().hub.motion;
+            place_at_solution();
+          }
         const auto states = contact_states();
         for (RollingWheel &wheel : wheels)
           {
             wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.time_step);
             for (unsigned int k = 0; k < wheel.averages_of_patches.size(); ++k)
-              wheel.averages_of_patches[k].add(
-                scene.placed_wheel().of_patch(k, states[wheel.number], wheel.hub.motion.x),
-                wheel.hub.motion.x, dynamics.time_step);
+              wheel.averages_of_patches[k].add(placed().of_patch(k, states[wheel.number], wheel.hub.motion.x),
+                                               wheel.hub.motion.x, dynamics.time_step);
           }
       }
+  }
+
+
+  const PlacedWheel &Simulation::placed() const
+  {
+    return placed_at_solution ? *placed_at_solution : scene.placed_wheel();
+  }
+
+
+  void Simulation::place_at_solution()
+  {
+    const WheelHub::Motion &motion   = *motion_at_solution;
+    WheelsetPosition        position = scene.wheelset.position();
+    position.shift += motion.y;
+    position.yaw             = motion.yaw;
+    position.roll            = motion.roll;
+    WheelRolling rolling     = wheel_rolling(scene);
+    rolling.angular_velocity = motion.angular_velocity;
+    rolling.across_speed     = motion.velocity_y;
+    rolling.yaw_rate         = motion.yaw_rate;
+    rolling.roll_rate        = motion.roll_rate;
+    placed_at_solution       = std::make_shared<const PlacedWheel>(scene, position, rolling);
+    wheels.front().averages_of_patches.assign(placed_at_solution->patches().size(), PatchAverage());
   }
 
 
@@ -276,7 +307,7 @@ namespace tread
       for (const RollingWheel &wheel : wheels)
         if (state.master_body == wheel.body)
           of_wheels[wheel.number].push_back(
-            scene.is_positioned() ? scene.placed_wheel().in_contact_axes(state, wheel.hub.motion.x) : state);
+            scene.is_positioned() ? placed().in_contact_axes(state, wheel.hub.motion.x) : state);
     return of_wheels;
   }
 
@@ -369,7 +400,8 @@ namespace tread
       }
     // Times are written with twelve digits.
     folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size(),
-                          scene.recorded_supports(), probes ? probes->centres().size() : 0);
+                          scene.guidance.kind != Guidance::rigid, scene.recorded_supports(),
+                          probes ? probes->centres().size() : 0);
     if (scene.output.surface_interval > 0.)
       folder.open_patches(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size());
     checked_position = position();

@@ -125,6 +125,9 @@ namespace tread
       {
         wheel.hub.drive             = Drive::creepage;
         wheel.hub.motion.velocity_x = scene.motion.speed;
+        if (scene.guidance.kind == Guidance::file)
+          wheel.hub.begin_to_follow(scene.time_stepping.courant_number * dynamics.critical_time_step(),
+                                    scene.placed_wheel().main_patch().rise);
         wheel.hub.motion.angular_velocity =
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }

@@ -7,13 +7,58 @@
 
 namespace tread
 {
-  void WheelHub::place(const Vector3 middle, const Vector3 axle)
+  void WheelHub::place(const Vector3 middle, const double yaw, const double roll)
   {
-    axle_direction = axle;
+    motion.yaw  = yaw;
+    motion.roll = roll;
+    reference = present = frame(yaw, roll);
     motion.x = reference_x = middle[0];
+    motion.y               = 0.;
     reference_y            = middle[1];
     motion.z = reference_z = middle[2];
+    guidance               = Guidance::rigid;
     balance_suspension();
+  }
+
+
+  WheelHub::Frame WheelHub::frame(const double yaw, const double roll)
+  {
+    const double c = std::cos(yaw), s = std::sin(yaw), cr = std::cos(roll), sr = std::sin(roll);
+    return {Vector3{c, cr * s, -sr * s, 0.}, Vector3{-s, cr * c, -sr * c, 0.}, Vector3{0., sr, cr, 0.}};
+  }
+
+
+  Vector3 WheelHub::turning() const
+  {
+    return motion.angular_velocity * present.y + motion.yaw_rate * present.z -
+           motion.roll_rate * Vector3{1., 0., 0., 0.};
+  }
+
+
+  void WheelHub::follow(const std::function<Across(double)> &given)
+  {
+    guidance      = Guidance::file;
+    guidance_time = 0.;
+    across        = given;
+  }
+
+
+  void WheelHub::begin_to_follow(const double time_step, const double rise)
+  {
+    const Across now = across(0.), next = across(time_step);
+    motion.velocity_y = (next.y - now.y) / time_step;
+    motion.yaw_rate   = (next.yaw - now.yaw) / time_step;
+    motion.roll_rate  = (next.roll - now.roll) / time_step;
+    motion.velocity_z = rise;
+  }
+
+
+  void WheelHub::release(const GuidanceSprings &on)
+  {
+    guidance      = Guidance::springs;
+    guidance_time = 0.;
+    springs       = on;
+    released_yaw  = motion.yaw;
   }
 
 
@@ -32,9 +77,8 @@ namespace tread
 
   Vector3 WheelHub::turned(const Vector3 v, const double angle) const
   {
-    // Rodrigues' formula
-    const Vector3 along = dot(axle_direction, v) * axle_direction;
-    return along + std::cos(angle) * (v - along) + std::sin(angle) * cross(axle_direction, v);
+    const double x = dot(reference.x, v), z = dot(reference.z, v), c = std::cos(angle), s = std::sin(angle);
+    return (c * x + s * z) * present.x + dot(reference.y, v) * present.y + (c * z - s * x) * present.z;
   }
 
 
@@ -46,9 +90,58 @@ namespace tread
   }
 
 
-  void WheelHub::advance(const Vector3 force, const double moment, const double time_step)
+  double WheelHub::guide(const double lateral, const Vector3 moment, const double time_step)
+  {
+    if (guidance == Guidance::rigid)
+      {
+        lateral_guidance = -lateral;
+        return 0.;
+      }
+    const Motion before      = motion;
+    const double yaw_moment  = dot(moment, present.z);
+    double       yaw_support = 0.; // moment of guidance
+    if (guidance == Guidance::file)
+      {
+        const Across next = across(guidance_time + time_step);
+        motion.velocity_y = (next.y - motion.y) / time_step;
+        motion.yaw_rate   = (next.yaw - motion.yaw) / time_step;
+        motion.roll_rate  = (next.roll - motion.roll) / time_step;
+        lateral_guidance  = parameters.mass * (motion.velocity_y - before.velocity_y) / time_step - lateral;
+        yaw_support = parameters.yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - yaw_moment;
+        // Free rolling may lie beside what theory takes for it.
+        if (next.angular_velocity)
+          motion.angular_velocity += *next.angular_velocity - *across(guidance_time).angular_velocity;
+      }
+    else
+      {
+        if (!springs.force)
+          springs.force = -lateral;
+        if (!springs.moment)
+          springs.moment = -yaw_moment;
+        lateral_guidance =
+          *springs.force - springs.stiffness * motion.y - springs.damping * motion.velocity_y;
+        yaw_support = *springs.moment - springs.yaw_stiffness * (motion.yaw - released_yaw) -
+                      springs.yaw_damping * motion.yaw_rate;
+        motion.velocity_y += time_step * (lateral + lateral_guidance) / parameters.mass;
+        if (parameters.yaw_inertia > 0.)
+          motion.yaw_rate += time_step * (yaw_moment + yaw_support) / parameters.yaw_inertia;
+      }
+    guidance_time += time_step;
+    motion.y += time_step * motion.velocity_y;
+    motion.yaw += time_step * motion.yaw_rate;
+    motion.roll += time_step * motion.roll_rate;
+    const double roll_support = moment[0]; // about -x, against that of the cells
+    return 0.5 * time_step *
+           (lateral_guidance * (before.velocity_y + motion.velocity_y) +
+            yaw_support * (before.yaw_rate + motion.yaw_rate) +
+            roll_support * (before.roll_rate + motion.roll_rate));
+  }
+
+
+  void WheelHub::advance(const Vector3 force, const Vector3 moment_about_middle, const double time_step)
   {
     const Motion before     = motion;
+    const double moment     = dot(axle(), moment_about_middle);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
     const double vertical_force = force[2] + static_force() - suspension;
@@ -57,11 +150,17 @@ namespace tread
     motion.velocity_z += time_step * acceleration;
     const Vector3 moments = turned(reference_first_moment, motion.angle); // of the rest
     // What it moves by when the axle turns; the component along z is its lever about the axle.
-    const Vector3 by_turning = cross(axle_direction, moments);
+    const Vector3 by_turning = cross(axle(), moments);
     // The rest that balances the cells lags behind when the axle moves up: a moment.
     const double lag = -by_turning[2] * acceleration;
-    double       turning_outside =
-      -moment - lag; // with it the angular velocity stays; includes the weight's moment
+    // Its centrifugal force is no work from outside.
+    const double centrifugal = before.angular_velocity * before.angular_velocity * moments[2];
+    const double guiding = guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1],
+                                 moment_about_middle, time_step);
+    // with it the angular velocity is as prescribed; includes the weight's moment
+    double turning_outside =
+      parameters.moment_of_inertia * (motion.angular_velocity - before.angular_velocity) / time_step -
+      moment - lag;
     if (drive == Drive::torque)
       {
         turning_outside = drive_torque - by_turning[2] * parameters.gravity;
@@ -81,14 +180,13 @@ namespace tread
     const double pull   = before.angular_velocity * before.angular_velocity * moments[0];
     const double faster = by_turning[0] * (motion.angular_velocity - before.angular_velocity);
     const double along  = (faster - time_step * (force[0] + pull)) * motion.velocity_x;
-    // Its centrifugal force is no work from outside.
-    const double centrifugal = before.angular_velocity * before.angular_velocity * moments[2];
     const double up =
       time_step * (vertical_force - force[2] - centrifugal) * 0.5 * (before.velocity_z + motion.velocity_z);
     const double turn =
       time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
-    work += along + up + turn;
-    gross += std::abs(along) + std::abs(up) + std::abs(turn);
+    work += along + up + turn + guiding;
+    gross += std::abs(along) + std::abs(up) + std::abs(turn) + std::abs(guiding);
+    present = guidance == Guidance::rigid ? present : frame(motion.yaw, motion.roll);
   }
 
 
@@ -100,7 +198,7 @@ namespace tread
 
   Vector3 WheelHub::velocity_at(const Vector3 x) const
   {
-    return velocity() + motion.angular_velocity * cross(axle_direction, x - middle());
+    return velocity() + cross(turning(), x - middle());
   }
 
 
@@ -109,14 +207,16 @@ namespace tread
     const Vector3 moments =
       turned(reference_first_moment, motion.angle - time_back * motion.angular_velocity);
     return 0.5 * parameters.mass * dot(velocity(), velocity()) +
-           motion.angular_velocity * dot(velocity(), cross(axle_direction, moments)) +
-           0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity;
+           motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +
+           0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity +
+           0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate;
   }
 
 
   void WheelHub::serialize(Archive &archive)
   {
-    archive.same(drive, drive_torque, motion, axle_direction, reference_x, reference_y, reference_z,
-                 equilibrium_z, work, gross);
+    archive.same(drive, drive_torque, motion, reference, present, reference_x, reference_y, reference_z,
+                 equilibrium_z, work, gross, guidance, guidance_time, lateral_guidance, springs,
+                 released_yaw);
   }
 } // namespace tread

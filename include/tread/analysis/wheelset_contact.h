@@ -18,6 +18,8 @@ namespace tread
     double             speed            = 1.; ///< of the wheelset along the track, m/s
     double             angular_velocity = 0.; ///< of the wheel about its axle, positive forward, rad/s
     double             lateral_speed    = 0.; ///< of the wheelset over the track, to the own side, m/s
+    /// Where the wheelset moves across its track: m/s, rad/s. It rises with it as a patch needs.
+    double across_speed = 0., yaw_rate = 0., roll_rate = 0.;
 
     /// Overlaps nearer to each other than this along the surface are solved in one plane, m.
     double separation = 0.;
@@ -40,6 +42,8 @@ namespace tread
     double rolling_speed  = 0.;                  ///< V, mean of both surfaces' speeds through the patch (m/s)
     double creepage = 0., lateral_creepage = 0.; ///< slip of the rigid wheel over the rail there over V [-]
     double spin = 0.;                            ///< its angular velocity about n over V (rad/m)
+    double rise =
+      0.; ///< vertical speed at which it keeps touching here while the wheelset moves across (m/s)
 
     reference::PlanarResult solution;
 

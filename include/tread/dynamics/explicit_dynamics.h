@@ -394,7 +394,7 @@ namespace tread
     /// Sums over the ranks in a step: of each wheel force and moment on the hub and first moments of the
     /// compensated loads; then those of the supports.
     std::vector<double>           rank_sums;
-    static constexpr unsigned int n_hub_sums = 6;
+    static constexpr unsigned int n_hub_sums = 9;
 
     EnergyLedger          totals; ///< accumulated by step()
     double                start_kinetic = 0., start_potential = 0.;

@@ -69,7 +69,9 @@ namespace tread
 
   /// history.csv. @param n_wheels so many have columns, all but the first with their number in the name;
   /// @param supports numbers of those that have columns
-  Columns<HistoryRow> history_columns(const unsigned int n_wheels, const std::vector<int> &supports);
+  Columns<HistoryRow> history_columns(const unsigned int      n_wheels,
+                                      const bool              moves_across,
+                                      const std::vector<int> &supports);
   /// cells.csv. @param n_cells so many have columns
   Columns<HistoryRow>                cell_columns(std::size_t n_cells);
   const Columns<PatchNode>          &patch_columns();

@@ -27,6 +27,8 @@ namespace tread
     double        creepage;
     PatchMeasures patch;
     double        axle_box_acceleration; ///< vertical, mean over the interval
+    double        lateral_shift, yaw;    ///< of the wheelset at the end of the interval
+    double        guidance_force;        ///< lateral, on the wheelset, at the end of the interval
   };
 
   /// One row of history.csv and of cells.csv, SI units.

@@ -26,6 +26,8 @@ namespace tread
   public:
     /// @throws InputError where wheel and rail do not meet, or no height carries the load.
     explicit PlacedWheel(const Scene &scene);
+    /// The same in another position.
+    PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling);
 
     const std::vector<WheelPatch> &patches() const
     {

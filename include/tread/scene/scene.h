@@ -8,6 +8,7 @@
 #include <tread/scene/sections/defect.h>
 #include <tread/scene/sections/further_wheels.h>
 #include <tread/scene/sections/general.h>
+#include <tread/scene/sections/guidance.h>
 #include <tread/scene/sections/mesh.h>
 #include <tread/scene/sections/motion.h>
 #include <tread/scene/sections/output.h>
@@ -20,6 +21,7 @@
 #include <tread/scene/sections/vehicle.h>
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
+#include <tread/scene/wheelset_motion.h>
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
@@ -37,6 +39,7 @@ namespace tread
     GeneralSection       general;
     WheelSection         wheel;
     WheelsetSection      wheelset;
+    GuidanceSection      guidance;
     FurtherWheelsSection further_wheels;
     RailSection          rail;
     DefectSection        defect;
@@ -86,6 +89,9 @@ namespace tread
     /// seconds.
     /// @pre is_positioned() @throws InputError
     const PlacedWheel &placed_wheel() const;
+    /// Where the wheelset stands at a time from the start (s) if 'Guidance' has a file. @pre guidance.kind is
+    /// file
+    Across across(const double time) const;
     /// Check what finite elements need beyond the half-space's answer. @pre is_positioned() @throws
     /// InputError
     void check_placed_mesh() const;
@@ -211,6 +217,10 @@ namespace tread
   private:
     /// Read a file and settings, unchecked.
     void take(const std::string &file, const std::vector<std::string> &settings);
+    /// @throws InputError unless it lasts as long as the run, in positions that are allowed
+    void check_guidance() const;
+    /// Read the table of 'Guidance', and the position at the start from it.
+    void take_wheelset_motion();
     /// Quantities that follow from the positions, files and shapes named by the parameters.
     struct Shapes
     {
@@ -262,7 +272,8 @@ namespace tread
     mutable dealii::ParameterHandler           handler;
     std::filesystem::path                      folder; ///< of the parameter file
     std::shared_ptr<const Shapes>              shapes;
-    mutable std::shared_ptr<const PlacedWheel> placed; ///< null until it is asked for
+    mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
+    std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
   };
 } // namespace tread
 

@@ -75,10 +75,15 @@ namespace tread
     }
     /// Mean force on a wheel over the end of the way, or the present one if that has not begun, N.
     Vector3 last_force_on(const RollingWheel &wheel) const;
-    void    take_solution(RunFolder &folder);
-    void    write_volume(RunFolder &folder) const;
-    void    end_passage(RunFolder &folder);
-    void    next_passage(Progress &progress);
+    /// The wheelset where half-space theory is compared with it: at the start, or where it has moved to. @pre
+    /// scene.is_positioned()
+    const PlacedWheel &placed() const;
+    /// Solve for motion_at_solution.
+    void place_at_solution();
+    void take_solution(RunFolder &folder);
+    void write_volume(RunFolder &folder) const;
+    void end_passage(RunFolder &folder);
+    void next_passage(Progress &progress);
     /// How a run ends.
     enum class End
     {
@@ -176,6 +181,10 @@ namespace tread
     unsigned int interval_steps      = 0;
     double       interval_start_time = 0.;
     double checked_position = 0.; ///< of the first wheel when the ends of intervals were last checked, m
+
+    /// Of a wheelset that moves across its track: the hub when averaging begins, and where it stands then.
+    std::optional<WheelHub::Motion>    motion_at_solution;
+    std::shared_ptr<const PlacedWheel> placed_at_solution;
 
     std::uint64_t        last_steps = 0; ///< in the end of the way before the solution instant
     std::vector<Passage> passages;

@@ -5,7 +5,8 @@
 #include <tread/base/archive.h>
 #include <tread/base/simd.h>
 
-#include <vector>
+#include <functional>
+#include <optional>
 
 namespace tread
 {
@@ -17,6 +18,32 @@ namespace tread
     angular_velocity ///< it is prescribed as such, of a wheelset in a given position
   };
 
+  /// How a wheelset comes to move across its track and to yaw.
+  enum class Guidance
+  {
+    rigid,  ///< it does not
+    file,   ///< its motion is given over time
+    springs ///< it is free on springs and dampers
+  };
+
+  /// Where a wheelset stands across its track: a roll about x, then a yaw about the rolled vertical axis,
+  /// with the signs of WheelsetPosition. SI units.
+  struct Across
+  {
+    double                y   = 0.; ///< from the start
+    double                yaw = 0., roll = 0.;
+    std::optional<double> angular_velocity{}; ///< about the axle; none: the drive's
+  };
+
+  /// Springs and dampers between a wheelset and a frame that runs along with it. SI units.
+  struct GuidanceSprings
+  {
+    double stiffness = 0., damping = 0.;         ///< lateral, from the start: N/m, N s/m
+    double yaw_stiffness = 0., yaw_damping = 0.; ///< N m, N m s
+    /// Constant part; none: what holds the wheelset in its place at the start (N, N m).
+    std::optional<double> force{}, moment{};
+  };
+
   struct WheelHubParameters
   {
     double mass = 0.; ///< of the wheel, kg; the share of the cells is subtracted when they are attached
@@ -25,12 +52,15 @@ namespace tread
     double suspension_stiffness = 0.;   ///< N/m
     double suspension_damping   = 0.;   ///< N s/m
     double gravity              = 9.81; ///< m/s^2
+    double yaw_inertia          = 0.;   ///< of the wheelset without the cells, about the vertical, kg m^2
   };
 
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
   /// primary suspension with the sprung mass, runs along x at constant speed, moves in z and
   /// turns about its axle, which is y or stands in a yaw and a roll. Positive angular velocity rolls towards
-  /// +x.
+  /// +x. Across the track it moves as its guidance lets it. What the rigid part does to itself when it turns
+  /// about two axes at once (gyroscopic moments, products of inertia with the first moment) is left out of
+  /// yaw: the roll that it would cause is held.
   class WheelHub
   {
   public:
@@ -39,6 +69,8 @@ namespace tread
       double x = 0., z = 0., angle = 0.;
       double velocity_x = 0., velocity_z = 0., angular_velocity = 0.;
       double sprung_z = 0., sprung_velocity = 0.; ///< sprung mass from its equilibrium
+      double y = 0., velocity_y = 0.;             ///< across, from the start
+      double yaw = 0., roll = 0., yaw_rate = 0., roll_rate = 0.;
     };
 
     explicit WheelHub(const WheelHubParameters &parameters)
@@ -46,9 +78,19 @@ namespace tread
     {
     }
 
-    /// Put the middle of the wheel into its reference position (x, y, z), m. @param axle unit vector, of
-    /// which the component along y is positive.
-    void place(const Vector3 middle, const Vector3 axle = Vector3{0., 1., 0., 0.});
+    /// Put the middle of the wheel into its reference position (x, y, z), m, and the axle into a yaw and a
+    /// roll (rad).
+    void place(const Vector3 middle, const double yaw = 0., const double roll = 0.);
+
+    /// Move across the track as given from now on. @param across at a time from now, s
+    void follow(const std::function<Across(const double time)> &across);
+
+    /// Take the velocities of the motion that is followed. @param time_step over which they are differences,
+    /// s. @param rise vertical velocity with it, m/s
+    void begin_to_follow(const double time_step, const double rise);
+
+    /// Move across the track on springs from now on.
+    void release(const GuidanceSprings &springs);
 
     /// Define the present position of the axle as the equilibrium of the suspension.
     void balance_suspension()
@@ -63,9 +105,9 @@ namespace tread
     /// centrifugal force.
     void take_out(const double mass, const double moment_of_inertia, const Vector3 first_moment);
 
-    /// One central-difference step under the force (N) and the moment about the axle (N m) that
+    /// One central-difference step under the force (N) and the moment about the middle (N m) that
     /// the flexible cells exert.
-    void advance(const Vector3 force, const double moment, const double time_step);
+    void advance(const Vector3 force, const Vector3 moment, const double time_step);
 
     /// Vertical force of everything but the cells, at rest and in steady rotation, N (negative: down).
     double static_force() const;
@@ -73,21 +115,28 @@ namespace tread
     /// Present position of the wheel's middle, m.
     Vector3 middle() const
     {
-      return Vector3{motion.x, reference_y, motion.z, 0.};
+      return Vector3{motion.x, reference_y + motion.y, motion.z, 0.};
     }
     Vector3 velocity() const
     {
-      return Vector3{motion.velocity_x, 0., motion.velocity_z, 0.};
+      return Vector3{motion.velocity_x, motion.velocity_y, motion.velocity_z, 0.};
     }
-    /// Unit vector, which does not change.
+    /// Unit vector, towards the own side.
     Vector3 axle() const
     {
-      return axle_direction;
+      return present.y;
     }
+    /// Angular velocity about the axle and of the axle itself, rad/s.
+    Vector3 turning() const;
     /// The part of an arm (m) at right angles to the axle.
     Vector3 off_axle(const Vector3 arm) const
     {
-      return arm - dot(axle_direction, arm) * axle_direction;
+      return arm - dot(axle(), arm) * axle();
+    }
+    /// Mean lateral force of guidance in the last step, on the hub, N.
+    double guidance_force() const
+    {
+      return lateral_guidance;
     }
 
     /// Position of a point that is fixed to the hub, from its reference position relative to the middle.
@@ -127,12 +176,28 @@ namespace tread
     WheelHubParameters parameters;
 
   private:
-    /// A vector turned about the axle.
-    Vector3 turned(const Vector3 v, const double angle) const;
+    /// Axes of the wheelset in the track.
+    struct Frame
+    {
+      Vector3 x{1., 0., 0., 0.}, y{0., 1., 0., 0.}, z{0., 0., 1., 0.};
+    };
+    static Frame frame(const double yaw, const double roll);
 
-    Vector3 axle_direction{0., 1., 0., 0.};
-    double  reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
-    Vector3 reference_first_moment{}; ///< of the rigid rest
+    /// A vector of the reference configuration turned about the axle, and with it.
+    Vector3 turned(const Vector3 reference, const double angle) const;
+
+    /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
+    /// moment of all but guidance (N, N m). @returns work of guidance, J
+    double guide(const double lateral, const Vector3 moment, const double time_step);
+
+    Frame    reference, present;
+    double   reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
+    Vector3  reference_first_moment{}; ///< of the rigid rest
+    Guidance guidance      = Guidance::rigid;
+    double   guidance_time = 0., lateral_guidance = 0.; ///< s since guidance began; N
+    std::function<Across(double)> across;
+    GuidanceSprings               springs;
+    double                        released_yaw = 0.;
   };
 } // namespace tread
 

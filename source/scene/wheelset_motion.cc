@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/csv_table.h>
+#include <tread/base/format.h>
+#include <tread/base/input_error.h>
+#include <tread/scene/wheelset_motion.h>
+
+#include <boost/math/interpolators/pchip.hpp>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace tread
+{
+  WheelsetMotion::WheelsetMotion(const std::string &file)
+  {
+    struct Column
+    {
+      const char *name;
+      double      in_si;
+      Curve      *curve;
+    };
+    const std::array<Column, 4> columns{{{"lateral_shift_mm", 1e-3, &shift},
+                                         {"yaw_mrad", 1e-3, &yaw},
+                                         {"roll_mrad", 1e-3, &roll},
+                                         {"angular_velocity_rad_per_s", 1., &angular_velocity}}};
+    const std::string           parameter = "'Guidance/File': ";
+    const auto                  is_known  = [&](const std::string &name) {
+      return name == "time_s" ||
+             std::any_of(columns.begin(), columns.end(), [&](const Column &c) { return name == c.name; });
+    };
+    const CsvTable table(
+      file,
+      [&](const std::string &name) {
+        if (!is_known(name))
+          throw InputError(parameter + "'" + file + "' has a column '" + name +
+                           "'; it may have time_s, lateral_shift_mm, yaw_mrad, roll_mrad and "
+                           "angular_velocity_rad_per_s");
+        return true;
+      },
+      parameter + "cannot read '" + file + "'");
+    const std::vector<double> &time = table.column("time_s");
+    if (time.size() < 4)
+      throw InputError(parameter + "'" + file + "' has " + std::to_string(time.size()) +
+                       " rows; four are the least");
+    if (time.front() > 0.)
+      throw InputError(parameter + "'" + file + "' begins at " + text_of(time.front()) +
+                       " s, after the start of the run at 0");
+    for (std::size_t row = 1; row < time.size(); ++row)
+      if (!(time[row] > time[row - 1]))
+        throw InputError(parameter + "'" + file + "', row " + std::to_string(row + 1) + ": time_s " +
+                         text_of(time[row]) + " does not follow " + text_of(time[row - 1]));
+    // A gap among samples that are otherwise evenly spread is a piece that is missing.
+    std::vector<double> steps;
+    for (std::size_t row = 1; row < time.size(); ++row)
+      steps.push_back(time[row] - time[row - 1]);
+    std::vector<double> sorted = steps;
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    constexpr double largest_gap = 20.; // times the median
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (steps[k] > largest_gap * sorted[sorted.size() / 2])
+        throw InputError(parameter + "'" + file + "', row " + std::to_string(k + 2) + ": a gap of " +
+                         text_of(steps[k]) + " s after rows " + text_of(sorted[sorted.size() / 2]) +
+                         " s apart");
+    last       = time.back();
+    bool moves = false;
+    for (const Column &column : columns)
+      if (table.has(column.name))
+        {
+          std::vector<double> values = table.column(column.name), times = time;
+          for (double &value : values)
+            value *= column.in_si;
+          const double final = values.back();
+          const auto   curve = std::make_shared<boost::math::interpolators::pchip<std::vector<double>>>(
+            std::move(times), std::move(values));
+          *column.curve = [curve, final, end = last](const double t) {
+            return t < end ? (*curve)(t) : final;
+          };
+          moves = true;
+        }
+    if (!moves)
+      throw InputError(parameter + "'" + file + "' has nothing beside time_s");
+  }
+
+
+  Across WheelsetMotion::at(const double time, const Across &otherwise) const
+  {
+    Across now = otherwise;
+    if (shift)
+      now.y = shift(time);
+    if (yaw)
+      now.yaw = yaw(time);
+    if (roll)
+      now.roll = roll(time);
+    if (angular_velocity)
+      now.angular_velocity = angular_velocity(time);
+    return now;
+  }
+} // namespace tread
