@@ -183,6 +183,7 @@ namespace
         tread::write_modes(scene, line.modes, folder_of("-modes"), comm);
         return 0;
       }
+    tread::require_memory(scene, comm);
     tread::Simulation simulation(scene, comm);
     if (line.dry_run)
       {

@@ -71,14 +71,17 @@ namespace tread
         const WheelHub    &hub   = *wheel.hub;
         BodyLoads::OfWheel of_run;
         const double       inward = -compensation(wheel);
-        const Vector3      middle = hub.middle(), velocity = hub.velocity(), turning = hub.turning();
+        const Vector3      middle = hub.middle(), velocity = hub.velocity(), turning = hub.turning(),
+                      axle = hub.axle();
         loop([&](const unsigned int i) {
           const double  mass     = free_mass(i, scaled);
           const Vector3 arm      = position(i) - middle;
-          const Vector3 off_axle = hub.off_axle(arm);
+          const double  along    = dot(axle, arm);
+          const Vector3 off_axle = arm - along * axle;
           const Vector3 relative = v[i] - velocity - cross(turning, arm);
           const Vector3 momentum = mass * relative;
           of_run.arms += mass * off_axle;
+          of_run.products += (mass * along) * off_axle;
           of_run.momentum += momentum;
           of_run.moments += cross(arm, momentum);
           squares += relative * momentum;
@@ -207,6 +210,7 @@ namespace tread
             sums[d] += parameters.mass_damping * of_wheel.momentum[d];
             sums[3 + d] += parameters.mass_damping * of_wheel.moments[d];
             sums[6 + d] = of_wheel.arms[d];
+            sums[9 + d] = of_wheel.products[d];
           }
       }
     if (supports)
@@ -241,13 +245,15 @@ namespace tread
     const double *sums = rank_sums.data();
     for (const Wheel &wheel : wheels)
       {
-        const Vector3 before = wheel.hub->velocity();
+        const Vector3 before = wheel.hub->velocity(), axle = wheel.hub->axle();
         wheel.hub->advance(Vector3{sums[0], sums[1], sums[2], 0.}, Vector3{sums[3], sums[4], sums[5], 0.},
                            time_step);
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
-        // motion about the axle is a potential, that with the axle's mean motion in this step is summed here.
-        const double work = -0.5 * time_step * compensation(wheel) *
-                            dot(Vector3{sums[6], sums[7], sums[8], 0.}, before + wheel.hub->velocity());
+        // motion about the axle is a potential, that with the axle's motion in this step is summed here.
+        const double work =
+          -compensation(wheel) *
+          (0.5 * time_step * dot(Vector3{sums[6], sums[7], sums[8], 0.}, before + wheel.hub->velocity()) +
+           dot(Vector3{sums[9], sums[10], sums[11], 0.}, wheel.hub->axle() - axle));
         if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
           {
             totals.external_work += work;

@@ -222,7 +222,7 @@ extern "C"
 
   const char *tread_half_space_message(const tread_half_space *solver)
   {
-    return solver->message.c_str();
+    return solver ? solver->message.c_str() : "there is no solver";
   }
 
   int tread_half_space_get_grid(const tread_half_space *solver, tread_half_space_grid *grid)

@@ -355,6 +355,19 @@ namespace tread
 
   void Simulation::add_doubts(std::vector<std::string> &warnings) const
   {
+    // What the torque aims at comes when the wheel has gathered the creepage for it.
+    constexpr double far_from_aim = 0.05; // of it
+    if (scene.motion.drive == Drive::torque && !scene.has_impacts())
+      for (const RollingWheel &wheel : wheels)
+        {
+          const Vector3 force = last_force_on(wheel);
+          const double  aim = scene.traction_coefficient(wheel.number), found = force[0] / force[2];
+          if (force[2] > 0. && std::abs(found - aim) > far_from_aim * std::abs(aim))
+            warnings.push_back(
+              format("the drive aims at a traction coefficient of %.3g and has reached %.3g: a "
+                     "longer 'Motion/Rolled distance (mm)' lets the wheel gather its creepage",
+                     aim, found));
+        }
     const bool varies =
       scene.contact.friction_varies(scene.path_end() - 2. * last_way, scene.path_end() + last_way);
     if (const double share = ripple.share(); share > large_ripple && !scene.has_impacts() && !varies)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run would cost.
+#include <tread/base/format.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +25,34 @@ namespace tread
     /// Steps that take as long as the start. In the same runs the start took 270 to 1200 of them; where a
     /// wheel starts with traction on a track it takes up to 8000.
     constexpr double relaxation_steps = 1200.;
+
+    /// Least memory of a cell with its share of nodes: 430 to 580 bytes (doc/performance.md), without the
+    /// mesh of deal.II.
+    constexpr double bytes_of_cell = 430.;
   } // namespace
+
+
+  void require_memory(const Scene &scene, const MPI_Comm comm)
+  {
+    const double h     = scene.mesh.finest_cell,
+                 width = 2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
+    // The finest cells of wheels and paths.
+    const double cells = 2. * scene.n_wheels() * scene.mesh.fine_layers * std::max(1., width / h) *
+                         scene.motion.rolled_distance / std::max(h, scene.mesh.path_cell);
+    MPI_Comm of_machine;
+    MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
+    const double share = double(dealii::Utilities::MPI::n_mpi_processes(of_machine)) /
+                         dealii::Utilities::MPI::n_mpi_processes(comm);
+    MPI_Comm_free(&of_machine);
+    const double needed    = share * bytes_of_cell * cells,
+                 available = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    const bool fits        = needed < available;
+    if (dealii::Utilities::MPI::logical_or(!fits, comm))
+      throw InputError(
+        format("'Mesh/Finest cell (mm)' %g makes at least %.3g million cells along the path, which "
+               "need %.3g GB; a machine with %.3g GB is too small",
+               1e3 * h, 1e-6 * cells, 1e-9 * needed, 1e-9 * available));
+  }
 
 
   void Simulation::estimate()

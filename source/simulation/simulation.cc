@@ -580,11 +580,14 @@ namespace tread
   void Simulation::check_rim() const
   {
     if (const auto place = contact.contact_at_rim())
-      throw std::runtime_error(
-        format("contact leaves what is meshed for it at x = %.2f mm, y = %.2f mm, z = %.2f mm: raise "
-               "'Mesh/Fine half width (mm)' or "
-               "change '%s (mm)'",
-               1e3 * (*place)[0], 1e3 * (*place)[1], 1e3 * (*place)[2],
-               scene.is_positioned() ? "Wheelset/Lateral shift" : "Wheel/Lateral position"));
+      {
+        dynamics.check_stability(); // nodes that fly apart leave it first
+        throw std::runtime_error(
+          format("contact leaves what is meshed for it at x = %.2f mm, y = %.2f mm, z = %.2f mm: raise "
+                 "'Mesh/Fine half width (mm)' or "
+                 "change '%s (mm)'",
+                 1e3 * (*place)[0], 1e3 * (*place)[1], 1e3 * (*place)[2],
+                 scene.is_positioned() ? "Wheelset/Lateral shift" : "Wheel/Lateral position"));
+      }
   }
 } // namespace tread

@@ -23,6 +23,7 @@ SETTINGS = [
     ("Mesh/Finest cell (mm)=-0.63", ["Mesh/Finest cell (mm)", "allowed", "0.02"]),
     ("Mesh/Finest cell (mm)=fine", ["Mesh/Finest cell (mm)", "allowed"]),
     ("Mesh/Finest cell (mm)=9", ["Mesh/Finest cell (mm)", "too large for a patch", "at most"]),
+    (["Mesh/Finest cell (mm)=0.02", "Motion/Rolled distance (mm)=9000"], ["Mesh/Finest cell (mm)", "million cells", "GB"]),
     ("Mesh/Fine half width (mm)=4", ["Mesh/Fine half width (mm)", "at least"]),
     ("Mesh/Fine half width (mm)=45", ["Mesh/Fine half width (mm)", "half width of the rail"]),
     ("Mesh/Fine layers=64", ["Mesh/Fine layers", "do not fit", "at most"]),

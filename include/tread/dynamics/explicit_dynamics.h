@@ -309,11 +309,13 @@ namespace tread
       {
         Vector3 arms{};     ///< from the axle to the wheel's nodes, at right angles to it, kg m
         Vector3 momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
+        Vector3 products{}; ///< of these arms with the places along the axle, kg m^2
         Vector3 moments{};  ///< of that momentum about the wheel's middle, kg m^2/s
 
         void operator+=(const OfWheel &other)
         {
           arms += other.arms;
+          products += other.products;
           momentum += other.momentum;
           moments += other.moments;
         }
@@ -391,10 +393,10 @@ namespace tread
     Contact                                           *contact  = nullptr;
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
-    /// Sums over the ranks in a step: of each wheel force and moment on the hub and first moments of the
+    /// Sums over the ranks in a step: of each wheel force and moment on the hub and moments of the
     /// compensated loads; then those of the supports.
     std::vector<double>           rank_sums;
-    static constexpr unsigned int n_hub_sums = 9;
+    static constexpr unsigned int n_hub_sums = 12;
 
     EnergyLedger          totals; ///< accumulated by step()
     double                start_kinetic = 0., start_potential = 0.;

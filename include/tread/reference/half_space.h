@@ -77,7 +77,7 @@ namespace tread::reference
     /// Rigid slip without the creepages.
     std::array<double, 2> uneven_slip(const double x, const double y) const
     {
-      const std::array<double, 2> more = more_slip ? more_slip(x, y) : std::array<double, 2>{};
+      const std::array<double, 2> more = more_slip ? more_slip(x, y) : std::array<double, 2>{{0., 0.}};
       return {more[0] - spin * y, more[1] + spin * x};
     }
 

@@ -31,6 +31,10 @@ namespace tread
 {
   class Checkpoint;
 
+  /// @throws InputError, before a mesh is made, if not even the finest cells of the paths fit into the
+  /// memory. Collective.
+  void require_memory(const Scene &scene, const MPI_Comm comm);
+
   /// Wheels rolling over one rail, from equilibrium at the start to the solution instant.
   class Simulation
   {

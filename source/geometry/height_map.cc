@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/csv_table.h>
+#include <tread/base/format.h>
+#include <tread/base/input_error.h>
+#include <tread/geometry/height_map.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace tread
+{
+  namespace
+  {
+    /// Places that should be equal may differ by this share of the spacing, as printed digits do.
+    constexpr double printed_digits = 1e-2;
+
+    CsvTable read(const std::string &file)
+    {
+      return CsvTable(
+        file,
+        [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
+        "cannot read '" + file + "'");
+    }
+
+    /// Weights of four neighbours at a place from 0 to 1 between the middle two.
+    std::array<double, 4> catmull_rom(const double t)
+    {
+      return {{0.5 * t * (-1. + t * (2. - t)), 1. + 0.5 * t * t * (3. * t - 5.),
+               0.5 * t * (1. + t * (4. - 3. * t)), 0.5 * t * t * (t - 1.)}};
+    }
+  } // namespace
+
+
+  HeightMap::Axis::Axis(std::vector<double> values, const std::string &name, const std::string &file)
+  {
+    std::sort(values.begin(), values.end());
+    const double extent = values.empty() ? 0. : values.back() - values.front();
+    // Equal places lie together; spacings are far above their scatter.
+    constexpr double   finest = 1e-6; // of the extent
+    std::vector<double> places;
+    for (const double value : values)
+      if (places.empty() || value - places.back() > finest * extent)
+        places.push_back(value);
+    n = places.size();
+    if (n < 2)
+      throw InputError("'" + file + "' needs at least two different " + name);
+    begin   = 1e-3 * places.front();
+    spacing = 1e-3 * (places.back() - places.front()) / (n - 1);
+    for (std::size_t i = 0; i < n; ++i)
+      if (std::abs(1e-3 * places[i] - begin - i * spacing) > printed_digits * spacing)
+        throw InputError("'" + file + "': " + name + " " + text_of(places[i]) +
+                         " does not lie on a grid with equal spacings of " + text_in_mm(spacing) + " mm from " +
+                         text_of(places.front()) + " on");
+  }
+
+
+  std::size_t HeightMap::Axis::place_of(const double value) const
+  {
+    return std::lround((value - begin) / spacing);
+  }
+
+
+  HeightMap::HeightMap(const std::string &file)
+    : HeightMap(read(file))
+  {
+  }
+
+
+  HeightMap::HeightMap(const CsvTable &table)
+    : along(table.column("x_mm"), "x_mm", table.file)
+    , across(table.column("y_mm"), "y_mm", table.file)
+    , heights(along.n * across.n, 0.)
+  {
+    const std::vector<double> &x = table.column("x_mm"), &y = table.column("y_mm"), &z = table.column("z_mm");
+    std::vector<bool>          known(heights.size(), false);
+    for (std::size_t row = 0; row < z.size(); ++row)
+      {
+        const std::size_t k = across.place_of(1e-3 * y[row]) * along.n + along.place_of(1e-3 * x[row]);
+        if (known[k])
+          throw InputError("'" + table.file + "', row " + std::to_string(row + 1) + ": x " + text_of(x[row]) +
+                           " mm, y " + text_of(y[row]) + " mm is there twice");
+        known[k]   = true;
+        heights[k] = 1e-3 * z[row];
+      }
+    if (const auto missing = std::find(known.begin(), known.end(), false); missing != known.end())
+      {
+        const std::size_t k = missing - known.begin();
+        throw InputError("'" + table.file + "': the place x " +
+                         text_in_mm(along.begin + (k % along.n) * along.spacing) + " mm, y " +
+                         text_in_mm(across.begin + (k / along.n) * across.spacing) + " mm of its grid of " +
+                         std::to_string(along.n) + " x " + std::to_string(across.n) + " is missing");
+      }
+  }
+
+
+  double HeightMap::height(const double x, const double y) const
+  {
+    const auto find = [](const Axis &axis, const double value) {
+      const double      t = std::clamp((value - axis.begin) / axis.spacing, 0., double(axis.n - 1));
+      const std::size_t i = std::min<std::size_t>(t, axis.n - 2);
+      return std::pair(i, t - i);
+    };
+    const auto [i, u] = find(along, x);
+    const auto [j, v] = find(across, y);
+    const auto w = catmull_rom(u), s = catmull_rom(v);
+    // A neighbour beyond the border continues the straight line.
+    const auto along_row = [&, i = i](const std::size_t row) {
+      const double b = at(i, row), c = at(i + 1, row), a = i > 0 ? at(i - 1, row) : 2. * b - c,
+                   d = i + 2 < along.n ? at(i + 2, row) : 2. * c - b;
+      return w[0] * a + w[1] * b + w[2] * c + w[3] * d;
+    };
+    const double b = along_row(j), c = along_row(j + 1), a = j > 0 ? along_row(j - 1) : 2. * b - c,
+                 d = j + 2 < across.n ? along_row(j + 2) : 2. * c - b;
+    return s[0] * a + s[1] * b + s[2] * c + s[3] * d;
+  }
+
+
+  double HeightMap::lowest() const
+  {
+    return *std::min_element(heights.begin(), heights.end());
+  }
+
+
+  double HeightMap::largest_on_border() const
+  {
+    double largest = 0.;
+    for (std::size_t i = 0; i < along.n; ++i)
+      largest = std::max({largest, std::abs(at(i, 0)), std::abs(at(i, across.n - 1))});
+    for (std::size_t j = 0; j < across.n; ++j)
+      largest = std::max({largest, std::abs(at(0, j)), std::abs(at(along.n - 1, j))});
+    return largest;
+  }
+} // namespace tread
