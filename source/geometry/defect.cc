@@ -21,6 +21,21 @@ namespace tread
   } // namespace
 
 
+  bool Defect::is_a_bump() const
+  {
+    constexpr unsigned int n      = 200; // places along and across
+    double                 lowest = 0., highest = 0.;
+    for (unsigned int i = 0; i <= n; ++i)
+      for (unsigned int j = 0; j <= n; ++j)
+        {
+          const double height = -shape(double(i) / n, 2. * j / n - 1.);
+          lowest              = std::min(lowest, height);
+          highest             = std::max(highest, height);
+        }
+    return highest > -lowest;
+  }
+
+
   std::function<double(double, double)> dip(const double leading_rounding, const double trailing_rounding)
   {
     return [=](const double u, const double v) {

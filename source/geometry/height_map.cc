@@ -19,8 +19,7 @@ namespace tread
     CsvTable read(const std::string &file)
     {
       return CsvTable(
-        file,
-        [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
+        file, [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
         "cannot read '" + file + "'");
     }
 
@@ -38,7 +37,7 @@ namespace tread
     std::sort(values.begin(), values.end());
     const double extent = values.empty() ? 0. : values.back() - values.front();
     // Equal places lie together; spacings are far above their scatter.
-    constexpr double   finest = 1e-6; // of the extent
+    constexpr double    finest = 1e-6; // of the extent
     std::vector<double> places;
     for (const double value : values)
       if (places.empty() || value - places.back() > finest * extent)
@@ -51,8 +50,8 @@ namespace tread
     for (std::size_t i = 0; i < n; ++i)
       if (std::abs(1e-3 * places[i] - begin - i * spacing) > printed_digits * spacing)
         throw InputError("'" + file + "': " + name + " " + text_of(places[i]) +
-                         " does not lie on a grid with equal spacings of " + text_in_mm(spacing) + " mm from " +
-                         text_of(places.front()) + " on");
+                         " does not lie on a grid with equal spacings of " + text_in_mm(spacing) +
+                         " mm from " + text_of(places.front()) + " on");
   }
 
 
@@ -120,6 +119,12 @@ namespace tread
   double HeightMap::lowest() const
   {
     return *std::min_element(heights.begin(), heights.end());
+  }
+
+
+  double HeightMap::highest() const
+  {
+    return *std::max_element(heights.begin(), heights.end());
   }
 
 

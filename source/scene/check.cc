@@ -115,7 +115,7 @@ namespace tread
                 text_in_mm(2. * mesh.finest_cell));
     const double head =
       rail.is_block() ? rail.half_width() : rail.standard_profile().head_point(rail.half_width())[0];
-    const double edge = std::isinf(made.width) ? 0. : std::abs(defect.lateral_position) + 0.5 * made.width;
+    const double edge = std::isinf(made.width) ? 0. : std::abs(made.y_middle) + 0.5 * made.width;
     require(edge <= head, "the defect reaches to " + text_in_mm(edge) +
                             " mm beside the rail's middle and the top of the head only to " +
                             text_in_mm(head) + " mm: lower 'Defect/Width (mm)' or 'Lateral position (mm)'");
@@ -220,7 +220,7 @@ namespace tread
     // its foot.
     const bool stands_upright = rail.angle() == 0. && rail.measured_head.empty() &&
                                 std::abs(first_contact().y) < 1e-6 &&
-                                (!shapes->defect || defect.lateral_position == 0.) &&
+                                (!shapes->defect || shapes->defect->y_middle == 0.) &&
                                 motion.lateral_creepage == 0. && motion.spin == 0.;
     require(
       track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 namespace tread
@@ -131,32 +132,28 @@ namespace tread
   {
     // All but those of the output.
     const auto settings_in = [](std::istream &&text) {
-      std::vector<std::string> settings;
-      std::string              section;
+      std::map<std::string, std::string> settings;
+      std::string                        section;
       for (std::string line; std::getline(text, line);)
         {
-          line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+          line                     = dealii::Utilities::trim(line.substr(0, line.find('#')));
+          const std::size_t equals = line.find('=');
           if (line.compare(0, 11, "subsection ") == 0)
             section = line.substr(11);
-          else if (line.compare(0, 4, "set ") == 0 && section != "Output")
-            {
-              const std::size_t equals = line.find('=');
-              settings.push_back(section + "/" + dealii::Utilities::trim(line.substr(4, equals - 4)) +
-                                 line.substr(equals - 1));
-            }
+          else if (line.compare(0, 4, "set ") == 0 && equals != line.npos && section != "Output")
+            settings[section + "/" + dealii::Utilities::trim(line.substr(4, equals - 4))] =
+              dealii::Utilities::trim(line.substr(equals + 1));
         }
       return settings;
     };
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        const auto of_run             = settings_in(std::ifstream(folder.path("parameters.prm"))),
-                   own                = settings_in(std::istringstream(parameters()));
-        const auto [old_one, new_one] = std::mismatch(of_run.begin(), of_run.end(), own.begin(), own.end());
-        if (old_one != of_run.end() && new_one != own.end())
-          problem = "--resume: the run in '" + folder.path("") +
-                    "' is complete, and was made with other parameters: '" + *old_one + "', now '" +
-                    *new_one + "'; without --resume it starts anew";
+        const auto of_run = settings_in(std::ifstream(folder.path("parameters.prm")));
+        for (const auto &[name, value] : settings_in(std::istringstream(parameters())))
+          if (const auto before = of_run.find(name); before != of_run.end() && before->second != value)
+            problem = "--resume: the run in '" + folder.path("") + "' is complete, and was made with '" +
+                      name + "' " + before->second + ", now " + value + "; without --resume it starts anew";
       }
     problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
     if (!problem.empty())

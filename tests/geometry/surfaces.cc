@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Treads, inclined and measured rails, where they touch first, and the height of defects.
 #include <tread/geometry/defect.h>
+#include <tread/geometry/height_map.h>
 #include <tread/geometry/measured_line.h>
 #include <tread/geometry/rail_profile.h>
 #include <tread/geometry/running_surfaces.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iomanip>
 #include <limits>
 #include <stdexcept>
 
@@ -94,10 +96,10 @@ namespace
     RunningSurfaces surfaces;
     surfaces.rail_top = rail(RailProfile::rail_54e1(), 0.);
     Defect hollow;
-    hollow.shape = dip(0., 0.);
-    hollow.begin       = -10e-3;
-    hollow.width       = 60e-3;
-    hollow.depth       = 0.05e-3;
+    hollow.shape    = dip(0., 0.);
+    hollow.begin    = -10e-3;
+    hollow.width    = 60e-3;
+    hollow.depth    = 0.05e-3;
     surfaces.defect = [&](const double x, const double y) {
       return hollow.height(x, y);
     };
@@ -110,14 +112,15 @@ namespace
   void check_defects(tests::Check &check)
   {
     Defect hollow;
-    hollow.shape = dip(0., 0.);
+    hollow.shape  = dip(0., 0.);
     hollow.begin  = 5e-3;
     hollow.length = 20e-3;
     hollow.width  = 30e-3;
     hollow.depth  = 0.2e-3;
     check.absolute("dip: depth in its middle, um", 1e6 * hollow.height(15e-3, 0.), -200., 1e-9);
-    check.that("dip: none beside it", hollow.height(4.999e-3, 0.) == 0. && hollow.height(25.001e-3, 0.) == 0. &&
-                                        hollow.height(15e-3, 15.001e-3) == 0. && hollow.height(7e-3, 14e-3) == 0.);
+    check.that("dip: none beside it",
+               hollow.height(4.999e-3, 0.) == 0. && hollow.height(25.001e-3, 0.) == 0. &&
+                 hollow.height(15e-3, 15.001e-3) == 0. && hollow.height(7e-3, 14e-3) == 0.);
     double       volume = 0.;
     const double step   = 0.1e-3;
     for (double x = 0.5 * step; x < 30e-3; x += step)
@@ -125,7 +128,7 @@ namespace
         volume -= step * step * hollow.height(x, y);
     check.relative("dip: volume of a paraboloid, mm3", 1e9 * volume, 3.14159265 / 8. * 0.2 * 20. * 30., 1e-3);
     // A sphere's cap of 20 mm and 0.2 mm: radius 250.1 mm.
-    hollow.width          = hollow.length;
+    hollow.width       = hollow.length;
     const double cap_r = (0.25 * 20. * 20. + 0.2 * 0.2) / (2. * 0.2);
     check.absolute("dip: a sphere's cap at half its radius, um", 1e6 * hollow.height(20e-3, 0.),
                    -1e3 * (std::sqrt(cap_r * cap_r - 25.) - (cap_r - 0.2)), 0.1);
@@ -166,11 +169,39 @@ namespace
         read_rail_head(file, 20e-3);
       else if (kind == "wheel")
         read_wheel_tread(file, 20e-3);
+      else if (kind == "map")
+        HeightMap map(file);
       else
         read_longitudinal_profile(file);
     });
     std::remove(file.c_str());
     return what;
+  }
+
+  void check_height_map(tests::Check &check)
+  {
+    // A plane and a parabola in each direction, in any order of the rows.
+    const auto height = [](const double x, const double y) {
+      return -0.3 + 0.01 * x - 0.02 * y + 2e-3 * x * x - 1e-3 * y * y + 5e-4 * x * y;
+    };
+    const std::string file = "geometry_surfaces_map.csv";
+    std::ofstream     stream(file);
+    stream << "z_mm,y_mm,x_mm\n" << std::setprecision(15);
+    for (int j = 12; j >= 0; --j)
+      for (int i = 0; i < 20; ++i)
+        stream << height(0.7 * i, -3. + 0.5 * j) << "," << -3. + 0.5 * j << "," << 0.7 * i << "\n";
+    stream.close();
+    const HeightMap map(file);
+    std::remove(file.c_str());
+    check.absolute("map: extent along, mm", 1e3 * (map.x_end() - map.x_begin()), 13.3, 1e-9);
+    check.absolute("map: extent across, mm", 1e3 * (map.y_end() - map.y_begin()), 6., 1e-9);
+    for (const auto &[x, y] : {std::pair(3.11, 0.23), std::pair(7.7, -1.9), std::pair(9.999, 2.2)})
+      check.absolute("map: a parabola at " + std::to_string(x) + " mm, um",
+                     1e6 * map.height(1e-3 * x, 1e-3 * y), 1e3 * height(x, y), 1e-9);
+    check.absolute("map: between the last places of a border a straight line, um",
+                   1e6 * map.height(0.35e-3, 0.5e-3), 1e3 * height(0.35, 0.5), 0.5);
+    check.absolute("map: beyond it the border's height, um", 1e6 * map.height(-5e-3, 0.5e-3),
+                   1e3 * height(0., 0.5), 1e-9);
   }
 
   void check_files(tests::Check &check)
@@ -238,6 +269,17 @@ namespace
          complaint("rail", ".txt", "-25 -2\n-15 -1\n-5 0\n5 0\n10 -.5\n9 -.6\n20 -2\n25 -3\n"),
          {"line 6", "turns back"});
     says("a .prr without points", complaint("rail", ".prr", "header.begin\n"), {"point.begin"});
+    says("a map with a place missing", complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n0,1,0\n"),
+         {"x 1 mm, y 1 mm", "missing"});
+    says("a map with a place twice",
+         complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n0,1,0\n1,1,0\n1,1,1\n"), {"row 5", "twice"});
+    says("a map with unequal spacings",
+         complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n3,0,0\n0,1,0\n1,1,0\n3,1,0\n"),
+         {"x_mm 1", "equal spacings"});
+    says("a map of one line", complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n"),
+         {"two different y_mm"});
+    says("a map without heights", complaint("map", ".csv", "x_mm,y_mm\n0,0\n1,0\n0,1\n1,1\n"),
+         {"no column 'z_mm'"});
     says("a .ban with one column", complaint("rail", ".ban", "A=1\n1\n"), {"line 2", "two numbers"});
   }
 } // namespace
@@ -247,5 +289,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_treads(check);
   check_first_contact(check);
   check_defects(check);
+  check_height_map(check);
   check_files(check);
 }

@@ -258,6 +258,34 @@ with tempfile.TemporaryDirectory() as folder:
             check.that(f"Courant number {courant} stops with a clear line",
                        unstable.returncode == 2 and "Courant number" in unstable.stderr)
 
+    elif what == "map":
+        # The dip of a sphere's cap, as a scanner would give it.
+        dip = {"Defect/Length (mm)": 30, "Defect/Depth (mm)": 0.15}
+        x, y = np.linspace(0., 30., 601), np.linspace(-15., 15., 301)
+        depth = np.maximum(0., 1. - (x / 15. - 1.)[None, :] ** 2 - (y / 15.)[:, None] ** 2) * 0.15
+        places = np.meshgrid(x, y)
+        with open(path("map.csv"), "w", encoding="utf-8") as stream:
+            stream.write("x_mm,y_mm,z_mm\n")
+            np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -depth.ravel()]), "%.9g", ",")
+        base = {"Motion/Rolled distance (mm)": 60, "Motion/Start (mm)": -60, "Output/Write volume": "false"}
+        mapped = {**base, "Defect/Shape": "map", "Defect/Profile file": path("map.csv"), "Defect/Length (mm)": 0, "Defect/Depth (mm)": 0}
+        cap = run(program, "tutorial/dip.prm", path("cap"), {**base, **dip})
+        scanned = run(program, "tutorial/dip.prm", path("scanned"), mapped)
+        smooth = run(program, "tutorial/dip.prm", path("no dip"), {**base, "Defect/Shape": "none"})
+        forces = [np.array(table(path(name), "history.csv")["normal_force_N"]) for name in ("cap", "scanned", "no dip")]
+        load = smooth["normal_force_N"]
+        check.below("height map against the dip: normal force, largest difference over the dip's own", np.abs(forces[1] - forces[0]).max()
+                    / np.abs(forces[0] - forces[2]).max(), 1e-4)
+        check.that("the dip matters", np.abs(forces[0] - forces[2]).max() > 0.05 * load)
+        moved = run(program, "tutorial/dip.prm", path("moved"), {**mapped, "Defect/Lateral position (mm)": 12})
+        check.that("further to the side it matters less", np.abs(np.array(table(path("moved"), "history.csv")["normal_force_N"]) - forces[2]).max()
+                   < 0.5 * np.abs(forces[0] - forces[2]).max())
+        with open(path("step.csv"), "w", encoding="utf-8") as stream:
+            stream.write("x_mm,y_mm,z_mm\n")
+            np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -0.1 - depth.ravel()]), "%.9g", ",")
+        fails("a map with a step at its border", arguments_of("tutorial/dip.prm", [
+            f"{key}={value}" for key, value in {**mapped, "Defect/Profile file": path("step.csv")}.items()], path("step")), ["Defect/Profile file", "a step"])
+
     elif what == "plastic":
         # Two wheels over a rail that yields, with a weld in it.
         settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Contact/Tolerance=1e-12", "Motion/Passages=2",

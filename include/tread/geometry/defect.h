@@ -22,6 +22,9 @@ namespace tread
     /// to 1 across; zero outside.
     std::function<double(double u, double v)> shape;
 
+    /// Whether it rises above the surface by more than it lies below.
+    bool is_a_bump() const;
+
     double height(const double x, const double y) const
     {
       return -depth * shape((x - begin) / length, 2. * (y - y_middle) / width);

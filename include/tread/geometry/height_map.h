@@ -2,11 +2,14 @@
 #ifndef tread_geometry_height_map_h
 #define tread_geometry_height_map_h
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace tread
 {
+  class CsvTable;
+
   /// Heights of a surface over its nominal one on a rectangular grid, as a scanner gives them: z up. In
   /// between cubic in each direction (Catmull and Rom 1974), so that planes and parabolas come out exactly.
   /// Lengths in m.
@@ -37,10 +40,13 @@ namespace tread
       return across.begin + (across.n - 1) * across.spacing;
     }
     double lowest() const;
+    double highest() const;
     /// Largest amount on the border.
     double largest_on_border() const;
 
   private:
+    explicit HeightMap(const CsvTable &table);
+
     struct Axis
     {
       double      begin = 0., spacing = 0.;

@@ -78,7 +78,7 @@ namespace tread::reference
     std::array<double, 2> uneven_slip(const double x, const double y) const
     {
       const std::array<double, 2> more = more_slip ? more_slip(x, y) : std::array<double, 2>{{0., 0.}};
-      return {more[0] - spin * y, more[1] + spin * x};
+      return {{more[0] - spin * y, more[1] + spin * x}};
     }
 
     bool   prescribe_longitudinal_force = false;

@@ -161,6 +161,11 @@ namespace tread
     {
       return shapes->defect != nullptr;
     }
+    /// Null: none.
+    const Defect *made_defect() const
+    {
+      return shapes->defect.get();
+    }
     /// Whether forces vary along the path by the nature of the scene: a defect, or discrete supports.
     bool has_impacts() const
     {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/registry.h>
+#include <tread/geometry/height_map.h>
 #include <tread/geometry/measured_line.h>
 #include <tread/scene/sections/defect.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tread
@@ -16,7 +18,7 @@ namespace tread
       require(length > 0. && section.depth > 0.,
               "a dip needs 'Defect/Length (mm)' and 'Defect/Depth (mm)' above 0");
       require(!section.reversed,
-              "'Defect/Reversed' is for 'Defect/Shape' profile; a dip is rolled over from its other "
+              "'Defect/Reversed' is for 'Defect/Shape' profile and map; a dip is rolled over from its other "
               "end with its rounded edges exchanged");
       require(std::max(section.leading_rounding, section.trailing_rounding) <= 0.5 * length,
               "'Defect/Rounded leading edge (mm)' and 'Rounded trailing edge (mm)' must be at most half of "
@@ -47,6 +49,45 @@ namespace tread
       defect->width = uniform ? std::numeric_limits<double>::infinity() : section.width;
       return defect;
     }
+
+    std::shared_ptr<Defect> make_map(const DefectSection &section, const std::string &file)
+    {
+      require(!section.profile_file.empty(), "'Defect/Shape' map needs 'Defect/Profile file'");
+      const auto map = [&] {
+        try
+          {
+            return std::make_shared<const HeightMap>(file);
+          }
+        catch (const InputError &error)
+          {
+            throw InputError("'Defect/Profile file': " + std::string(error.what()));
+          }
+      }();
+      const double largest = std::max(-map->lowest(), map->highest());
+      require(largest > 0., "'Defect/Profile file': all heights are 0");
+      // Beside the map the surface is the nominal one.
+      constexpr double step_allowed = 0.05;
+      require(
+        map->largest_on_border() <= step_allowed * largest,
+        "'Defect/Profile file': the border of the map is up to " + text_in_mm(map->largest_on_border()) +
+          " mm off the nominal surface, which follows it: a step. Take the plane of the border away, or "
+          "let the heights fade to 0; at most " +
+          text_in_mm(step_allowed * largest) + " mm are allowed");
+      auto defect      = std::make_shared<Defect>();
+      defect->length   = map->x_end() - map->x_begin();
+      defect->width    = section.width > 0. ? section.width : map->y_end() - map->y_begin();
+      defect->y_middle = 0.5 * (map->y_begin() + map->y_end());
+      defect->depth    = largest;
+      defect->shape    = [map, largest, reversed = section.reversed](const double u, const double v) {
+        if (u <= 0. || u >= 1. || std::abs(v) >= 1.)
+          return 0.;
+        const double along = reversed ? 1. - u : u, across = 0.5 * (v + 1.);
+        return -map->height(map->x_begin() + along * (map->x_end() - map->x_begin()),
+                               map->y_begin() + across * (map->y_end() - map->y_begin())) /
+               largest;
+      };
+      return defect;
+    }
   } // namespace
 
 
@@ -58,7 +99,8 @@ namespace tread
          return std::shared_ptr<Defect>();
        }},
       {"dip", "of Length, Width and Depth, a sphere's cap where length and width are equal", make_dip},
-      {"profile", "along the path as in Profile file, across as Lateral law says", make_profile}};
+      {"profile", "along the path as in Profile file, across as Lateral law says", make_profile},
+      {"map", "heights over the rail's surface, along and across, as in Profile file", make_map}};
     return list;
   }
 
@@ -83,10 +125,12 @@ namespace tread
       "Position (mm)", position,
       "x of the leading edge. Where the wheel starts and ends: 'Motion/Start' and 'Rolled distance'.",
       Double(-1e5, 1e5));
-    section.add("Length (mm)", length, "Along the rail. A profile is stretched to it; 0: as in the file.",
-                Double(0., 1e4));
-    section.add("Width (mm)", width, "Lateral. 0: as long as it is wide, for a dip.", Double(0., 200.));
-    section.add("Depth (mm)", depth, "Of the deepest point. A profile is scaled to it; 0: as in the file.",
+    section.add("Length (mm)", length,
+                "Along the rail. A profile or a map is stretched to it; 0: as in the file.", Double(0., 1e4));
+    section.add("Width (mm)", width,
+                "Lateral. 0: as long as it is wide, for a dip; as in the file, for a map.", Double(0., 200.));
+    section.add("Depth (mm)", depth,
+                "Of the deepest point. A profile or a map is scaled to it; 0: as in the file.",
                 Double(0., 10.));
     section.add("Lateral position (mm)", lateral_position,
                 "y of its middle, along the rail's top; the gauge side is y < 0.", Double(-50., 50.));
@@ -96,11 +140,15 @@ namespace tread
     section.add("Rounded trailing edge (mm)", trailing_rounding, "The same at its end.", Double(0., 1000.));
     section.add(
       "Profile file", profile_file,
-      "Columns x and z in mm, z up; depth is counted from the straight line between the ends. Looked for in "
+      "Of a profile: columns x and z in mm, z up; depth is counted from the straight line between the ends. "
+      "Of "
+      "a map: a table with a row of names, x_mm, y_mm and z_mm, separated by commas, on a grid with equal "
+      "spacings; z is the height over the surface without the defect, y is counted from the middle of the "
+      "rail's top, the first x lies at Position. Looked for in "
       "the present folder and beside the parameter file.",
       dealii::Patterns::Anything());
     section.choose("Lateral law", lateral_law, "Of a profile.");
-    section.add("Reversed", reversed, "A profile is rolled over from its other end.");
+    section.add("Reversed", reversed, "A profile or a map is rolled over from its other end.");
   }
 
 
@@ -114,8 +162,8 @@ namespace tread
       defect->length = length;
     if (depth > 0.)
       defect->depth = depth;
-    defect->begin    = position;
-    defect->y_middle = lateral_position;
+    defect->begin = position;
+    defect->y_middle += lateral_position;
     return defect;
   }
 } // namespace tread
