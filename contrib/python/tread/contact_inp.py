@@ -5,7 +5,8 @@
 
 or python3 -m tread.contact_inp, or tread-contact-inp. In the folder are summary.csv with a row for each case, and case-1.csv,
 case-2.csv, ... with the elements in contact, which the commands that read patch.csv read too. Cases of module 3: the normal problem
-alone (T = 0) or steady rolling (T = 3), at given creepages or forces. What else a file asks for is refused in one line.
+alone (T = 0) or steady rolling (T = 3), at given creepages or forces. What else a file asks for is refused in one line with its place; the
+cases before it are solved.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import numpy as np
 
 from . import half_space
 from .commands import command_parser, run_command
-from .contact_cases import EXCLUDED, Case, read_cases
+from .contact_cases import EXCLUDED, Case, Reader
 from .files import DataError
 
 # Of friction times load, and of the approach.
@@ -27,7 +28,7 @@ STEPS = 40
 
 SUMMARY = ("case", "line", "normal_force_N", "longitudinal_force_N", "lateral_force_N", "spin_moment_Nm", "friction_coefficient",
            "creepage", "lateral_creepage", "spin_per_m", "approach_mm", "max_pressure_MPa", "patch_area_mm2", "adhesion_share",
-           "max_shear_MPa", "max_slip_m_per_s", "frictional_power_W", "element_x_mm", "element_y_mm", "reaches_border")
+           "max_shear_MPa", "max_slip_m_per_s", "frictional_power_W", "frictional_power_of_elements_W", "element_x_mm", "element_y_mm", "reaches_border")
 ELEMENTS = ("x_mm", "y_mm", "pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s", "state")
 
 
@@ -143,15 +144,20 @@ def solve_case(case: Case) -> dict:
     border = contact[[0, -1], :].any() and area.n_y > 1 or contact[:, [0, -1]].any() and area.n_x > 1
     element = area.element_x * area.element_y
     x, y = area.x, area.y[:, None]
+    longitudinal, lateral = problem.mirror * answer["longitudinal_force"], answer["lateral_force"]
+    moment = float((x * fields["shear_y"] - y * fields["shear_x"]).sum() * element)
+    # By forces and creepages, which is nearer to its limit than CONTACT's sum over the elements.
+    power = -case.speed * (creepage * longitudinal + lateral_creepage * lateral
+                           + case.spin * (moment - case.spin_x * lateral + case.spin_y * longitudinal))
+    of_elements = -case.speed * element * (fields["shear_x"] * fields["slip_x"] + fields["shear_y"] * fields["slip_y"]).sum()
     return {
         "case": case.number, "line": case.line, "normal_force_N": problem.normal_force,
-        "longitudinal_force_N": problem.mirror * answer["longitudinal_force"], "lateral_force_N": answer["lateral_force"],
-        "spin_moment_Nm": float((x * fields["shear_y"] - y * fields["shear_x"]).sum() * element),
+        "longitudinal_force_N": longitudinal, "lateral_force_N": lateral, "spin_moment_Nm": moment,
         "friction_coefficient": case.friction, "creepage": creepage, "lateral_creepage": lateral_creepage, "spin_per_m": case.spin,
         "approach_mm": 1e3 * answer["approach"], "max_pressure_MPa": 1e-6 * fields["pressure"].max(), "patch_area_mm2": 1e6 * answer["area"],
         "adhesion_share": answer["adhesion_share"], "max_shear_MPa": 1e-6 * np.hypot(fields["shear_x"], fields["shear_y"]).max(),
         "max_slip_m_per_s": case.speed * np.hypot(fields["slip_x"], fields["slip_y"])[contact].max(),
-        "frictional_power_W": case.speed * answer["frictional_work"], "element_x_mm": 1e3 * area.element_x, "element_y_mm": 1e3 * area.element_y,
+        "frictional_power_W": power + 0., "frictional_power_of_elements_W": of_elements + 0., "element_x_mm": 1e3 * area.element_x, "element_y_mm": 1e3 * area.element_y,
         "reaches_border": bool(border), "x": area.x, "y": area.y, **fields}
 
 
@@ -177,10 +183,8 @@ def main():
     parser.add_argument("input", metavar="CASE.inp")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="of the results; it is made if it is not there")
     arguments = parser.parse_args()
-    cases = read_cases(arguments.input)
-    os.makedirs(arguments.output, exist_ok=True)
     results = []
-    for case in cases:
+    for case in Reader(arguments.input).cases():
         if not case.solved:
             print(f"case {case.number}: only read (R = 2 or 3)")
             continue
@@ -188,6 +192,7 @@ def main():
             result = solve_case(case)
         except (DataError, half_space.HalfSpaceError) as error:
             raise DataError(f"{arguments.input}, line {case.line}: {error}") from None
+        os.makedirs(arguments.output, exist_ok=True)
         write_elements(os.path.join(arguments.output, f"case-{case.number}.csv"), case, result)
         results.append([result[name] for name in SUMMARY])
         print(f"case {case.number}: FN {result['normal_force_N']:.6g} N, FX {result['longitudinal_force_N']:.6g} N, FY {result['lateral_force_N']:.6g} N, "
