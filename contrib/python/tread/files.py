@@ -54,6 +54,15 @@ def read_table(path, required=(), text=("state",)):
     return table
 
 
+def frame_or_rows(rows, columns=None):
+    """A pandas DataFrame of [{column: value}], or the rows themselves where pandas is not installed. @param columns if there may be no row"""
+    try:
+        import pandas
+    except ImportError:
+        return rows
+    return pandas.DataFrame(rows, columns=columns)
+
+
 def read_summary(folder):
     """summary.json of a run, read anew. @raises DataError"""
     path = os.path.join(folder, "summary.json")
