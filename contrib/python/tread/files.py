@@ -86,19 +86,32 @@ def is_complete(folder):
         return False
 
 
-def parameters_in(lines):
-    """{"Section/Name": text} of the lines of a parameter file."""
-    result, section = {}, []
-    for line in lines:
+def parameter_lines(lines):
+    """(number, kind, name, text) of each line of a parameter file that is not empty. kind is "set", with name "Section/Name" and the value as
+    text; "include" and "subsection", with the name; "end"; or None for a line that is none of these, or an end without a beginning, as
+    text."""
+    section = []
+    for number, line in enumerate(lines, 1):
         line = line.split("#")[0].strip()
-        if line.startswith("subsection "):
-            section.append(line[len("subsection "):].strip())
+        word, _, rest = line.partition(" ")
+        name, equals, value = rest.partition("=")
+        if word == "subsection":
+            section.append(rest.strip())
+            yield number, "subsection", rest.strip(), line
         elif line == "end" and section:
             section.pop()
-        elif line.startswith("set "):
-            name, _, value = line[len("set "):].partition("=")
-            result["/".join(section + [name.strip()])] = value.strip()
-    return result
+            yield number, "end", "", line
+        elif word == "set" and equals:
+            yield number, "set", "/".join(section + [name.strip()]), value.strip()
+        elif word == "include" and rest.strip():
+            yield number, "include", rest.strip(), line
+        elif line:
+            yield number, None, "", line
+
+
+def parameters_in(lines):
+    """{"Section/Name": text} of the lines of a parameter file."""
+    return {name: text for _, kind, name, text in parameter_lines(lines) if kind == "set"}
 
 
 def texts_of(scene, depth=0):
