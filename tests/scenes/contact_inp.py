@@ -9,14 +9,15 @@ import tempfile
 
 import numpy as np
 
-from tread.contact_cases import read_cases
-from tread.contact_inp import solve_case
+from tread.contact_inp import read_cases, solve_case
 from tread.creep_table import FORCE, FRICTION, POISSON, SHEAR
 from tread.files import DataError, read_table
+from tread.manchester import DATA as MANCHESTER
 from tread.patches import read_contact, read_patch
 from tread.runs import ROOT, environment
 from tread_runner import Check
 
+program = os.path.abspath(sys.argv[1])
 check = Check()
 DATA = os.path.join(ROOT, "contrib/contact-data")
 folder = tempfile.TemporaryDirectory()
@@ -201,7 +202,6 @@ def several_cases():
 
 
 REFUSALS = (
-    ("module 1", dict(), ("1 MODULE",), 1, "module 1"),
     ("an unknown module", dict(), ("4 MODULE",), 1, "no module 4"),
     *((f"'T' = {t}", dict(pbtnfs=f"20{t}100"), (), 2, f"'T' = {t}") for t in (1, 2)),
     *((f"'B' = {b}", dict(pbtnfs=f"2{b}3100"), (), 2, f"'B' = {b}") for b in range(1, 7)),
@@ -243,7 +243,36 @@ REFUSALS = (
 )
 
 
+TRACK_REFUSALS = (
+    ("a roller", dict(cpbtnfs="203100", side="roller"), 2, "'CONFIG' = 4"),
+    *((f"module 1, 'T' = {t}", dict(cpbtnfs=f"20{t}100"), 2, f"'T' = {t}") for t in (0, 1, 2)),
+    ("a given height", dict(cpbtnfs="203000"), 2, "'N' = 0"),
+    *((f"module 1, 'F' = {f}", dict(cpbtnfs=f"2031{f}0"), 2, f"'F' = {f}") for f in (1, 2, 3)),
+    *((f"module 1, 'E' = {e}", dict(e=e), 3, f"'E' = {e}") for e in (4, 5)),
+    ("no wheelset to keep", dict(e=2), 13, "'E' = 2 keeps what none has given"),
+    ("a canted track", dict(gauge="14 0 1435 0.025"), 9, "CANT = 0.025"),
+    ("a rail placed without a gauge", dict(gauge="-1 0 0 0"), 9, "GAUGHT must be above 0"),
+    ("a profile that is mirrored", dict(rail="1 1.0 0.0"), 10, "MIRRORY 0"),
+    ("a profile that is smoothed", dict(wheel="0 1.0 5.0"), 13, "SMOOTH 0"),
+    ("a rail out of place", dict(rail_moves="0 0.1 0 0 0 0"), 11, "DZ = 0.1"),
+    ("a wheelset that moves up", dict(speed="2000 0 1 0 0 -4"), 15, "VZ = 1"),
+    ("a wheelset that rolls back", dict(speed="2000 0 0 0 0 4"), 15, "rolls forward"),
+    ("no load", dict(position="0 0 0 0 0 0"), 14, "FZ = 0"),
+)
+
+
 def refusals():
+    for name, changes, line, words in TRACK_REFUSALS:
+        text = track_lines(**changes)
+        if changes.get("side") == "roller":
+            text[1] = "4203100"
+        try:
+            read_cases(file_of(*text))
+            said = "nothing"
+        except DataError as error:
+            said = str(error)
+        print("  " + said)
+        check.that(f"refused: {name}", said.startswith(f"{path('case.inp')}, line {line}: ") and words in said and "\n" not in said)
     for name, changes, lines, line, words in REFUSALS:
         text = lines_of(**changes)
         if "G' = 2" in words:
@@ -266,6 +295,48 @@ def refusals():
     check.that("no file", "none.inp: No such file" in command("none.inp", "--output", path("none")).stderr)
 
 
-for part in (shipped_case, creep_table, printed_examples, ways_to_say_the_same, forces_and_approach, several_cases, refusals):
+RAIL = os.path.join(ROOT, "prm/curves/profiles/uic60-manchester.txt")
+
+
+def track_lines(side="left", cpbtnfs="203100", z=3, e=3, gauge="14.0 0 1435.0 0.0", rail="0 1.0 0.0", rail_moves="0 0 0 0 0 0", wheel="0 1.0 0.0",
+                position="0 0 10000 0 0 0", speed="2000 0 0 0 0 -4.3481181", end="0 MODULE"):
+    """A case of module 1, the Manchester benchmark."""
+    kept = z != 3
+    return ["1 MODULE", f"{int(side == 'right')}{cpbtnfs} C-P-B-T-N-F-S", f"{'01110' if kept else '00220'}{z}{e} V-L-D-C-M-Z-E",
+            "0000321", "999 100 30 1 1e-5", *([] if kept else ["0.3 0.3", "0.28 0.28 82000 82000", "0.2 0.2 1.0 90d 8.0 4.0", gauge, f"'{RAIL}' {rail}"]),
+            *([rail_moves] if z in (2, 3) else []), *(["1360 -70 460", f"'S1002' {wheel}"] if e == 3 else []), position, *([speed] if e > 1 else []), end]
+
+
+def wheels_on_rails():
+    """Module 1: the Manchester benchmark, whose figures have four digits. Half-space theory of second order beside elements of 0.2 mm, four of which lie
+    across a patch on the flange: 2 % of the pressure there."""
+    wanted = read_table(MANCHESTER, text=("side",))
+    rows = [row for row, key in enumerate(zip(wanted["side"], wanted["y_ws_mm"])) if key in (("left", 0), ("left", 8), ("right", 2), ("right", 6))]
+    lines = []
+    for row in rows:
+        value = {name: column[row] for name, column in wanted.items()}
+        lines += track_lines(value["side"], position=f"0 {value['y_ws_mm']} 10000 {value['roll_rad']} {value['yaw_rad']} 0",
+                             speed=f"2000 0 0 0 0 {value['omega_rad_s']}", **({"z": 0, "e": 2} if lines else {}), end="")
+    done = command(file_of(*lines, "0 MODULE"), "--output", path("track"), "--program", program)
+    check.that("module 1 ends well", done.returncode == 0 and done.stderr == "" and done.stdout.count("\n") == len(rows))
+    patches = read_table(path("track/patches.csv"), text=("side",))
+    check.that("a patch for each", list(patches["case"]) == list(range(1, len(rows) + 1)) and list(patches["side"]) == list(wanted["side"][rows]))
+    for case, row in enumerate(rows):
+        name = f"{wanted['side'][row]} wheel at {wanted['y_ws_mm'][row]:g} mm: "
+        check.relative(name + "normal force", patches["normal_force_N"][case], wanted["FN_N"][row], 1e-3)
+        for key, given in (("longitudinal_force_N", "FX_N"), ("lateral_force_N", "FS_N")):
+            check.below(name + key + " over friction times load", (patches[key][case] - wanted[given][row]) / 3000., 5e-3)
+        for key, given, allowed in (("x_mm", "x_cp_mm", 1e-2), ("y_mm", "y_cp_mm", 1e-2), ("contact_angle_rad", "delta_rad", 1e-3),
+                                    ("creepage", "cksi", 2e-5), ("lateral_creepage", "ceta", 2e-5)):
+            check.below(name + key, patches[key][case] - wanted[given][row], allowed)
+        check.below(name + "spin", patches["spin_per_m"][case] - 1e3 * wanted["cphi_rad_mm"][row], 2e-3)
+        check.relative(name + "largest pressure", patches["max_pressure_MPa"][case], wanted["p_max_MPa"][row], 2e-2)
+    check.that("scenes and their results are kept", os.path.exists(path("track/case-2.prm")) and os.path.exists(path("track/case-2/summary.json")))
+    bad = command(file_of(*[line.replace("'S1002'", "'S1003'") for line in track_lines()]), "--output", path("bad-track"), "--program", program)
+    check.that("what the program refuses is said with its place", bad.returncode == 1 and bad.stderr.count("\n") == 1
+               and "line 2: case 1: 'Wheel/Tread profile'" in bad.stderr)
+
+
+for part in (shipped_case, creep_table, printed_examples, ways_to_say_the_same, forces_and_approach, several_cases, wheels_on_rails, refusals):
     part()
 check.exit()

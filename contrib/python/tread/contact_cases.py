@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Read input files of CONTACT (E. Vollebregt, github.com/eve70a/CONTACT, versions 23 to 25): module 3, basic contact.
+"""Read input files of CONTACT (E. Vollebregt, github.com/eve70a/CONTACT, versions 23 to 25): the words of a file, and module 3, basic
+contact. contact_track.py reads module 1, contact_inp.py whole files.
 
 What such a file says is kept from one case to the next, as CONTACT does, unless a control digit announces new values. Lengths in a
-file are in mm, forces in N, stresses in MPa, angles in rad or, with a d, in degrees. Cases that read_cases() returns are in SI.
+file are in mm, forces in N, stresses in MPa, angles in rad or, with a d, in degrees. Cases are in SI.
 """
 
 from __future__ import annotations
 
-import copy
 import dataclasses
 import math
 import re
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -126,10 +125,10 @@ class Words:
         self.at += 1
         return words
 
-    def read(self, kinds: str, what: str, optional: int = 0) -> list[float]:
-        """Values of kinds i (integer), d (number) and a (angle, rad); they may go on over several lines, of which the rest is not
+    def read(self, kinds: str, what: str, optional: int = 0) -> list:
+        """Values of kinds i (integer), d (number), a (angle, rad) and s (quoted text); they may go on over several lines, of which the rest is not
         read. The last `optional` ones may be missing on the line on which they would be."""
-        values: list[float] = []
+        values: list = []
         needed = len(kinds) - optional
         while len(values) < needed:
             for word in self.next_line(what):
@@ -151,10 +150,14 @@ class Words:
         return dict(zip(names, map(int, reversed(word.zfill(len(names))))))
 
 
-def number(word: str, kind: str) -> float:
-    """An integer (i), a number (d) or an angle (a) as Fortran writes it. @raises ValueError"""
+def number(word: str, kind: str) -> float | str:
+    """An integer (i), a number (d), an angle (a) or a quoted text (s) as Fortran writes it. @raises ValueError"""
     if kind == "i":
         return int(word)
+    if kind == "s":
+        if not re.fullmatch("'.+'", word):
+            raise ValueError
+        return word[1:-1].strip()
     if kind == "a" and word[-1:].lower() in "dr":
         value = float(word[:-1])
         return math.radians(value) if word[-1].lower() == "d" else value
@@ -165,40 +168,21 @@ def number(word: str, kind: str) -> float:
 
 
 class Reader:
-    """Reads cases one after the other and keeps what one leaves for the next."""
+    """Reads cases of module 3 one after the other and keeps what one leaves for the next."""
 
-    def __init__(self, path: str):
-        self.words, self.case = Words(path), Case()
+    largest, refused = LARGEST, REFUSED
+
+    def __init__(self, words: Words):
+        self.words, self.case = words, Case()
         self.planned: tuple[int, list[float]] | None = None  # IPOTCN and its values, mm
         self.shape: tuple[int, int, list[float], list[float]] | None = None  # IBASE, IPLAN and their values, mm
         self.step = 0.  # DQ, m; 0: not known
 
-    def cases(self) -> Iterator[Case]:
-        stays, number_of_case = False, 0
-        while stays or self.next_module():
-            number_of_case += 1
-            stays = self.one_case(number_of_case)
-            yield copy.deepcopy(self.case)
-
-    def next_module(self) -> bool:
-        """Whether there is one more case."""
+    def control_digits(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """{digit: value} of the three lines, each checked as soon as it is read; and the lines of the solvers, which ours does not need."""
         words = self.words
-        if words.at == len(words.lines):
-            return False
-        module = words.read("i", "a module number")[0]
-        if module == 1:
-            raise words.refuse("module 1 (wheel on rail by profiles) is not read, only module 3; "
-                               "tread --reference-only solves wheels on rails from scenes")
-        if module not in (0, 3):
-            raise words.refuse(f"no module {module:.0f}; modules are 1, 3 and 0 for the end")
-        return module == 3
-
-    def one_case(self, number_of_case: int) -> bool:
-        """Read a case into self.case. @returns whether the next one follows without a module number"""
-        words, case = self.words, self.case
-        case.number = number_of_case
         first = words.digits(DIGITS[0], "control digits P-B-T-N-F-S")
-        case.line = words.line
+        self.case.line = words.line
         self.check(first)
         second = words.digits(DIGITS[1], "control digits L-D-C-M-Z-E")
         self.check(second)
@@ -207,16 +191,21 @@ class Reader:
             raise words.refuse(f"weighting of the gap (a {following[0]} behind the control digits) is not available")
         third = words.digits(DIGITS[2], "control digits H-G-I-A-O-W-R")
         self.check(third)
-        case.tangential, case.solved = first["T"] == 3, third["R"] < 2
+        self.case.solved = third["R"] < 2
         if third["X"]:
             words.read("i", "digits of the debug output")
         self.skip_iteration(third["G"])
+        return first, second, third
+
+    def one_case(self, number_of_case: int) -> bool:
+        """Read a case into self.case. @returns whether the next one follows without a module number"""
+        words, case = self.words, self.case
+        case.number = number_of_case
+        first, second, third = self.control_digits()
+        case.tangential = first["T"] == 3
         self.kinematics(first["N"], first["F"])
         self.friction(second["L"])
-        if second["C"] >= 2:
-            self.material(case.tangential)
-        elif case.shear_modulus is None:
-            raise words.refuse(f"'C' = {second['C']} keeps the elastic constants, and there are none before it")
+        self.material(second["C"], case.tangential)
         if case.tangential and not self.step:
             raise words.refuse(f"'C' = {second['C']} keeps CHI, DQ and VELOC, and there are none before it")
         if second["D"] == 2:
@@ -233,11 +222,15 @@ class Reader:
                                case.line)
         return third["R"] in (0, 2)
 
+    def result(self) -> Case:
+        """A copy of the case that was read last."""
+        return dataclasses.replace(self.case)
+
     def check(self, digits: dict[str, int]) -> None:
         for name, value in digits.items():
-            meaning = REFUSED.get(name, {}).get(value)
-            if value > LARGEST[name]:
-                raise self.words.refuse(f"'{name}' = {value} is not allowed; 0 to {LARGEST[name]}")
+            meaning = self.refused.get(name, {}).get(value)
+            if value > self.largest[name]:
+                raise self.words.refuse(f"'{name}' = {value} is not allowed; 0 to {self.largest[name]}")
             if meaning:
                 raise self.words.refuse(f"'{name}' = {value} ({meaning}) is not available")
 
@@ -277,8 +270,12 @@ class Reader:
         elif self.case.friction is None:
             raise self.words.refuse("'L' = 1 keeps the friction coefficient, and there is none before it")
 
-    def material(self, rolls: bool) -> None:
+    def material(self, c: int, rolls: bool) -> None:
         words, case = self.words, self.case
+        if c < 2 and case.shear_modulus is None:
+            raise words.refuse(f"'C' = {c} keeps the elastic constants, and there are none before it")
+        if c < 2:
+            return
         if rolls:
             values = words.read("addd", "CHI, DQ, VELOC", optional=1)
             angle = abs(math.remainder(values[0], 2. * math.pi))
@@ -423,7 +420,3 @@ def gap_of(area: Area, base: int, plan: int, values: list[float], plan_values: l
         gap[~(inside[0] | inside[1])] = EXCLUDED
     return gap
 
-
-def read_cases(path: str) -> list[Case]:
-    """All cases of a file. @raises DataError, in one line with file, line and option, for what is wrong or not available"""
-    return list(Reader(path).cases())

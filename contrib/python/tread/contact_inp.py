@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Solve the cases of an input file of CONTACT with tread's half-space library.
+"""Solve the cases of an input file of CONTACT by half-space theory.
 
     contrib/contact-inp.py CASE.inp --output FOLDER
 
 or python3 -m tread.contact_inp, or tread-contact-inp. In the folder are summary.csv with a row for each case, and case-1.csv,
 case-2.csv, ... with the elements in contact, which the commands that read patch.csv read too. Cases of module 3: the normal problem
-alone (T = 0) or steady rolling (T = 3), at given creepages or forces. What else a file asks for is refused in one line with its place; the
-cases before it are solved.
+alone (T = 0) or steady rolling (T = 3), at given creepages or forces. A case of module 1, a wheel on a rail by their profiles, becomes
+a scene, case-1.prm, with the results of tread --reference-only in the folder case-1; its patches are rows of patches.csv, in CONTACT's axes
+and signs. What else a file asks for is refused in one line with its place; the cases before it are solved.
 """
 
 from __future__ import annotations
@@ -14,13 +15,16 @@ from __future__ import annotations
 import csv
 import math
 import os
+from collections.abc import Iterator
 
 import numpy as np
 
 from . import half_space
 from .commands import command_parser, run_command
-from .contact_cases import EXCLUDED, Case, Reader
+from .contact_cases import EXCLUDED, Case, Reader, Words
+from .contact_track import PATCH, TrackCase, TrackReader, solve_track_case
 from .files import DataError
+from .runs import PROGRAM, ProgramError
 
 # Of friction times load, and of the approach.
 FORCE_TOLERANCE, APPROACH_TOLERANCE = 1e-7, 1e-9
@@ -30,6 +34,30 @@ SUMMARY = ("case", "line", "normal_force_N", "longitudinal_force_N", "lateral_fo
            "creepage", "lateral_creepage", "spin_per_m", "approach_mm", "max_pressure_MPa", "patch_area_mm2", "adhesion_share",
            "max_shear_MPa", "max_slip_m_per_s", "frictional_power_W", "frictional_power_of_elements_W", "element_x_mm", "element_y_mm", "reaches_border")
 ELEMENTS = ("x_mm", "y_mm", "pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s", "state")
+
+
+def cases_of(path: str) -> Iterator[Case | TrackCase]:
+    """The cases of a file one after the other. @raises DataError, in one line with file, line and option, for what is wrong or not
+    available"""
+    words = Words(path)
+    readers = {1: TrackReader(words), 3: Reader(words)}
+    number_of_case = 0
+    while words.at < len(words.lines):
+        module = words.read("i", "a module number")[0]
+        if module == 0:
+            return
+        if module not in readers:
+            raise words.refuse(f"no module {module}; modules are 1, 3 and 0 for the end")
+        stays = True
+        while stays:
+            number_of_case += 1
+            stays = readers[module].one_case(number_of_case)
+            yield readers[module].result()
+
+
+def read_cases(path: str) -> list[Case | TrackCase]:
+    """All cases of a file. @raises DataError"""
+    return list(cases_of(path))
 
 
 class _Problem:
@@ -69,7 +97,7 @@ def _load_of_approach(problem: _Problem) -> float:
     depth = case.approach - case.gap.min()
     overlap = np.count_nonzero(case.gap < case.approach) * common["element_x"] * common["element_y"]
     if not overlap:
-        raise DataError(f"case {case.number}: PEN leaves the bodies apart; no element overlaps")
+        raise DataError(f"PEN leaves the bodies apart; no element overlaps")
     force = case.shear_modulus / (1. - case.poisson) * depth * math.sqrt(overlap / math.pi)
     points: list[tuple[float, float]] = []
     for _ in range(STEPS):
@@ -79,7 +107,7 @@ def _load_of_approach(problem: _Problem) -> float:
         points = [*points[-1:], (math.log(force), math.log(found))]
         slope = (points[1][0] - points[0][0]) / (points[1][1] - points[0][1]) if len(points) == 2 and points[0][1] != points[1][1] else 1.5
         force *= math.exp(slope * (math.log(depth) - math.log(found)))
-    raise DataError(f"case {case.number}: no force was found for PEN")
+    raise DataError(f"no force was found for PEN")
 
 
 def _stretched(share: np.ndarray) -> np.ndarray:
@@ -112,11 +140,11 @@ def _creepages_of_forces(problem: _Problem) -> tuple[float, float]:
             slope += np.outer(value - before[1] - slope @ step, step) / (step @ step)
         before = creepages[unknown].copy(), value
         creepages[unknown] += np.linalg.solve(slope, stretched(target) - value)
-    raise DataError(f"case {case.number}: no creepage was found for {'FX, FY' if n == 2 else 'FX'}")
+    raise DataError(f"no creepage was found for {'FX, FY' if n == 2 else 'FX'}")
 
 
 def solve_case(case: Case) -> dict:
-    """Solve a case of contact_cases.read_cases().
+    """Solve a case of module 3.
 
     Returns {name: value}: those of SUMMARY, in their units, and x (n_x,), y (n_y,) in m with (n_y, n_x) arrays pressure, shear_x, shear_y
     (Pa, on body 1), slip_x, slip_y (of body 1 over body 2, over the speed), state (0: no contact, 1: adhesion, 2: slip), all in
@@ -178,27 +206,42 @@ def write_elements(path: str, case: Case, result: dict) -> None:
     _write_csv(path, ELEMENTS, zip(*(value.tolist() for value in values), states.tolist()))
 
 
+def _solve_and_write(case: Case | TrackCase, folder: str, title: str, program: str, rows: dict[str, list]) -> str:
+    """Solve a case, write what belongs to it, add to the rows of the tables. @returns what is printed"""
+    own = os.path.join(folder, f"case-{case.number}")
+    if isinstance(case, TrackCase):
+        _, patches = solve_track_case(case, own, title, program)
+        rows["patches.csv"] += [[case.number, case.line, case.side, number, *patch.values()] for number, patch in enumerate(patches, 1)]
+        _write_csv(os.path.join(folder, "patches.csv"), ("case", "line", "side", "patch", *(name for name, _, _ in PATCH)), rows["patches.csv"])
+        return "; ".join(f"FN {patch['normal_force_N']:.6g} N, FX {patch['longitudinal_force_N']:.6g} N, FS {patch['lateral_force_N']:.6g} N, largest "
+                         f"pressure {patch['max_pressure_MPa']:.6g} MPa" for patch in patches)
+    result = solve_case(case)
+    os.makedirs(folder, exist_ok=True)
+    write_elements(own + ".csv", case, result)
+    rows["summary.csv"].append([result[name] for name in SUMMARY])
+    _write_csv(os.path.join(folder, "summary.csv"), SUMMARY, rows["summary.csv"])
+    return (f"FN {result['normal_force_N']:.6g} N, FX {result['longitudinal_force_N']:.6g} N, FY {result['lateral_force_N']:.6g} N, "
+            f"creepages {result['creepage']:.6g} {result['lateral_creepage']:.6g}, largest pressure {result['max_pressure_MPa']:.6g} MPa"
+            + ("; the patch reaches the border of the potential contact area" if result["reaches_border"] else ""))
+
+
 def main():
     parser = command_parser(__doc__)
     parser.add_argument("input", metavar="CASE.inp")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="of the results; it is made if it is not there")
+    parser.add_argument("--program", default=PROGRAM, help="tread itself, for module 1")
     arguments = parser.parse_args()
-    results = []
-    for case in Reader(arguments.input).cases():
+    rows = {"summary.csv": [], "patches.csv": []}
+    for case in cases_of(arguments.input):
         if not case.solved:
             print(f"case {case.number}: only read (R = 2 or 3)")
             continue
+        title = f"{os.path.basename(arguments.input)}, case {case.number}"
         try:
-            result = solve_case(case)
-        except (DataError, half_space.HalfSpaceError) as error:
-            raise DataError(f"{arguments.input}, line {case.line}: {error}") from None
-        os.makedirs(arguments.output, exist_ok=True)
-        write_elements(os.path.join(arguments.output, f"case-{case.number}.csv"), case, result)
-        results.append([result[name] for name in SUMMARY])
-        print(f"case {case.number}: FN {result['normal_force_N']:.6g} N, FX {result['longitudinal_force_N']:.6g} N, FY {result['lateral_force_N']:.6g} N, "
-              f"creepages {result['creepage']:.6g} {result['lateral_creepage']:.6g}, largest pressure {result['max_pressure_MPa']:.6g} MPa"
-              + ("; the patch reaches the border of the potential contact area" if result["reaches_border"] else ""), flush=True)
-        _write_csv(os.path.join(arguments.output, "summary.csv"), SUMMARY, results)
+            said = _solve_and_write(case, arguments.output, title, arguments.program, rows)
+        except (DataError, ProgramError, half_space.HalfSpaceError) as error:
+            raise DataError(f"{arguments.input}, line {case.line}: case {case.number}: {error}") from None
+        print(f"case {case.number}: {said}", flush=True)
 
 
 def command_line():
