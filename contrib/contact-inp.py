@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Solve the cases of an input file of CONTACT with tread's half-space library: contrib/contact-inp.py --help."""
+"""Solve the cases of an input file of CONTACT by half-space theory: contrib/contact-inp.py --help."""
 
 from tread.contact_inp import command_line
 
