@@ -91,6 +91,7 @@ class Scenes(unittest.TestCase):
                 found = self.errors(f"# a comment\nsubsection Contact\n  {line}   # another\nend\n")
                 self.assertEqual(len(found), 1)
                 self.assertTrue(found[0].startswith("scene.prm:3: ") and words in found[0], found)
+        self.assertEqual(self.errors("SUBSECTION Contact\n\tset Friction\tcoefficient \\\n = 0.3\nEND\n"), [])
         self.assertEqual(self.errors("subsection Contact\n"), ["scene.prm:1: the subsection of line 1 has no end"])
         self.assertIn("'end' is neither", self.errors("end\n")[0])
         self.assertIn("No such file", next(schema.scene_errors("none.prm"))[2])

@@ -9,6 +9,7 @@ import tempfile
 
 import numpy as np
 
+from tread import hertz
 from tread.contact_inp import read_cases, solve_case
 from tread.creep_table import FORCE, FRICTION, POISSON, SHEAR
 from tread.files import DataError, read_table
@@ -181,7 +182,15 @@ def forces_and_approach():
     shifted = one(pbtnfs="203000", kind="1", kinematics=f"{force['approach_mm'] - 0.3:.12g} 0 0 0", area="40 40 -9.9 -9.9 0.5 0.5", gap=("1 1", "1e-3 0 2e-3 0 0 -0.3"))
     check.relative("a gap that begins below zero", shifted["normal_force_N"], 82000, 5e-3)
     axes = one(pbtnfs="203000", kinematics="0.09265 0 0 0", area="44 44 8 4 1.1")
-    check.relative("IPOTCN -3 with an approach: any load has these axes", axes["patch_area_mm2"], np.pi * 32, 0.03)
+    check.relative("IPOTCN -3 with an approach: the axes", axes["patch_area_mm2"], np.pi * 32, 0.03)
+    check.relative("the force of the example with these axes, by Hertz to a share of the element size", axes["normal_force_N"], 82000, 2e-3)
+    # Hertz's exact values of the shipped case.
+    row = {name: column[0] for name, column in read_table(os.path.join(DATA, "contact_summary.csv"), text=("file",)).items()}
+    modulus = 105e9 / 0.91
+    a, b = hertz.semi_axes(1. / 0.92, hertz.ratio_of_semi_axes(1. / 0.92, 1. / 0.6), 127.1e3, modulus)
+    for name, value in (("semi_axis_x_mm", 1e3 * a), ("semi_axis_y_mm", 1e3 * b), ("hertz_pressure_MPa", 1.5e-6 * 127.1e3 / np.pi / a / b),
+                        ("approach_mm", 1e3 * hertz.approach(a, b, 127.1e3, modulus))):
+        check.relative("Hertz: " + name, value, row[name], 1e-5)
 
 
 def several_cases():

@@ -9,7 +9,6 @@ import gzip
 import hashlib
 import json
 import os
-import re
 
 
 class Error(Exception):
@@ -87,18 +86,23 @@ def is_complete(folder):
 
 
 def parameter_lines(lines):
-    """(number, kind, name, text) of each line of a parameter file that is not empty. kind is "set", with name "Section/Name" and the value as
+    """(number, kind, name, text) of each line of a parameter file that is not empty; one that ends with a backslash goes on in the next. kind is "set", with name "Section/Name" and the value as
     text; "include" and "subsection", with the name; "end"; or None for a line that is none of these, or an end without a beginning, as
     text."""
-    section = []
+    section, begun = [], ""
     for number, line in enumerate(lines, 1):
+        line = begun + line.replace("\t", " ").rstrip("\n")
+        begun = line[:-1] if line.endswith("\\") else ""
+        if begun:
+            continue
         line = line.split("#")[0].strip()
         word, _, rest = line.partition(" ")
+        word = word.lower()
         name, equals, value = rest.partition("=")
         if word == "subsection":
             section.append(rest.strip())
             yield number, "subsection", rest.strip(), line
-        elif line == "end" and section:
+        elif line.lower() == "end" and section:
             section.pop()
             yield number, "end", "", line
         elif word == "set" and equals:
@@ -123,7 +127,7 @@ def texts_of(scene, depth=0):
             text = stream.read()
     except OSError as error:
         raise DataError(f"{scene}: {error.strerror}") from None
-    included = re.findall(r"^\s*include\s+([^#\n]*[^#\s])", text, re.MULTILINE)
+    included = [name for _, kind, name, _ in parameter_lines(text.splitlines()) if kind == "include"]
     return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name), depth + 1)]
 
 
