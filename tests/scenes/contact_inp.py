@@ -301,6 +301,8 @@ def refusals():
                and sorted(os.listdir(path("late"))) == ["case-1.csv", "summary.csv"])
     apart = command(file_of(*lines_of(pbtnfs="203000", kind="1", area="9 9 -1 -1 0.2 0.2", kinematics="-0.1 0 0 0")), "--output", path("apart"))
     check.that("bodies apart", apart.returncode == 1 and "line 2: case 1: PEN leaves the bodies apart" in apart.stderr)
+    for text in ("", "% nothing", "0 MODULE"):
+        check.that("no case", "line 1: there is no case" in command(file_of(text), "--output", path("none")).stderr)
     check.that("no file", "none.inp: No such file" in command("none.inp", "--output", path("none")).stderr)
 
 

@@ -45,7 +45,7 @@ def cases_of(path: str) -> Iterator[Case | TrackCase]:
     while words.at < len(words.lines):
         module = words.read("i", "a module number")[0]
         if module == 0:
-            return
+            break
         if module not in readers:
             raise words.refuse(f"no module {module}; modules are 1, 3 and 0 for the end")
         stays = True
@@ -53,6 +53,8 @@ def cases_of(path: str) -> Iterator[Case | TrackCase]:
             number_of_case += 1
             stays = readers[module].one_case(number_of_case)
             yield readers[module].result()
+    if not number_of_case:
+        raise words.refuse("there is no case", line=max(words.line, 1))
 
 
 def read_cases(path: str) -> list[Case | TrackCase]:
