@@ -9,7 +9,8 @@ import os
 import sys
 
 from tread.commands import command_parser, run_command
-from tread.runs import PROGRAM, ROOT, execute, must_end_well
+from tread.runs import PROGRAM, ROOT
+from tread.schema import listing
 
 PAGE = os.path.join(ROOT, "doc", "parameters.md")
 HEAD = """# Parameters
@@ -28,25 +29,10 @@ This page is written by `contrib/parameters-page.py`.
 """
 
 
-def sections(listing):
-    """[(section, [(name, default, meaning)])] of the program's listing."""
-    found, meaning = [], []
-    for line in listing.splitlines():
-        line = line.strip()
-        if line.startswith("subsection "):
-            found.append((line[len("subsection "):], []))
-        elif found and line.startswith("#"):
-            meaning.append(line.lstrip("# "))
-        elif line.startswith("set "):
-            name, _, default = line[len("set "):].partition("=")
-            found[-1][1].append((name.strip(), default.strip(), " ".join(meaning)))
-            meaning = []
-    return found
-
-
-def page(listing):
+def page(found):
+    """@param found as of schema.listing()"""
     text = HEAD
-    for section, parameters in sections(listing):
+    for section, parameters in found:
         text += f"\n## {section}\n\n| parameter | default | meaning |\n|---|---|---|\n"
         for parameter in parameters:
             name, default, meaning = (part.replace("|", "\\|") for part in parameter)
@@ -59,7 +45,7 @@ def main():
     parser.add_argument("--program", default=PROGRAM, help="the program to ask")
     parser.add_argument("--check", action="store_true", help="write nothing")
     arguments = parser.parse_args()
-    current = page(must_end_well(execute(["--print-parameters"], program=arguments.program)).stdout)
+    current = page(listing(arguments.program))
     if not arguments.check:
         with open(PAGE, "w", encoding="utf-8") as stream:
             stream.write(current)

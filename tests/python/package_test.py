@@ -5,15 +5,19 @@
     tests/python/package_test.py [build/source/tread]
 """
 
+import contextlib
 import csv
 import glob
 import gzip
+import io
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from unittest import mock
 
@@ -401,7 +405,7 @@ class Studies(InFolder):
         return subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program, *more], capture_output=True, text=True)
 
     def test_a_limit(self):
-        study = studies.Study(self.limit_study("set Figures = f", "set Limit = f = 900 over Defect/Length (mm)", "set Mesh = Mesh/Finest cell (mm)",
+        study = studies.Study.of_file(self.limit_study("set Figures = f", "set Limit = f = 900 over Defect/Length (mm)", "set Mesh = Mesh/Finest cell (mm)",
                                                lengths="4 & 0.04 | 6 & 0.06 | 8 & 0.08"))
         self.assertEqual([m["Defect/Depth (mm)"] for m in study.members], ["0.04", "0.06", "0.08"] * 2)
 
@@ -446,6 +450,89 @@ class Studies(InFolder):
         self.assertIn("must be 2 values with &", result.stderr)
 
 
+class StudiesFromPython(InFolder):
+    def calls(self, row):
+        with open(os.path.join(row["folder"], "calls"), encoding="utf-8") as stream:
+            return len(stream.read())
+
+    def vary(self, creepages, **options):
+        return tread.study("smooth-rolling.prm", {"Motion/Creepage": creepages}, program=self.program,
+                           **{"figures": ["normal_force_N", "last(position_m)"], "processes": 2, "output": "out", **options})
+
+    def test_a_study(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}), contextlib.redirect_stdout(io.StringIO()) as said:
+            rows = self.vary([0.001, 0.9])
+        self.assertEqual(said.getvalue(), "")
+        self.assertEqual(list(rows[0]), ["Motion/Creepage", "normal_force_N", "last(position_m)", "state", "folder"])
+        self.assertEqual(list(rows[0].values()), [0.001, 140e3, 2., "complete", "out/creepage-0.001"])
+        self.assertEqual((rows[1]["state"], np.isnan(rows[1]["normal_force_N"])), ("failed: 'Motion/Creepage' cannot be '0.9'", True))
+        with open("out/study.csv", encoding="utf-8") as stream:
+            self.assertEqual(list(csv.reader(stream))[1], ["0.001", "140000", "2", "complete"])
+
+    def test_what_is_complete_is_kept(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            self.vary([0.001])
+            rows = self.vary([0.001, 0.002])
+            self.assertEqual([self.calls(row) for row in rows], [1, 1])
+            rows = self.vary([0.001, 0.002], settings={"Output/Write volume": False})  # other input
+            self.assertEqual([self.calls(row) for row in rows], [2, 2])
+            rows = self.vary([0.001], settings={"Output/Write volume": False}, options=["--reference-only"])
+            self.assertEqual(self.calls(rows[0]), 3)
+        self.assertEqual(tread.Run("out/creepage-0.001").summary["arguments"][1:],
+                         ["-s", "Output/Write volume=false", "-s", "Motion/Creepage=0.001", "--output", "out/creepage-0.001", "--reference-only"])
+
+    def test_parameters_that_vary_together(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            rows = tread.study("smooth-rolling.prm", {("A/B (mm)", "A/C"): [(1, "x"), (2, "y")], "A/D": [True]}, combination="product", output="out",
+                               program=self.program, figures=["normal_force_N"])
+            self.assertEqual([list(row.values())[:3] for row in rows], [[1, "x", True], [2, "y", True]])
+            rows = tread.study("smooth-rolling.prm", {"A/B": [1, 2], "A/C": [3, 4]}, combination="zip", output="zip", program=self.program,
+                               figures=["normal_force_N"])
+        self.assertEqual([list(row.values())[:3] for row in rows], [[1, 3, 140e3], [2, 4, 140e3]])
+        self.assertEqual(sorted(os.listdir("out")), ["b-1_c-x_d-true", "b-2_c-y_d-true", "study.csv"])
+
+    def test_a_figure_that_is_not_there(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}), self.assertWarnsRegex(UserWarning, "summary.json has no figure 'none'"):
+            rows = self.vary([0.001], figures=["none"])
+        self.assertTrue(np.isnan(rows[0]["none"]))
+
+    def test_what_cannot_be(self):
+        for vary, more, words in (({}, {}, "names no parameter"), ({"A/B": ["1|2"]}, {}, "'1|2' cannot be varied"), ({"A/B": []}, {}, "'Vary/A/B' has no value"),
+                                  ({("A/B", "A/C"): [(1,)]}, {}, "must be 2 values"), ({"A/B": [1, 1.0]}, {}, "two runs have the same values"),
+                                  ({"A/B": [1], "A/C": [1, 2]}, {"combination": "zip"}, "zip needs as many"), ({"A/B": [1]}, {"combination": "sum"}, "'sum'"),
+                                  ({"A/B": [1]}, {"processes": 0}, "'Processes' cannot be '0'"), ({"A/B": [1]}, {"figures": ["mean(x)"]}, "no 'mean(...)'"),
+                                  ({"A/B": [1]}, {"program": "none"}, "none: no such program")):
+            with self.assertRaisesRegex(tread.DataError, re.escape(words)):
+                tread.study("smooth-rolling.prm", vary, **{"program": self.program, "output": "out", **more})
+        with self.assertRaisesRegex(tread.DataError, "none.prm: no such scene"):
+            tread.study("none.prm", {"A/B": [1]}, program=self.program)
+        self.assertFalse(os.path.exists("out"))
+
+    def test_ctrl_c_ends_the_runs_with_a_checkpoint(self):
+        program = write(self.path("slow"), "#!/usr/bin/python3\nimport sys, time\nopen('begun', 'w').close()\ntry:\n  time.sleep(60)\n"
+                        "except KeyboardInterrupt:\n  sys.exit(130)\n", 0o755)
+        call = f"import tread\ntry:\n  tread.study('smooth-rolling.prm', {{'A/B': [1]}}, output='out', program={program!r})\nexcept KeyboardInterrupt:\n  print('stopped')"
+        with subprocess.Popen([sys.executable, "-c", call], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "contrib/python")},
+                              stdout=subprocess.PIPE, text=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler)) as process:
+            while not os.path.exists("begun") and process.poll() is None:
+                time.sleep(0.02)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.communicate()[0], "stopped\n")
+        with open("out/study.csv", encoding="utf-8") as stream:
+            self.assertIn(",interrupted", stream.read())
+
+    def test_frames(self):
+        """With a stand-in for pandas, which need not be installed."""
+        pandas = mock.Mock(DataFrame=lambda rows, columns=None: ("frame", rows, columns))
+        with mock.patch.dict(sys.modules, {"pandas": pandas}):
+            kind, rows, _ = self.vary([0.001])
+            self.assertEqual((kind, rows[0]["Motion/Creepage"]), ("frame", 0.001))
+            history = [{"time_s": 0.5, "position_m": 1.}, {"time_s": 1., "position_m": 2.}]
+            self.assertEqual(tread.Run("out/creepage-0.001").frame(), ("frame", history, ["time_s", "position_m"]))
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            self.assertEqual(tread.Run("out/creepage-0.001").frame("history.csv"), history)
+
+
 class Commands(unittest.TestCase):
     def test_help_from_any_folder(self):
         commands = [path for pattern in ("contrib/*.py", "contrib/plot/*.py", "benchmarks/*.py") for path in glob.glob(os.path.join(ROOT, pattern))]
@@ -479,6 +566,19 @@ class TheProgram(InFolder):
         # It has rolled a millimetre: the load holds, and the patch carries it.
         self.assertAlmostEqual(run.history["normal_force_N"][-1] / (14300 * 9.81), 1, delta=0.02)
         self.assertAlmostEqual((run.patch.pressure * run.patch.area).sum() / run.summary["normal_force_N"], 1, delta=0.02)
+
+    def test_a_study_of_half_space_solutions(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            for repetition in range(2):
+                rows = tread.study("smooth-rolling.prm", {"Contact/Friction coefficient": [0.35, 0.5]}, figures=["creepage", "adhesion_share"], processes=2,
+                                   output="study", options=["--reference-only"], program=REAL_PROGRAM)
+                self.assertEqual([row["state"] for row in rows], ["complete"] * 2)
+                written = [os.path.getmtime(os.path.join(row["folder"], "summary.json")) for row in rows]
+                self.assertEqual(written, before if repetition else written)  # the second call takes what is there
+                before = written
+        # The same traction takes less of more friction.
+        self.assertLess(rows[1]["creepage"], rows[0]["creepage"])
+        self.assertGreater(rows[1]["adhesion_share"], 1.5 * rows[0]["adhesion_share"])
 
     def test_its_own_folder_and_its_own_line(self):
         own = tread.run("smooth-rolling.prm", {"Output/Directory": "own"}, options=["--reference-only"], program=REAL_PROGRAM)

@@ -5,6 +5,7 @@ import os
 
 import numpy as np
 
+from . import hertz
 from .files import read_table
 from .runs import ROOT
 
@@ -13,25 +14,9 @@ FORCE, FRICTION, SHEAR, POISSON = 82000., 0.3, 82e9, 0.28
 COMMON = {"normal_force": FORCE, "friction": FRICTION, "young": 2. * (1. + POISSON) * SHEAR, "poisson": POISSON}
 
 
-def elliptic(m):
-    """Complete elliptic integrals K and E of the parameter m, by arithmetic-geometric means."""
-    a, b, c, total = 1., np.sqrt(1. - m), np.sqrt(m), 0.5 * m
-    for n in range(1, 40):
-        a, b, c = 0.5 * (a + b), np.sqrt(a * b), 0.5 * (a - b)
-        total += 2. ** (n - 1) * c * c
-    return 0.5 * np.pi / a, 0.5 * np.pi / a * (1. - total)
-
-
 def curvatures(a, b):
-    """A, B (1/m) of the gap whose Hertzian patch has semi-axes a and b (m) under FORCE (Johnson 1985, eq. 4.26)."""
-    if a < b:
-        return curvatures(b, a)[::-1]
-    over = 3. * FORCE / (2. * np.pi * a * b) / (SHEAR / (1. - POISSON))  # largest pressure over the modulus of the pair
-    if a == b:
-        return [over * np.pi / (4. * a)] * 2
-    m = 1. - (b / a) ** 2
-    k, e = elliptic(m)
-    return [over * b / (m * a * a) * (k - e), over * b / (m * a * a) * ((a / b) ** 2 * e - k)]
+    """A, B (1/m) of the gap whose Hertzian patch has semi-axes a and b (m) under FORCE."""
+    return hertz.curvatures(a, b, FORCE, SHEAR / (1. - POISSON))
 
 
 def table_cases():

@@ -9,7 +9,6 @@ import gzip
 import hashlib
 import json
 import os
-import re
 
 
 class Error(Exception):
@@ -54,6 +53,15 @@ def read_table(path, required=(), text=("state",)):
     return table
 
 
+def frame_or_rows(rows, columns=None):
+    """A pandas DataFrame of [{column: value}], or the rows themselves where pandas is not installed. @param columns if there may be no row"""
+    try:
+        import pandas
+    except ImportError:
+        return rows
+    return pandas.DataFrame(rows, columns=columns)
+
+
 def read_summary(folder):
     """summary.json of a run, read anew. @raises DataError"""
     path = os.path.join(folder, "summary.json")
@@ -77,19 +85,37 @@ def is_complete(folder):
         return False
 
 
+def parameter_lines(lines):
+    """(number, kind, name, text) of each line of a parameter file that is not empty; one that ends with a backslash goes on in the next. kind is "set", with name "Section/Name" and the value as
+    text; "include" and "subsection", with the name; "end"; or None for a line that is none of these, or an end without a beginning, as
+    text."""
+    section, begun = [], ""
+    for number, line in enumerate(lines, 1):
+        line = begun + line.replace("\t", " ").rstrip("\n")
+        begun = line[:-1] if line.endswith("\\") else ""
+        if begun:
+            continue
+        line = line.split("#")[0].strip()
+        word, _, rest = line.partition(" ")
+        word = word.lower()
+        name, equals, value = rest.partition("=")
+        if word == "subsection":
+            section.append(rest.strip())
+            yield number, "subsection", rest.strip(), line
+        elif line.lower() == "end" and section:
+            section.pop()
+            yield number, "end", "", line
+        elif word == "set" and equals:
+            yield number, "set", "/".join(section + [name.strip()]), value.strip()
+        elif word == "include" and rest.strip():
+            yield number, "include", rest.strip(), line
+        elif line:
+            yield number, None, "", line
+
+
 def parameters_in(lines):
     """{"Section/Name": text} of the lines of a parameter file."""
-    result, section = {}, []
-    for line in lines:
-        line = line.split("#")[0].strip()
-        if line.startswith("subsection "):
-            section.append(line[len("subsection "):].strip())
-        elif line == "end" and section:
-            section.pop()
-        elif line.startswith("set "):
-            name, _, value = line[len("set "):].partition("=")
-            result["/".join(section + [name.strip()])] = value.strip()
-    return result
+    return {name: text for _, kind, name, text in parameter_lines(lines) if kind == "set"}
 
 
 def texts_of(scene, depth=0):
@@ -101,7 +127,7 @@ def texts_of(scene, depth=0):
             text = stream.read()
     except OSError as error:
         raise DataError(f"{scene}: {error.strerror}") from None
-    included = re.findall(r"^\s*include\s+([^#\n]*[^#\s])", text, re.MULTILINE)
+    included = [name for _, kind, name, _ in parameter_lines(text.splitlines()) if kind == "include"]
     return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name), depth + 1)]
 
 

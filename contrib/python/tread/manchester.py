@@ -5,6 +5,7 @@ import csv
 import os
 import tempfile
 
+from .contact_track import signs
 from .runs import PROGRAM, ROOT, run
 
 DATA = os.path.join(ROOT, "contrib", "contact-data", "manchester_a22.csv")
@@ -15,18 +16,17 @@ def positions():
     with open(DATA, encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
             value = {name: float(text) for name, text in row.items() if name != "side"}
-            # The benchmark's axes belong to the right side: y to the right, z down. Both wheels of tread have their own axes, y to
-            # their own side and z up: the right one mirrored at the track's plane, the left one turned about x.
-            own = 1. if row["side"] == "right" else -1.
             # No negative zeros among the settings.
+            own = 1. if row["side"] == "right" else -1.
             signed = lambda name: own * value[name] + 0.
+            figures = {"normal_force_N": value["FN_N"], "longitudinal_force_N": value["FX_N"], "lateral_force_N": value["FS_N"],
+                       "x_m": 1e-3 * value["x_cp_mm"], "y_m": 1e-3 * value["y_cp_mm"], "angle_rad": value["delta_rad"],
+                       "max_pressure_Pa": 1e6 * value["p_max_MPa"], "lateral_creepage": value["ceta"], "creepage": value["cksi"],
+                       "spin_per_m": 1e3 * value["cphi_rad_mm"]}
             yield row["side"], value["y_ws_mm"], {
                 "Wheelset/Lateral shift (mm)": signed("y_ws_mm"), "Wheelset/Yaw (mrad)": 1e3 * signed("yaw_rad"),
                 "Wheelset/Roll (mrad)": 1e3 * signed("roll_rad"), "Motion/Angular velocity (rad per s)": -value["omega_rad_s"]}, {
-                "normal_force_N": value["FN_N"], "longitudinal_force_N": -value["FX_N"], "lateral_force_N": -own * value["FS_N"],
-                "x_m": 1e-3 * value["x_cp_mm"], "y_m": 1e-3 * own * value["y_cp_mm"], "angle_rad": -own * value["delta_rad"],
-                "max_pressure_Pa": 1e6 * value["p_max_MPa"], "lateral_creepage": -value["ceta"] * own,
-                "creepage": value["cksi"], "spin_per_m": -1e3 * own * value["cphi_rad_mm"]}
+                name: signs(row["side"]).get(name, 1.) * figure for name, figure in figures.items()}
 
 
 # Finite elements roll 20 times as fast: the answer is that of steady rolling, whatever the speed.

@@ -15,7 +15,7 @@ import shutil
 import signal
 import subprocess
 
-from .files import Error, parameters_in, read_parameters, read_summary, read_table
+from .files import Error, frame_or_rows, parameters_in, read_parameters, read_summary, read_table
 
 # This file is contrib/python/tread/runs.py, to which folders of commands have links; installed by pip it has no such root.
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *3 * [os.pardir]))
@@ -54,15 +54,24 @@ def command(arguments, ranks=1, program=PROGRAM):
     return [*launch, program, *arguments]
 
 
+def scene_path(scene):
+    """A path from the current folder, or else from prm/ of the source tree."""
+    scene = os.fspath(scene)
+    shipped = os.path.join(ROOT, "prm", scene)
+    return shipped if not os.path.exists(scene) and os.path.exists(shipped) else scene
+
+
+def text_of(value):
+    """A value as parameter files have it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
 def arguments_of(scene, settings=(), output=None):
     """What follows the program's name. @param scene a path from the current folder, or from prm/ of the source tree
     @param settings {"Section/Name": value}, or a list of "Section/Name=value" """
-    scene = os.fspath(scene)
-    if not os.path.exists(scene) and os.path.exists(os.path.join(ROOT, "prm", scene)):
-        scene = os.path.join(ROOT, "prm", scene)
     if hasattr(settings, "items"):
-        settings = [f"{name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in settings.items()]
-    arguments = [scene]
+        settings = [f"{name}={text_of(value)}" for name, value in settings.items()]
+    arguments = [scene_path(scene)]
     for setting in settings:
         arguments += ["-s", setting]
     return arguments + (["--output", output] if output else [])
@@ -138,6 +147,12 @@ class Run:
     def table(self, name, required=(), text=("state",)):
         """{column: (rows,) array} of a CSV file in the folder; names of columns state their units."""
         return read_table(self.path(name), required, text)
+
+    def frame(self, name="history.csv"):
+        """A table of the folder as a pandas DataFrame with the columns of table(), or where pandas is not installed as a list of
+        dicts, one for each row."""
+        table = self.table(name)
+        return frame_or_rows([dict(zip(table, row)) for row in zip(*(column.tolist() for column in table.values()))], list(table))
 
     @functools.cached_property
     def summary(self):

@@ -33,6 +33,7 @@ checkpoint. The table is study.csv in the study's folder. Exit code 0: all compl
 """
 
 import argparse
+import contextlib
 import csv
 import io
 import itertools
@@ -42,11 +43,11 @@ import re
 import signal
 import subprocess
 import time
+import warnings
 
-from .commands import command_parser, run_command
-from .files import DataError, input_of, is_complete
+from .files import DataError, frame_or_rows, input_of, is_complete
 from .limits import Limit
-from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line
+from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line, scene_path, text_of
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
@@ -74,10 +75,12 @@ def settings_of(text, where):
 
 
 class Study:
-    """What the file asks for."""
+    """What a file, or a call of study(), asks for."""
 
-    def __init__(self, path):
-        entries, self.vary = self.read(path)
+    def __init__(self, path, entries, vary):
+        """@param path of the file, or what names the call in messages @param entries {entry: text}, those of DEFAULTS
+        @param vary {"Section/Name", or several with & between them: values separated by |}"""
+        self.vary = vary
         self.scene = os.path.join(os.path.dirname(os.path.abspath(path)), entries["Scene"])
         self.settings = settings_of(entries["Settings"], f"{path}: 'Settings'")
         self.without_defect = settings_of(entries["Smooth twin"], f"{path}: 'Smooth twin'")
@@ -118,8 +121,13 @@ class Study:
                 if other is not member:
                     raise DataError(f"{path}: two runs have the same values: {folder_name(other)} and {folder_name(member)}")
 
+    @classmethod
+    def of_file(cls, path):
+        return cls(path, *cls.read(path))
+
     @staticmethod
     def read(path):
+        """(entries, vary) of a file."""
         try:
             with open(path, encoding="utf-8") as stream:
                 lines = [line.split("#")[0].strip() for line in stream]
@@ -196,12 +204,14 @@ def folder_name(values):
 class Member(Run):
     """One run of a study."""
 
-    def __init__(self, study, root, name, settings, arguments):
+    def __init__(self, study, root, name, settings, program, options=()):
         super().__init__(os.path.join(root, name))
         self.name, self.state, self.process = name, "", None
-        self.line = arguments_of(study.scene, settings, self.folder)
-        self.ranks, self.program = arguments.ranks or study.ranks, arguments.program
+        self.line = [*arguments_of(study.scene, settings, self.folder), *options]
+        self.ranks, self.program = study.ranks, program
         self.input = input_of(study.scene, settings)
+        if options:
+            self.input["options"] = list(options)
 
     def same_input(self):
         try:
@@ -361,7 +371,107 @@ def tabulate(study, root, runs):
     return not missing
 
 
+def members_of(study, root, program, options=()):
+    """[(run, its smooth twin or None)] of a study in a folder."""
+    members, twins = [], {}
+    for values in study.members:
+        no_defect = study.without_defect.get("Defect/Shape") == "none"
+        left = {name: value for name, value in values.items()
+                if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
+        name = "smooth-twin" + ("_" + folder_name(left) if left else "")
+        if study.without_defect and name not in twins:
+            twins[name] = Member(study, root, name, {**study.settings, **left, **study.without_defect}, program, options)
+        members.append((Member(study, root, folder_name(values), {**study.settings, **values}, program, options), twins.get(name)))
+    return members
+
+
+def runs_of(members):
+    """Every run once, those of the members first."""
+    return [run for run, _ in members] + list(dict.fromkeys(twin for _, twin in members if twin is not None))
+
+
+def perform(study, root, members):
+    """Every run, and the tables. @returns whether every figure of the complete runs was found @raises Interruption"""
+    os.makedirs(root, exist_ok=True)
+    own = [run for run, _ in members]
+    try:
+        run_all(runs_of(members), study.processes)
+        for member, twin in members:
+            if twin is not None and member.state == COMPLETE:
+                add_dynamic_force(member, twin)
+    except Interruption:
+        tabulate(study, root, own)
+        raise
+    found = tabulate(study, root, own)
+    if study.limits:
+        report_limits(study, root, members)
+    return found
+
+
+def study(scene, vary, *, figures=(), settings=None, combination="product", smooth_twin=None, output=None, processes=1, ranks=1,
+          options=(), program=PROGRAM, show=False):
+    """Run a parameter variation of a scene, as contrib/study.py does from a file.
+
+    scene        path of a parameter file, from the current folder or from prm/ of the source tree
+    vary         {"Section/Name": values}, in the units that the names state; of parameters that vary together
+                 {("Section/Name", "Section/Other"): [(value, other), ...]}
+    figures      names as in 'Figures' of a study: of summary.json, max(...), dynamic(...); by default those that a file has
+    settings     {"Section/Name": value} of all runs
+    combination  "product" of the values, or "zip": first with first, ...
+    smooth_twin  {"Section/Name": value} that takes the defect away
+    output       folder of the study, by default results/ and the name of the scene
+    processes    runs at a time
+    ranks        of each run
+    options      more of the program's, such as ["--reference-only"]
+    show         print what happens, and the table
+
+    Returns a table with a row for each run: the varied values as given, the figures (nan where there is none), state, which is "complete" or
+    "failed: ...", and folder. It is a pandas DataFrame, or a list of dicts where pandas is not installed. study.csv in the folder is that of
+    the command. Results that are complete are not computed again; an interrupted call goes on when it is repeated. Raises DataError, and
+    KeyboardInterrupt after Ctrl-C, when all runs have a checkpoint.
+    """
+    where = "tread.study()"
+    joined = lambda values: " | ".join(map(text_of, values))
+    pairs = lambda given: joined(f"{name}={text_of(value)}" for name, value in (given or {}).items())
+    lists = {(name,) if isinstance(name, str) else tuple(name): [value if not isinstance(name, str) else (value,) for value in values]
+             for name, values in vary.items()}
+    for name, values in lists.items():
+        for text in map(text_of, itertools.chain(name, *values)):
+            if not text.strip() or "|" in text or "&" in text:
+                raise DataError(f"{where}: '{text}' cannot be varied; no text that is empty or has | or & in it")
+    if not lists:
+        raise DataError(f"{where}: vary names no parameter")
+    scene = os.path.abspath(scene_path(scene))
+    entries = {**DEFAULTS, "Scene": scene, "Settings": pairs(settings), "Combination": combination, "Smooth twin": pairs(smooth_twin),
+               "Processes": str(processes), "Ranks": str(ranks), **({"Figures": joined(figures)} if figures else {})}
+    asked = Study(where, entries, {" & ".join(name): joined(" & ".join(map(text_of, value)) for value in values) for name, values in lists.items()})
+    for path, what in ((scene, "scene"), (program, "program; build it or name it with program=")):
+        if not os.path.isfile(path):
+            raise DataError(f"{path}: no such {what}")
+    root = os.fspath(output or os.path.join("results", os.path.splitext(os.path.basename(scene))[0]))
+    members = members_of(asked, root, program, options)
+    try:
+        with contextlib.redirect_stdout(None) if not show else contextlib.nullcontext():
+            perform(asked, root, members)
+    except Interruption:
+        raise KeyboardInterrupt from None
+    rows = []
+    chosen = itertools.product(*lists.values()) if combination == "product" else zip(*lists.values())
+    for values, (run, _) in zip(chosen, members):
+        row = {name: value for names, together in zip(lists, values) for name, value in zip(names, together)}
+        for figure in asked.figures:
+            try:
+                row[figure] = figure_of(run, figure) if run.state == COMPLETE else float("nan")
+            except DataError as error:
+                row[figure] = float("nan")
+                warnings.warn(str(error), stacklevel=2)
+        rows.append({**row, "state": run.state, "folder": run.folder})
+    return frame_or_rows(rows)
+
+
 def main():
+    from .commands import command_parser  # which wants numpy
+
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
     signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
     parser = command_parser(__doc__)
@@ -372,43 +482,27 @@ def main():
     parser.add_argument("--program", default=PROGRAM, help="tread itself")
     parser.add_argument("--dry-run", action="store_true", help="list the runs and run nothing")
     arguments = parser.parse_args()
-    study = Study(arguments.study)
-    for path, what in ((study.scene, "scene"), (arguments.program, "program; build it or name it with --program")):
+    asked = Study.of_file(arguments.study)
+    for path, what in ((asked.scene, "scene"), (arguments.program, "program; build it or name it with --program")):
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
-    root = arguments.output or study.directory
-
-    members, twins = [], {}
-    for values in study.members:
-        no_defect = study.without_defect.get("Defect/Shape") == "none"
-        left = {name: value for name, value in values.items()
-                if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
-        name = "smooth-twin" + ("_" + folder_name(left) if left else "")
-        if study.without_defect and name not in twins:
-            twins[name] = Member(study, root, name, {**study.settings, **left, **study.without_defect}, arguments)
-        members.append((Member(study, root, folder_name(values), {**study.settings, **values}, arguments), twins.get(name)))
-    runs = [run for run, _ in members] + list(twins.values())
+    asked.processes, asked.ranks = arguments.processes or asked.processes, arguments.ranks or asked.ranks
+    root = arguments.output or asked.directory
+    members = members_of(asked, root, arguments.program)
     if arguments.dry_run:
-        for run in runs:
+        for run in runs_of(members):
             print(f"{run.name}: " + ", ".join(f"{name}={value}" for name, value in run.input["settings"].items()))
         return 0
-
-    os.makedirs(root, exist_ok=True)
     try:
-        run_all(runs, arguments.processes or study.processes)
-        for member, twin in members:
-            if twin is not None and member.state == COMPLETE:
-                add_dynamic_force(member, twin)
+        found = perform(asked, root, members)
     except Interruption:
-        tabulate(study, root, [run for run, _ in members])
         print("INTERRUPTED: the same command goes on")
         return 130
-    found = tabulate(study, root, [run for run, _ in members])
-    if study.limits:
-        report_limits(study, root, members)
     return 0 if found and all(run.state == COMPLETE for run, _ in members) else 1
 
 
 def command_line():
     """What contrib/study.py and tread-study do."""
+    from .commands import run_command  # which wants numpy
+
     run_command(main)

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A JSON schema of all parameters of a scene, and parameter files checked against it.
+
+The program lists names, defaults and meanings (--print-parameters); what it allows it says when it refuses a value. The schema describes
+a scene as {"Section": {"Name": value}}: numbers in the units that the names state, lists as arrays. It lies beside this file and needs
+no program.
+"""
+
+from __future__ import annotations
+
+import concurrent.futures
+import difflib
+import functools
+import json
+import math
+import os
+import re
+from collections.abc import Iterator
+
+from .files import DataError, Error, parameter_lines
+from .runs import PROGRAM, execute, must_end_well, own_line
+
+PATH = os.path.join(os.path.dirname(os.path.realpath(__file__)), "parameters.schema.json")
+# Texts of another form, which the program takes apart itself: a JSON pattern of each.
+NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*"
+TRIPLE = f"{NUMBER},{NUMBER},{NUMBER.replace('[-+]', '[+]')}"
+FORMS = {"x,y,depth in mm, depth above 0, entries separated by semicolons": f"^({TRIPLE}(;{TRIPLE})*;?)?\\s*$"}
+IMPOSSIBLE = "@"  # a value that only parameters with any text take
+
+
+def sections(listing: str) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """[(section, [(name, default, meaning)])] of what --print-parameters prints."""
+    found, meaning = [], []
+    for line in listing.splitlines():
+        line = line.strip()
+        if line.startswith("subsection "):
+            found.append((line[len("subsection "):], []))
+        elif found and line.startswith("#"):
+            meaning.append(line.lstrip("# "))
+        elif line.startswith("set "):
+            name, _, default = line[len("set "):].partition("=")
+            found[-1][1].append((name.strip(), default.strip(), " ".join(meaning)))
+            meaning = []
+    return found
+
+
+def listing(program: str = PROGRAM) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """sections() of a program."""
+    return sections(must_end_well(execute(["--print-parameters"], program=program)).stdout)
+
+
+def refusal(path: str, value: str, program: str) -> str | None:
+    """What the program says is allowed in place of a value of the parameter "Section/Name"; None if it takes the value, or refuses it only
+    together with other parameters."""
+    result = execute(["-s", f"{path}={value}", "--print-parameters"], program=program)
+    said = own_line(result.stderr)
+    if result.returncode and not said:
+        must_end_well(result)
+    found = re.fullmatch(re.escape(f"'{path}' cannot be '{value}'; allowed: ") + "(.*)", said or "")
+    return found[1] if result.returncode and found else None
+
+
+def limits_of(text: str) -> dict | None:
+    """Schema of a number in a range as the program words it: "0 to 2", "0 or more", "at most 1", "a finite number"."""
+    number = r"(-?\d[\d.]*(?:e[+-]?\d+)?)"
+    for pattern, names in ((f"{number} to {number}", ("minimum", "maximum")), (f"{number} or more", ("minimum",)),
+                           (f"at most {number}", ("maximum",)), ("a finite number", ())):
+        found = re.fullmatch(pattern, text)
+        if found:
+            return {"type": "number", **{name: plain(float(value)) for name, value in zip(names, found.groups())}}
+    return None
+
+
+def plain(value: float) -> float | int:
+    """Whole numbers without a point."""
+    return int(value) if value == int(value) and abs(value) < 1e15 else value
+
+
+def schema_of(text: str | None) -> dict:
+    """Schema of what the program allows, in its words; None: any text."""
+    if text is None:
+        return {"type": "string"}
+    if text in FORMS:
+        return {"type": "string", "pattern": FORMS[text]}
+    if text == "[Bool]":
+        return {"type": "boolean"}
+    found = re.fullmatch(r"up to (\d+) numbers from (.*), separated by commas", text)
+    if found and limits_of(found[2]):
+        return {"type": "array", "items": limits_of(found[2]), "maxItems": int(found[1])}
+    found = re.fullmatch(r"'(.*)' or a number from (.*)", text)
+    if found and limits_of(found[2]):
+        return {"anyOf": [{"const": found[1]}, limits_of(found[2])]}
+    limits = limits_of(text)
+    if limits:
+        return limits
+    if " or " in text and not re.search(r"[\[\]']", text):
+        return {"enum": text.split(" or ")}
+    raise Error(f"'{text}' is not understood as what a parameter may be")
+
+
+def parameter_schema(path: str, default: str, meaning: str, program: str = PROGRAM) -> dict:
+    """Schema of one parameter, by asking the program."""
+    schema = schema_of(refusal(path, IMPOSSIBLE, program))
+    part = schema.get("items", schema)
+    if part.get("type") == "number" and all(isinstance(part.get(name), int) for name in ("minimum", "maximum")):
+        # Whole numbers alone, or all between them?
+        if refusal(path, str(part["minimum"] + 0.5), program) is not None:
+            part["type"] = "integer"
+    if schema.get("type") == "array" and default:
+        schema["minItems"] = 1
+    value = value_of(default, schema)
+    return {"description": meaning, **schema, "default": value}
+
+
+def make_schema(program: str = PROGRAM, processes: int = 2) -> dict:
+    """The schema of a program, which is asked once or twice for each parameter; some minutes."""
+    found = listing(program)
+    asked = [(f"{section}/{name}", default, meaning) for section, entries in found for name, default, meaning in entries]
+    with concurrent.futures.ThreadPoolExecutor(processes) as pool:
+        answers = dict(zip((path for path, _, _ in asked), pool.map(lambda one: parameter_schema(*one, program), asked)))
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Parameters of tread", "type": "object",
+            "additionalProperties": False,
+            "properties": {section: {"type": "object", "additionalProperties": False,
+                                     "properties": {name: answers[f"{section}/{name}"] for name, _, _ in entries}} for section, entries in found}}
+
+
+@functools.lru_cache(maxsize=None)
+def shipped() -> dict:
+    """The schema beside this file. @raises DataError"""
+    try:
+        with open(PATH, encoding="utf-8") as stream:
+            return json.load(stream)
+    except OSError as error:
+        raise DataError(f"{PATH}: {error.strerror}") from None
+
+
+def parameters(schema: dict | None = None) -> dict[str, dict]:
+    """{"Section/Name": schema} of all parameters."""
+    return {f"{section}/{name}": entry for section, group in (schema or shipped())["properties"].items()
+            for name, entry in group["properties"].items()}
+
+
+def value_of(text: str, schema: dict):
+    """The text of a parameter file as the schema has it. What is not of its type is left as text."""
+    if "anyOf" in schema:
+        return next((value for value in (value_of(text, part) for part in schema["anyOf"]) if not isinstance(value, str)), text)
+    kind = schema.get("type")
+    if kind == "array":
+        return [value_of(part.strip(), schema["items"]) for part in text.split(",")] if text else []
+    if kind == "boolean":
+        return {"true": True, "false": False}.get(text, text)
+    if kind in ("number", "integer"):
+        try:
+            value = float(text)
+        except ValueError:
+            return text
+        if not math.isfinite(value) or "_" in text or (kind == "integer" and not re.fullmatch(r"[+-]?\d+", text)):
+            return text
+        return plain(value)
+    return text
+
+
+def allowed(schema: dict) -> str:
+    """What a schema allows, in words."""
+    if "anyOf" in schema:
+        return " or ".join(map(allowed, schema["anyOf"]))
+    if "const" in schema or "enum" in schema:
+        return " or ".join(f"'{value}'" for value in schema.get("enum", [schema.get("const")]))
+    if schema["type"] == "array":
+        return f"{schema.get('minItems', 0)} to {schema['maxItems']} of {allowed(schema['items'])}, separated by commas"
+    if schema["type"] == "boolean":
+        return "true or false"
+    if schema["type"] == "string":
+        return next((words for words, form in FORMS.items() if form == schema.get("pattern")), "any text")
+    word = "a whole number" if schema["type"] == "integer" else "a number"
+    low, high = schema.get("minimum"), schema.get("maximum")
+    if low is None and high is None:
+        return word
+    return f"{word}, {low} to {high}" if None not in (low, high) else f"{word}, {low} or more" if high is None else f"{word}, at most {high}"
+
+
+def fits(value, schema: dict) -> bool:
+    """Whether a value is one that the schema allows: type, enum, const, anyOf, minimum, maximum, items, minItems, maxItems, pattern."""
+    if "anyOf" in schema:
+        return any(fits(value, part) for part in schema["anyOf"])
+    if "enum" in schema or "const" in schema:
+        return value in schema.get("enum", [schema.get("const")])
+    kind = schema["type"]
+    if kind == "array":
+        return (isinstance(value, list) and schema.get("minItems", 0) <= len(value) <= schema["maxItems"]
+                and all(fits(part, schema["items"]) for part in value))
+    if kind == "boolean":
+        return isinstance(value, bool)
+    if kind == "string":
+        return isinstance(value, str) and re.search(schema.get("pattern", ""), value) is not None
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return (number and (kind == "number" or isinstance(value, int))
+            and schema.get("minimum", -math.inf) <= value <= schema.get("maximum", math.inf))
+
+
+def scene_errors(path: str, schema: dict | None = None, depth: int = 0) -> Iterator[tuple[str, int, str]]:
+    """(file, line, what is wrong) of a parameter file and of those that it includes."""
+    known = parameters(schema)
+    try:
+        with open(path, encoding="utf-8") as stream:
+            lines = stream.read().split("\n")
+    except (OSError, UnicodeDecodeError) as error:
+        yield path, 1, getattr(error, "strerror", None) or "is not text"
+        return
+    last, opened = 0, []
+    for number, kind, name, text in parameter_lines(lines):
+        last = number
+        if kind is None:
+            yield path, number, f"'{text}' is neither 'set NAME = VALUE' nor subsection, end or include"
+        elif kind == "include":
+            if depth == 10:
+                yield path, number, "is included by files that it includes"
+                return
+            yield from scene_errors(os.path.join(os.path.dirname(path), name), schema, depth + 1)
+        elif kind == "subsection":
+            opened.append(number)
+        elif kind == "end":
+            opened.pop()
+        elif name not in known:
+            close = nearest(name, known)
+            yield path, number, f"no parameter '{name}'" + (f"; did you mean '{close}'?" if close else "")
+        elif not fits(value_of(text, known[name]), known[name]):
+            yield path, number, f"'{name}' cannot be '{text}'; allowed: {allowed(known[name])}"
+    if opened:
+        yield path, last, f"the subsection of line {opened[-1]} has no end"
+
+
+def nearest(name: str, known: dict[str, dict]) -> str | None:
+    """The parameter that was most likely meant, the right name in another section before all."""
+    own = name.split("/", 1)[-1]
+    elsewhere = [path for path in known if path.split("/", 1)[1] == own]
+    return next(iter(elsewhere or difflib.get_close_matches(name, known, 1)), None)

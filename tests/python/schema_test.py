@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The JSON schema of parameters, scenes checked against it, and completion in bash.
+
+    tests/python/schema_test.py [build/source/tread]
+"""
+
+import glob
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from tread import schema
+from tread.files import parameters_in
+from tread.runs import ROOT, execute
+
+PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
+COMPLETION = os.path.join(ROOT, "contrib/completion/tread.bash")
+CHECK = os.path.join(ROOT, "contrib/check-scene.py")
+
+
+class Words(unittest.TestCase):
+    def test_what_the_program_says_is_allowed(self):
+        for text, wanted in ((None, {"type": "string"}), ("[Bool]", {"type": "boolean"}), ("0 to 2", {"type": "number", "minimum": 0, "maximum": 2}),
+                             ("-1e+06 to 0.5", {"type": "number", "minimum": -1000000, "maximum": 0.5}), ("0 or more", {"type": "number", "minimum": 0}),
+                             ("at most -1", {"type": "number", "maximum": -1}), ("a finite number", {"type": "number"}),
+                             ("sector or full", {"enum": ["sector", "full"]}),
+                             ("'masses' or a number from 0 or more", {"anyOf": [{"const": "masses"}, {"type": "number", "minimum": 0}]}),
+                             ("up to 5 numbers from 0 to 1, separated by commas",
+                              {"type": "array", "items": {"type": "number", "minimum": 0, "maximum": 1}, "maxItems": 5})):
+            self.assertEqual(schema.schema_of(text), wanted)
+        for text in ("[Map of x]", "much"):
+            with self.assertRaisesRegex(schema.Error, "is not understood"):
+                schema.schema_of(text)
+
+    def test_values(self):
+        number, whole = {"type": "number", "minimum": 0, "maximum": 2}, {"type": "integer", "minimum": 1, "maximum": 3}
+        word = {"anyOf": [{"const": "masses"}, {"type": "number", "minimum": 0}]}
+        cells = schema.schema_of(next(iter(schema.FORMS)))
+        some = {"type": "array", "items": number, "minItems": 1, "maxItems": 2}
+        for part, right, wrong in ((number, ("0", "2", "1e-3", " 1", ".5"), ("", "x", "2.1", "-1e-9", "nan", "inf", "1_0", "1 mm", "true")),
+                                   (whole, ("1", "3", "+2"), ("0", "4", "1.5", "1e0", "2.0", "")), (word, ("masses", "0", "7.5"), ("-1", "mass", "")),
+                                   (some, ("0", "1, 2"), ("", "1,2,1", "1,,2", "3")), ({"type": "boolean"}, ("true", "false"), ("yes", "1", "")),
+                                   (cells, ("", "-20,0,1.5; -20,0,4", "1, 2 , 3 ;4,5,6;"), ("1,2", "1,2,-3", "1,2,3;4,5", "x")),
+                                   ({"enum": ["a b", "c"]}, ("a b", "c"), ("a", "")), ({"type": "string"}, ("", "1", "any"), ())):
+            for text in right:
+                self.assertTrue(schema.fits(schema.value_of(text, part), part), (text, part))
+            for text in wrong:
+                self.assertFalse(schema.fits(schema.value_of(text, part), part), (text, part))
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def write(self, text, name="scene.prm"):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        return path
+
+    def errors(self, text):
+        return [f"{os.path.basename(file)}:{line}: {what}" for file, line, what in schema.scene_errors(self.write(text))]
+
+    def test_shipped_scenes_are_accepted(self):
+        scenes = [path for pattern in ("prm/**/*.prm", "tests/**/*.prm") for path in glob.glob(os.path.join(ROOT, pattern), recursive=True)]
+        self.assertGreater(len(scenes), 60)
+        result = subprocess.run([CHECK, *scenes], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+    def test_defaults_fit(self):
+        for name, entry in schema.parameters().items():
+            self.assertTrue(schema.fits(entry["default"], entry), name)
+            self.assertTrue(entry["description"], name)
+
+    def test_what_is_wrong_is_said_with_its_place(self):
+        for line, words in (("set Friction coeficient = 0.3", "no parameter 'Contact/Friction coeficient'; did you mean 'Contact/Friction coefficient'?"),
+                            ("set Finest cell (mm) = 1", "no parameter 'Contact/Finest cell (mm)'; did you mean 'Mesh/Finest cell (mm)'?"),
+                            ("set Friction coefficient = 2.5", "'Contact/Friction coefficient' cannot be '2.5'; allowed: a number, 0 to 2"),
+                            ("set Friction coefficient = much", "'Contact/Friction coefficient' cannot be 'much'"),
+                            ("set Largest number of sweeps = 1.5", "allowed: a whole number, 1 to 100000"),
+                            ("set Friction law = falling fast", "'Contact/Friction law' cannot be 'falling fast'; allowed: 'Coulomb' or "),
+                            ("set Friction factors = 1, -1", "'Contact/Friction factors' cannot be '1, -1'; allowed: 0 to 10000 of a number, 0 to 100"),
+                            ("Friction coefficient = 1", "'Friction coefficient = 1' is neither 'set NAME = VALUE'")):
+            with self.subTest(line):
+                found = self.errors(f"# a comment\nsubsection Contact\n  {line}   # another\nend\n")
+                self.assertEqual(len(found), 1)
+                self.assertTrue(found[0].startswith("scene.prm:3: ") and words in found[0], found)
+        self.assertEqual(self.errors("SUBSECTION Contact\n\tset Friction\tcoefficient \\\n = 0.3\nEND\n"), [])
+        self.assertEqual(self.errors("subsection Contact\n"), ["scene.prm:1: the subsection of line 1 has no end"])
+        self.assertIn("'end' is neither", self.errors("end\n")[0])
+        self.assertIn("No such file", next(schema.scene_errors("none.prm"))[2])
+
+    def test_files_that_are_included(self):
+        self.write("subsection Mesh\n  set Finest cell (mm) = -1\nend\n", "other.prm")
+        self.assertEqual(self.errors("include other.prm   # of old\n"),
+                         ["other.prm:2: 'Mesh/Finest cell (mm)' cannot be '-1'; allowed: " + schema.allowed(schema.parameters()["Mesh/Finest cell (mm)"])])
+        self.assertIn("included by files that it includes", self.errors("include scene.prm\n")[0])
+        self.assertIn("none.prm:1: No such file", self.errors("include none.prm\n")[0])
+
+    def test_the_command(self):
+        result = subprocess.run([CHECK, self.write("subsection Wheel\n  set Radius (mm) = -460\nend\n")], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr, result.stdout.count("\n")), (1, "", 1))
+        self.assertRegex(result.stdout, r"scene.prm:2: 'Wheel/Radius \(mm\)' cannot be '-460'; allowed: a number, ")
+
+
+@unittest.skipUnless(PROGRAM, "no program named")
+class TheProgram(unittest.TestCase):
+    def test_names_defaults_and_meanings_are_current(self):
+        known = schema.parameters()
+        found = [(f"{section}/{name}", default, meaning) for section, entries in schema.listing(PROGRAM) for name, default, meaning in entries]
+        self.assertEqual([name for name, _, _ in found], list(known))
+        for name, default, meaning in found:
+            self.assertEqual((schema.value_of(default, known[name]), meaning), (known[name]["default"], known[name]["description"]), name)
+
+    def test_ranges_are_current(self):
+        """Of some parameters of each kind; contrib/schema.py --check compares all."""
+        known = schema.parameters()
+        texts = {name: default for section, entries in schema.listing(PROGRAM) for name, default, _ in
+                 [(f"{section}/{name}", default, meaning) for name, default, meaning in entries]}
+        for name in ("Contact/Friction coefficient", "Contact/Largest number of sweeps", "Contact/Friction places (mm)", "Contact/Friction law",
+                     "Vehicle/Wheel load (kN)", "Defect/Profile file", "Scene/Quasi-static", "Wheel/Radius (mm)", "Output/Supports"):
+            self.assertEqual(schema.parameter_schema(name, texts[name], known[name]["description"], PROGRAM), known[name], name)
+
+    def test_the_program_refuses_the_same(self):
+        for name, value in (("Contact/Friction coefficient", "2.1"), ("Contact/Largest number of sweeps", "1.5"), ("Motion/Passages", "0"),
+                            ("Motion/Creepage", "0.9"), ("Motion/Drive", "rocket"), ("Vehicle/Wheel load (kN)", "heavy"), ("Scene/Quasi-static", "yes"),
+                            ("Contact/Friction factors", "1,-1")):
+            entry = schema.parameters()[name]
+            self.assertFalse(schema.fits(schema.value_of(value, entry), entry), name)
+            self.assertIn(f"'{name}' cannot be '{value}'", execute(["-s", f"{name}={value}", "--print-parameters"], program=PROGRAM).stderr)
+
+    def test_a_scene_as_the_program_prints_it_is_accepted(self):
+        printed = execute(["--print-parameters"], program=PROGRAM).stdout
+        for name, text in parameters_in(printed.splitlines()).items():
+            entry = schema.parameters()[name]
+            self.assertTrue(schema.fits(schema.value_of(text, entry), entry), name)
+
+
+@unittest.skipUnless(PROGRAM, "no program named")
+class Completion(unittest.TestCase):
+    def complete(self, *words):
+        script = f'source {COMPLETION}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _tread; printf "%s\\n" "${{COMPREPLY[@]}}"'
+        result = subprocess.run(["bash", "-c", script, "bash", PROGRAM, *words], cwd=ROOT, capture_output=True, text=True)
+        self.assertEqual(result.stderr, "")
+        return result.stdout.split("\n")[:-1]
+
+    def test_options(self):
+        self.assertEqual(self.complete("--s"), ["--shift-to", "--shift-step", "--smooth-twin", "--sleeper-stress", "--support"])
+        self.assertIn("-s", self.complete("-"))
+        self.assertEqual(self.complete("--window", ""), ["rectangular", "Hann"])
+
+    def test_paths(self):
+        self.assertEqual(self.complete("prm/smooth"), ["prm/smooth-rolling.prm"])
+        self.assertEqual(self.complete("prm/cu"), ["prm/curves"])
+        self.assertEqual(self.complete("scene.prm", "--output", "contrib/stu"), [""])
+        self.assertEqual(self.complete("--batch", "contrib/contact-data/creep"), ["contrib/contact-data/creep_table.csv"])
+
+    def test_parameters(self):
+        self.assertEqual(self.complete("-s", "Contact/Friction co"), [r"Contact/Friction\ coefficient="])
+        self.assertEqual(self.complete("-s", r"Contact/Friction\ co"), [r"Contact/Friction\ coefficient="])
+        self.assertEqual(self.complete("-s", '"Mesh/Fines'), ["Mesh/Finest cell (mm)="])
+        self.assertEqual(self.complete("-s", "Wheel/Poisson"), [r"Wheel/Poisson\'s\ ratio="])
+        self.assertEqual(len(self.complete("-s", "")), len(schema.parameters()))
+
+
+if __name__ == "__main__":
+    unittest.main()
