@@ -267,7 +267,7 @@ with tempfile.TemporaryDirectory() as folder:
         with open(path("map.csv"), "w", encoding="utf-8") as stream:
             stream.write("x_mm,y_mm,z_mm\n")
             np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -depth.ravel()]), "%.9g", ",")
-        base = {"Motion/Rolled distance (mm)": 60, "Motion/Start (mm)": -60, "Output/Write volume": "false"}
+        base = {"Motion/Rolled distance (mm)": 40, "Motion/Start (mm)": -60, "Output/Write volume": "false"}
         mapped = {**base, "Defect/Shape": "map", "Defect/Profile file": path("map.csv"), "Defect/Length (mm)": 0, "Defect/Depth (mm)": 0}
         cap = run(program, "tutorial/dip.prm", path("cap"), {**base, **dip})
         scanned = run(program, "tutorial/dip.prm", path("scanned"), mapped)
@@ -277,9 +277,6 @@ with tempfile.TemporaryDirectory() as folder:
         check.below("height map against the dip: normal force, largest difference over the dip's own", np.abs(forces[1] - forces[0]).max()
                     / np.abs(forces[0] - forces[2]).max(), 1e-4)
         check.that("the dip matters", np.abs(forces[0] - forces[2]).max() > 0.05 * load)
-        moved = run(program, "tutorial/dip.prm", path("moved"), {**mapped, "Defect/Lateral position (mm)": 12})
-        check.that("further to the side it matters less", np.abs(np.array(table(path("moved"), "history.csv")["normal_force_N"]) - forces[2]).max()
-                   < 0.5 * np.abs(forces[0] - forces[2]).max())
         with open(path("step.csv"), "w", encoding="utf-8") as stream:
             stream.write("x_mm,y_mm,z_mm\n")
             np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -0.1 - depth.ravel()]), "%.9g", ",")

@@ -29,14 +29,14 @@ namespace tread
       "run; in between it is interpolated smoothly and without overshoot.");
     section.add("Lateral stiffness (MN per m)", springs.stiffness,
                 "Between wheelset and a frame that runs along, from the position at the start.", Double(0.));
-    section.add("Lateral damping (kN s per m)", springs.damping, "", Double(0.));
+    section.add("Lateral damping (kN s per m)", springs.damping, "Of the speed across.", Double(0.));
     section.add("Lateral force (kN)", springs.force, "balance",
                 "Constant force on the wheelset to its own side. balance: what holds it in its place at the "
                 "start.",
                 Double());
     section.add("Yaw stiffness (MN m per rad)", springs.yaw_stiffness, "From the yaw at the start.",
                 Double(0.));
-    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "", Double(0.));
+    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Of the yaw rate.", Double(0.));
     section.add("Yaw moment (kN m)", springs.moment, "balance", "Constant, likewise.", Double());
     section.add(
       "Yaw inertia (kg m2)", yaw_inertia,
