@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -93,10 +94,14 @@ namespace tread
 
     void refresh_contact()
     {
+      check_that_nodes_stay(); // a search among nodes that fly apart fills the memory
       d.contact->refresh(x.data(), d.v.data(), unit_step);
     }
 
   private:
+    /// @throws std::runtime_error, one line, if nodes move by more in an iteration than any start needs.
+    /// Collective.
+    void check_that_nodes_stay() const;
     void set_masses();
     void set_loads();
     /// Whether a node of this rank's own is free to move.
@@ -147,6 +152,20 @@ namespace tread
         law = d.contact->set_friction(std::make_shared<CoulombFriction>(0.));
         refresh_contact();
       }
+  }
+
+
+  void ExplicitDynamics::Relaxation::check_that_nodes_stay() const
+  {
+    constexpr double longest_way = 10e-3; // m
+    bool             all_stay    = true;
+    for (const Vector3 &way : d.v)
+      all_stay = all_stay && dot(way, way) < longest_way * longest_way;
+    if (dealii::Utilities::MPI::logical_or(!all_stay, d.mesh.comm))
+      throw std::runtime_error(format("no equilibrium at the start: nodes move by more than %g mm in an "
+                                      "iteration; what yields cannot carry "
+                                      "the load, or supports do not hold the rail",
+                                      1e3 * longest_way));
   }
 
 

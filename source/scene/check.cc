@@ -4,6 +4,7 @@
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
+#include <tread/solid/element.h>
 
 #include <algorithm>
 #include <cmath>
@@ -299,6 +300,12 @@ namespace tread
       needs_inertia("'Defect/Shape' " + defect.shape);
     if (track.has_supports())
       needs_inertia("'Track/Foundation' " + name_of(track.foundation));
+    const double largest_ratio = element_named(solid.element).largest_poisson_ratio;
+    for (const auto &[body, material] :
+         {std::pair("Wheel", &wheel.material), std::pair("Rail", &rail.material)})
+      require(material->elastic().poisson_ratio <= largest_ratio,
+              "'Solid/Element' " + solid.element + " locks at '" + body + "/Poisson's ratio' " +
+                text_of(material->elastic().poisson_ratio) + "; at most " + text_of(largest_ratio));
     require(time_stepping.levels == 1 || solid.stiffness_damping >= least_damping_of_levels,
             "'Time stepping/Levels' " + std::to_string(time_stepping.levels) +
               " needs 'Solid/Stiffness damping (time steps)' of at least " +

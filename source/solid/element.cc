@@ -11,7 +11,11 @@ namespace tread
     template <typename E>
     ElementEntry entry()
     {
-      return {E::name, E::description, E::can_yield, E::has_bulk_viscosity,
+      return {E::name,
+              E::description,
+              E::can_yield,
+              E::has_bulk_viscosity,
+              E::largest_poisson_ratio,
               [](const SolidParameters &parameters) -> std::shared_ptr<const Element> {
                 return std::make_shared<E>(parameters);
               }};

@@ -89,6 +89,8 @@ namespace tread
     std::string name, description;
     /// Cells that yield are one-point cells; bulk viscosity is a pressure of cells with one strain.
     bool can_yield, has_bulk_viscosity;
+    /// Up to which it does not lock: beyond it cells are too stiff to keep their volume and bend.
+    double largest_poisson_ratio;
     std::shared_ptr<const Element> (*make)(const SolidParameters &parameters);
   };
 

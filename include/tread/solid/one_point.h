@@ -14,6 +14,7 @@ namespace tread
     static constexpr const char *name        = "one-point";
     static constexpr const char *description = "uniform strain with hourglass stiffness, fast";
     static constexpr bool        can_yield = true, has_bulk_viscosity = true;
+    static constexpr double      largest_poisson_ratio = 0.5;
 
     explicit OnePoint(const SolidParameters &parameters)
       : parameters(parameters)
