@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 // Faces as mortar.cc sees them, projected into one plane: shape functions, dual functions, the part that two
 // of them share, and the points at which that is integrated.
@@ -135,11 +136,13 @@ namespace tread
     }
   };
 
-  /// The intersection of two convex quadrilaterals: each edge of one adds at most one corner to the remainder
-  /// of the other.
-  using Polygon = boost::container::static_vector<Plane2, 8>;
+  /// The intersection of two convex quadrilaterals has at most eight corners: each edge of one adds at most
+  /// one to the remainder of the other. Each edge may double those of one that is folded.
+  constexpr unsigned int most_corners = 8;
+  using Polygon                       = boost::container::static_vector<Plane2, 2 * most_corners>;
 
   /// The subject cut by the inner side of each edge of the other (Sutherland & Hodgman 1974).
+  /// @throws std::runtime_error, one line, where a face is folded.
   inline Polygon intersection(const Quadrilateral &subject, const Quadrilateral &clip)
   {
     Polygon polygon(subject.corners.begin(), subject.corners.end()), input;
@@ -160,6 +163,10 @@ namespace tread
                 polygon.push_back({p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)});
               }
           }
+        if (polygon.size() > most_corners)
+          throw std::runtime_error(
+            "a face of the contact surfaces has folded: the cells below it are crushed; what "
+            "yields cannot carry the load, or its cells are too flat");
       }
     return polygon;
   }
