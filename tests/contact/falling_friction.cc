@@ -61,9 +61,9 @@ namespace
     const double d        = free_slip - stopping * kinetic_coefficient;
     const double argument = -(stopping * fall / slip_speed) * std::exp(-d / slip_speed);
     if (argument < -std::exp(-1.))
-      return {std::nan(""), std::nan("")};
-    return {d + slip_speed * boost::math::lambert_wm1(argument),
-            d + slip_speed * boost::math::lambert_w0(argument)};
+      return {{std::nan(""), std::nan("")}};
+    return {{d + slip_speed * boost::math::lambert_wm1(argument),
+             d + slip_speed * boost::math::lambert_w0(argument)}};
   }
 
   void check_one_node(Check &check)

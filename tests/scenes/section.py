@@ -55,8 +55,11 @@ with tempfile.TemporaryDirectory() as folder:
 
     two = run(program, SCENE, path("two"), ["Contact/Tolerance=1e-12", *SHORT], 2)
     one = run(program, SCENE, path("one"), ["Contact/Tolerance=1e-12", *SHORT])
-    for key in ("normal_force_N", "lateral_force_N", "max_pressure_Pa", "patch_area_m2"):
+    for key in ("normal_force_N", "max_pressure_Pa", "patch_area_m2"):
         check.relative(f"2 ranks against 1: {key}", two[key], one[key], 1e-8)
+    # What two opposite forces leave, of which each is a fortieth of the normal force.
+    check.absolute("2 ranks against 1: lateral force over a fortieth of the normal one", 40. * two["lateral_force_N"] / two["normal_force_N"],
+                   40. * one["lateral_force_N"] / one["normal_force_N"], 1e-8)
 
     # A head as measured: an arc of 200 mm, by which Hertz's patch is narrower.
     with open(path("head.txt"), "w", encoding="utf-8") as stream:
