@@ -139,7 +139,7 @@ CASES = [
     Case("dip at 300 km/h", "5 mm deep, 100 mm long: flies and lands", "no force for a time, then more than two loads", scene="tutorial/dip.prm", settings={
         "Defect/Depth (mm)": 5, "Defect/Length (mm)": 100, "Defect/Width (mm)": 40, "Motion/Speed (km per h)": 300, "Motion/Rolled distance (mm)": 200,
         "Defect/Position (mm)": -160, "Mesh/Fine to (mm)": 150, "Mesh/Fine half width (mm)": 16, "Output/Write volume": "false"}, check=leaves_the_rail(2.)),
-    Case("sharp edge at 200 km/h", "0.5 mm deep, 20 mm long, kinks at its ends", "the force falls below 0.3 and rises above 1.5 loads",
+    Case("sharp edge at 200 km/h", "0.5 mm deep, 20 mm long, kinks at its ends", "the wheel bridges it: the force falls below 0.3 and rises above 1.1 loads",
          scene="tutorial/dip.prm", settings={"Defect/Depth (mm)": 0.5, "Defect/Length (mm)": 20, "Motion/Speed (km per h)": 200,
                                              "Output/Write volume": "false"},
          check=lambda summary, folder: edge_forces(folder)),
@@ -150,7 +150,7 @@ CASES = [
 def edge_forces(folder):
     force = read_table(os.path.join(folder, "history.csv"))["normal_force_N"]
     least, peak = min(force) / force[0], max(force) / force[0]
-    return f"least {least:.2f}, peak {peak:.2f} loads", least < 0.3 and peak > 1.5
+    return f"least {least:.2f}, peak {peak:.2f} loads", least < 0.3 and peak > 1.1
 
 
 def roll(case, folder, courant, ranks):
