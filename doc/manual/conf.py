@@ -3,8 +3,11 @@
 doc/ and to pictures are the same here and where the pages are read one by one.
 """
 
+import html
 import os
 import re
+
+from docutils import nodes
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -52,5 +55,12 @@ def complete(app, name, source):
         source[0] = f"# Licence\n\n```\n{source[0]}\n```\n"
 
 
+def unwrap_equations(app, doctree):
+    """Equations as they stand: Sphinx puts those with a line break into an environment in which equations have no numbers."""
+    for equation in doctree.findall(nodes.math_block):
+        equation.replace_self(nodes.raw("", f'<div class="math notranslate nohighlight">\\[{html.escape(equation.astext())}\\]</div>\n', format="html"))
+
+
 def setup(app):
     app.connect("source-read", complete)
+    app.connect("doctree-read", unwrap_equations)
