@@ -6,6 +6,7 @@ doc/ and to pictures are the same here and where the pages are read one by one.
 import html
 import os
 import re
+import unicodedata
 
 from docutils import nodes
 
@@ -61,6 +62,52 @@ def unwrap_equations(app, doctree):
         equation.replace_self(nodes.raw("", f'<div class="math notranslate nohighlight">\\[{html.escape(equation.astext())}\\]</div>\n', format="html"))
 
 
+def plain(text):
+    """Without the marks of LaTeX."""
+    text = re.sub(r"""\{?\\(["'~])\{?(\w)\}?\}?""", lambda m: unicodedata.normalize("NFC", m[2] + {'"': "\u0308", "'": "\u0301", "~": "\u0303"}[m[1]]), text)
+    return " ".join(re.sub(r"[{}]", "", text.replace("{\\ss}", "\u00df").replace("\\&", "&").replace("--", "\u2013")).split())
+
+
+def sources():
+    """What doc/bibliography.bib says, by key: {field: text}."""
+    with open(os.path.join(ROOT, "doc", "bibliography.bib"), encoding="utf-8") as stream:
+        entries = re.findall(r"^@\w+\{(\w+),(.*?)^\}", stream.read(), flags=re.MULTILINE | re.DOTALL)
+    field = r"(\w+)\s*=\s*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}"
+    return {key: {name: plain(text) for name, text in re.findall(field, entry)} for key, entry in entries}
+
+
+SOURCES = sources()
+
+
+def link_sources(app, doctree):
+    """[key] leads to its line in the list of sources."""
+    page = app.builder.get_relative_uri(app.env.docname, "doc/bibliography")
+    for text in list(doctree.findall(nodes.Text)):
+        if isinstance(text.parent, (nodes.literal, nodes.literal_block, nodes.math, nodes.raw, nodes.reference)):
+            continue
+        parts = re.split(r"\[(" + "|".join(SOURCES) + r")(?=[],])", text.astext())
+        if len(parts) > 1:
+            new = [nodes.Text(parts[0])]
+            for key, rest in zip(parts[1::2], parts[2::2]):
+                source = SOURCES[key]
+                title = ", ".join(source[name] for name in ("author", "title", "year") if name in source)
+                new += [nodes.Text("["), nodes.reference("", key, refuri=f"{page}#{key}", reftitle=title), nodes.Text(rest)]
+            text.parent.replace(text, new)
+
+
+def page_of_sources(app):
+    lines = []
+    for key, source in sorted(SOURCES.items()):
+        said = [f"<em>{html.escape(source[name])}</em>" if name in ("journal", "booktitle") else html.escape(source[name])
+                for name in ("author", "title", "journal", "booktitle", "school", "publisher", "volume", "pages", "year", "note") if name in source]
+        if "doi" in source:
+            said.append(f'<a href="https://doi.org/{html.escape(source["doi"])}">{html.escape(source["doi"])}</a>')
+        lines.append(f'<dt id="{key}">{key}</dt><dd>{", ".join(said)}</dd>\n')
+    yield "doc/bibliography", {"title": "Bibliography", "body": "<h1>Bibliography</h1>\n<dl>\n" + "".join(lines) + "</dl>\n"}, "page.html"
+
+
 def setup(app):
     app.connect("source-read", complete)
     app.connect("doctree-read", unwrap_equations)
+    app.connect("doctree-read", link_sources)
+    app.connect("html-collect-pages", page_of_sources)

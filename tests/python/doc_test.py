@@ -90,6 +90,12 @@ class Pages(unittest.TestCase):
             if os.path.basename(page) != "README.md":
                 self.assertIn(os.path.basename(page), listed)
 
+    def test_sources(self):
+        keys = re.findall(r"^@\w+\{(\w+),", text_of(os.path.join(ROOT, "doc", "bibliography.bib")), flags=re.MULTILINE)
+        for page in PAGES:
+            for key in re.findall(r"\[([a-z]+\d{4})[],]", prose(text_of(page))):
+                self.assertIn(key, keys, page)
+
     def test_messages(self):
         sources = [path for folder in ("source", "include") for ending in ("cc", "h") for path in glob.glob(f"{ROOT}/{folder}/**/*.{ending}", recursive=True)]
         said = re.sub(r'"\s*\n\s*"', "", "".join(map(text_of, sources))).replace("%%", "%")
