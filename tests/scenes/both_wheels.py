@@ -16,9 +16,9 @@ from tread_runner import Check, run, run_stopped, table
 program = sys.argv[1]
 check = Check()
 SCENE = "curves/klingel.prm"
-LOAD = 60e3  # N, on each wheel
+LOAD = 150e3  # N, on each wheel
 HELD = {"Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance",
-        "Motion/Rolled distance (mm)": 10, "Output/Write volume": "false", "Mesh/Fine half width (mm)": 0}
+        "Motion/Rolled distance (mm)": 10, "Output/Write volume": "false", "Mesh/Fine half width (mm)": 0, "Mesh/Fine layers": 4}
 
 
 def history_of(folder):
