@@ -256,6 +256,8 @@ def patch_numbers(run):
 def along_patch(table, patch):
     """Places in the contact axes of a patch: along its plane across the path, and off it (mm)."""
     y, z = table["y_mm"] - 1e3 * patch["y_rail_m"], table["z_mm"] - 1e3 * patch["z_m"]
+    if patch.get("wheel") == "other":  # the table counts y from the middle of the own rail, to the own side
+        y = 1e3 * (2. * patch["y_m"] + patch["y_rail_m"]) - table["y_mm"]
     c, s = np.cos(patch["angle_rad"]), np.sin(patch["angle_rad"])
     return c * y + s * z, c * z - s * y
 
@@ -296,7 +298,7 @@ def draw_patches(run):
             axis.grid(False)
             axis.set_xlabel("x from the axle, rolling direction [mm]")
             axis.set_ylabel("s, along the surface [mm]")
-        text = f"patch {k + 1}: contact angle {np.degrees(patch['angle_rad']):.1f}°, normal force {1e-3 * patch['normal_force_N']:.2f} kN"
+        text = f"patch {k + 1}{' of the other wheel' if patch.get('wheel') == 'other' else ''}: contact angle {np.degrees(patch['angle_rad']):.1f}°, normal force {1e-3 * patch['normal_force_N']:.2f} kN"
         if not run.half_space_only:
             text += f" (half-space {1e-3 * run.summary['half_space_patches'][k]['normal_force_N']:.2f})"
         row[0].set_title(text, loc="left", fontsize=9)

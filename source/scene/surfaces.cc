@@ -269,6 +269,8 @@ namespace tread
 
   double Scene::rolling_radius() const
   {
+    if (wheelset.both_wheels) // which have different ones
+      return wheel.radius;
     if (is_positioned())
       return placed_wheel().main_patch().rolling_radius;
     const auto &offset = surfaces().tread_offset;

@@ -214,7 +214,7 @@ namespace tread
     {
       return wheel.radius + first_contact().lift;
     }
-    /// Rolling radius of the wheel at the first contact, m.
+    /// Rolling radius of the wheel at the first contact; of both wheels of a wheelset the nominal one, m.
     double rolling_radius() const;
     /// Lateral radius of the gap between the surfaces where they touch, m.
     double lateral_radius() const;
