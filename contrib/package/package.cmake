@@ -15,9 +15,9 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Commands are in Python. numpy is needed by those that read columns, matplotlib by those that draw, openmpi-bin has mpirun.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.9)")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-numpy, python3-matplotlib, openmpi-bin")
+# Commands are in Python and need numpy; those that draw need matplotlib. openmpi-bin has mpirun.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, openmpi-bin")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-h5py, paraview")
 # Programs linked to libtread_half_space depend on this package; ldconfig runs by a trigger. Python's compiled files come and go with the package.
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libtread_half_space 1 tread (>= ${PROJECT_VERSION})\n")

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is installed, all of it, works from a folder elsewhere and writes nothing into itself.
 
-    installed.py BUILD
+    installed.py BUILD PYTHON_FOLDER
 """
 
 import os
@@ -38,7 +38,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("one header, no archive of objects", [name for name in installed if name.endswith((".h", ".a"))] == ["include/tread/half_space.h"])
     check.that("no leftovers", not [name for name in installed if re.search(r"\.pyc$|~$|\.orig$|results/", name)])
     # The package lies there as on Debian, below the folder of libraries, where no source tree is around it.
-    python = environment(PATH=os.path.join(prefix, "bin") + ":/usr/bin:/bin", PYTHONPATH=os.path.join(prefix, "lib/python3/dist-packages"),
+    python = environment(PATH=os.path.join(prefix, "bin") + ":/usr/bin:/bin", PYTHONPATH=os.path.join(prefix, sys.argv[2]),
                          PYTHONDONTWRITEBYTECODE="1")
     python.pop("TREAD_HALF_SPACE_LIBRARY", None)
 
@@ -66,7 +66,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("the manual page has all options", len(options) > 15 and not [option for option in options if not re.search(rf"{option}\b(?!-)", manual)])
     # As bash-completion reads it, inside a function.
     completion = os.path.join(prefix, "share/bash-completion/completions/tread")
-    completed = said("bash", "-c", f"load() {{ source {completion}; }}; load; COMP_WORDS=(tread -s Contact/Friction\\ co); COMP_CWORD=2; _tread; echo $COMPREPLY")
+    words = f"({prefix}/bin/tread -s Contact/Friction\\ co)"
+    completed = said("bash", "-c", f"load() {{ source {completion}; }}; load; COMP_WORDS={words}; COMP_CWORD=2; _tread 2>&1; echo $COMPREPLY")
     check.that("completion", completed.strip() == "Contact/Friction\\ coefficient=")
     check.that("nothing is written there", files_below(prefix) == installed)
 check.exit()
