@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/wheelset_contact.h>
 #include <tread/base/format.h>
+#include <tread/geometry/contact_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -236,13 +237,13 @@ namespace tread
 
   Vector3d WheelPatch::along() const
   {
-    return {0., std::cos(region.angle), std::sin(region.angle)};
+    return {0., (is_of_other_wheel ? -1. : 1.) * std::cos(region.angle), std::sin(region.angle)};
   }
 
 
   Vector3d WheelPatch::normal() const
   {
-    return {0., -std::sin(region.angle), std::cos(region.angle)};
+    return {0., (is_of_other_wheel ? 1. : -1.) * std::sin(region.angle), std::cos(region.angle)};
   }
 
 
@@ -346,5 +347,76 @@ namespace tread
       }
     throw std::runtime_error("no height of the wheelset is found at which the wheel carries " +
                              text_of(1e-3 * load) + " kN");
+  }
+
+
+  WheelRolling WheelRolling::mirrored() const
+  {
+    WheelRolling other = *this;
+    for (double *to_the_side : {&other.lateral_speed, &other.across_speed, &other.yaw_rate, &other.roll_rate})
+      *to_the_side = 0. - *to_the_side;
+    return other;
+  }
+
+
+  WheelContact of_other_wheel(const WheelContact &mirrored)
+  {
+    WheelContact contact = mirrored;
+    contact.position     = mirrored.position.mirrored();
+    contact.force[1]     = 0. - mirrored.force[1];
+    for (WheelPatch &patch : contact.patches)
+      {
+        patch.is_of_other_wheel   = true;
+        patch.region.reference[1] = 0. - patch.region.reference[1];
+      }
+    return contact;
+  }
+
+
+  namespace
+  {
+    /// Moment of all forces about the middle of the axle that pushes the side of this wheel down, N m.
+    double roll_moment(const WheelOnRail &surfaces, const WheelContact &contact)
+    {
+      const Vector3d middle = WheelOnRail::middle(contact.position, surfaces.radius());
+      double         moment = 0.;
+      for (const WheelPatch &patch : contact.patches)
+        moment -= cross(difference(patch.region.reference, middle), patch.force())[0];
+      return moment;
+    }
+  } // namespace
+
+
+  BothWheels contact_of_both_wheels(const WheelOnRail  &surfaces,
+                                    const WheelRolling &rolling,
+                                    WheelsetPosition    position,
+                                    const double        load)
+  {
+    // Both wheels give their height for a load and a roll; the roll that makes the heights equal follows from
+    // the rigid contacts' distance but for the inclinations, and so does the shift of load that balances.
+    constexpr double       height_tolerance = 1e-9, share_tolerance = 1e-5; // m, of the load
+    constexpr unsigned int most  = 30;
+    const double           lever = surfaces.wheel_origin_y();
+    position.roll                = touching_wheelset(surfaces, position).position.roll;
+    double shifted               = 0.; // load from the other to the own wheel
+    for (unsigned int turn = 1; turn <= most; ++turn)
+      {
+        BothWheels both{
+          contact_under_load(surfaces, rolling, position, 0.5 * load + shifted),
+          contact_under_load(surfaces, rolling.mirrored(), position.mirrored(), 0.5 * load - shifted)};
+        const double higher = both.other.position.height - both.own.position.height;
+        const double moment = roll_moment(surfaces, both.own) - roll_moment(surfaces, both.other);
+        if (std::abs(higher) <= height_tolerance && std::abs(moment) <= share_tolerance * load * lever)
+          {
+            both.own.turns += both.other.turns;
+            return both;
+          }
+        position.roll += 0.5 * higher / lever;
+        shifted += 0.5 * moment / lever;
+        if (std::abs(shifted) >= 0.5 * load)
+          break;
+      }
+    throw std::runtime_error("no roll of the wheelset is found at which both wheels carry " +
+                             format("%g kN without a moment", 1e-3 * load));
   }
 } // namespace tread

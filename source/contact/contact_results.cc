@@ -29,6 +29,16 @@ namespace tread
   }
 
 
+  Vector3 Contact::total_impulse_below(const double y) const
+  {
+    Vector3 sum{};
+    for (unsigned int j = 0; j < impulse.size(); ++j)
+      if (surfaces.nodes[problem.constraints[j].slave].reference[1] < y)
+        sum += impulse[j];
+    return sum;
+  }
+
+
   double Contact::free_rolling_creepage(const Vector3 *x, const unsigned int master_body) const
   {
     std::vector<Vector3> now;

@@ -123,7 +123,16 @@ namespace tread
       double hub_load = 0.;        ///< static force of all but the cells, N
       double mass = 0., load = 0.; ///< of all nodes of the wheel; with the hub's load
       double hub_velocity = 0.;
+      // Of a hub that rolls: the same about x through its middle, N m and the square of the arms times mass.
+      double hub_roll_inertia = 0., roll_inertia = 0., hub_roll_velocity = 0.;
     };
+    /// Displacement of a node of a wheel by a roll of its hub, per radian, m.
+    Vector3 by_roll(const Wheel &wheel, const unsigned int i) const
+    {
+      return WheelHub::by_roll(x[i] - wheel.hub->middle());
+    }
+    /// Moment of all forces on hub and cells of a wheel that rolls the hub, N m. Collective.
+    double               roll_moment(const std::size_t k) const;
     std::vector<OfWheel> of_wheels;
     double               lightness = 0.;
     double               keep      = kept_at_first;
@@ -191,11 +200,20 @@ namespace tread
     mesh.shared_nodes.sum(mass.data());
     for (unsigned int i = 0; i < x.size(); ++i)
       if (d.carried[i])
-        of_wheels[d.wheel_of(i)].hub_mass += mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
+        {
+          OfWheel     &of_wheel = of_wheels[d.wheel_of(i)];
+          const double own      = mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
+          const auto   roll     = by_roll(d.wheels[d.wheel_of(i)], i);
+          of_wheel.hub_mass += own;
+          of_wheel.hub_roll_inertia += own * dot(roll, roll);
+        }
       else if (!d.fixed[i] && mass[i][0] > 0.)
         inverse[i] = 1. / mass[i][0];
     for (OfWheel &wheel : of_wheels)
-      wheel.hub_mass = sum(wheel.hub_mass, mesh.comm);
+      {
+        wheel.hub_mass         = sum(wheel.hub_mass, mesh.comm);
+        wheel.hub_roll_inertia = sum(wheel.hub_roll_inertia, mesh.comm);
+      }
   }
 
 
@@ -219,16 +237,29 @@ namespace tread
     for (unsigned int i = 0; i < x.size(); ++i)
       if (const int number = d.wheel_of(i); number >= 0 && mesh.shared_nodes.is_owned(i))
         {
+          const Vector3 roll = by_roll(d.wheels[number], i);
           of_wheels[number].mass += mass[i][0];
           of_wheels[number].load += body_force[i][2];
+          of_wheels[number].roll_inertia += mass[i][0] * dot(roll, roll);
         }
     for (std::size_t k = 0; k < of_wheels.size(); ++k)
       {
-        OfWheel &wheel = of_wheels[k];
-        wheel.hub_load = d.wheels[k].hub->static_force();
-        wheel.mass     = sum(wheel.mass, mesh.comm);
-        wheel.load     = sum(wheel.load, mesh.comm) + wheel.hub_load;
+        OfWheel &wheel     = of_wheels[k];
+        wheel.hub_load     = d.wheels[k].hub->static_force();
+        wheel.mass         = sum(wheel.mass, mesh.comm);
+        wheel.load         = sum(wheel.load, mesh.comm) + wheel.hub_load;
+        wheel.roll_inertia = sum(wheel.roll_inertia, mesh.comm);
       }
+  }
+
+
+  double ExplicitDynamics::Relaxation::roll_moment(const std::size_t k) const
+  {
+    double of_cells = 0.;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (d.wheel_of(i) == static_cast<int>(k) && is_free_and_owned(i))
+        of_cells += dot(by_roll(d.wheels[k], i), d.force[i]);
+    return sum(of_cells, d.mesh.comm) - d.rank_sums[n_hub_sums * k + 3];
   }
 
 
@@ -251,14 +282,17 @@ namespace tread
     // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves: the
     // frequency that still moves (Underwood 1983).
     double              change = 0., inertia = 0.;
-    std::vector<double> momentum(of_wheels.size(), 0.);
+    std::vector<double> momentum(of_wheels.size(), 0.), turning(of_wheels.size(), 0.);
     for (unsigned int i = 0; i < x.size(); ++i)
       if (is_free_and_owned(i))
         {
           change -= dot(d.v[i], d.force[i] - previous[i]);
           inertia += dot(d.v[i], d.v[i]) / inverse[i];
           if (const int number = d.wheel_of(i); number >= 0)
-            momentum[number] += d.v[i][2] / inverse[i];
+            {
+              momentum[number] += d.v[i][2] / inverse[i];
+              turning[number] += dot(by_roll(d.wheels[number], i), d.v[i]) / inverse[i];
+            }
         }
     change  = sum(change, d.mesh.comm) / keep;
     inertia = sum(inertia, d.mesh.comm);
@@ -269,6 +303,12 @@ namespace tread
         inertia += wheel.hub_mass * wheel.hub_velocity * wheel.hub_velocity;
         if (lightness > 0.)
           inertia -= lightness / (1. + lightness) * total * total / wheel.mass;
+        if (!d.wheels[k].hub->rolls())
+          continue;
+        const double turns = sum(turning[k], d.mesh.comm) + wheel.hub_roll_inertia * wheel.hub_roll_velocity;
+        inertia += wheel.hub_roll_inertia * wheel.hub_roll_velocity * wheel.hub_roll_velocity;
+        if (lightness > 0.)
+          inertia -= lightness / (1. + lightness) * turns * turns / wheel.roll_inertia;
       }
     inertia /= keep * keep;
     const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
@@ -276,7 +316,10 @@ namespace tread
     for (Vector3 &velocity : d.v)
       velocity *= keep / kept;
     for (OfWheel &wheel : of_wheels)
-      wheel.hub_velocity *= keep / kept;
+      {
+        wheel.hub_velocity *= keep / kept;
+        wheel.hub_roll_velocity *= keep / kept;
+      }
   }
 
 
@@ -327,8 +370,8 @@ namespace tread
   void ExplicitDynamics::Relaxation::advance(const bool measure)
   {
     // The rigid shift r of a wheel: inverse masses M^-1 + lightness r r^T / (r^T M r). It strains no cell, as
-    // K r = 0.
-    std::vector<double> shift(of_wheels.size(), 0.);
+    // K r = 0. So is a roll.
+    std::vector<double> shift(of_wheels.size(), 0.), roll(of_wheels.size(), 0.), rolled(of_wheels.size(), 0.);
     double              of_hubs = 0., hub_loads = 0.;
     for (std::size_t k = 0; k < of_wheels.size(); ++k)
       {
@@ -342,6 +385,16 @@ namespace tread
         of_wheel.hub_velocity = keep * displacement;
         of_hubs               = std::max(of_hubs, std::abs(imbalance));
         hub_loads             = std::max(hub_loads, std::abs(of_wheel.hub_load));
+        if (!wheel.hub->rolls())
+          continue;
+        const double moment = -d.rank_sums[n_hub_sums * k + 3];
+        if (lightness > 0.)
+          roll[k] = lightness / of_wheel.roll_inertia * roll_moment(k);
+        of_wheel.hub_roll_velocity += moment / of_wheel.hub_roll_inertia + roll[k];
+        rolled[k] = of_wheel.hub_roll_velocity;
+        of_wheel.hub_roll_velocity *= keep;
+        of_hubs =
+          std::max(of_hubs, std::abs(moment) / std::sqrt(of_wheel.hub_roll_inertia / of_wheel.hub_mass));
       }
     double squares = 0., load_squares = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -351,19 +404,27 @@ namespace tread
             squares += dot(d.force[i], d.force[i]);
             load_squares += dot(body_force[i], body_force[i]);
           }
-        const int     number = d.wheel_of(i);
-        const Vector3 displacement =
+        const int number = d.wheel_of(i);
+        Vector3   displacement =
           d.v[i] + inverse[i] * d.force[i] + Vector3{0., 0., number >= 0 ? shift[number] : 0., 0.};
+        if (number >= 0 && roll[number] != 0.)
+          displacement += roll[number] * by_roll(d.wheels[number], i);
         x[i] += displacement;
         d.v[i] = keep * displacement;
       }
     for (std::size_t k = 0; k < of_wheels.size(); ++k)
-      for (std::size_t j = 0; j < d.wheels[k].nodes.size(); ++j)
-        {
-          const unsigned int i = d.wheels[k].nodes[j];
-          x[i]                 = d.wheels[k].hub->position_of(d.wheels[k].reference[j]);
-          d.v[i]               = Vector3{0., 0., of_wheels[k].hub_velocity, 0.};
-        }
+      {
+        const Wheel &wheel = d.wheels[k];
+        if (rolled[k] != 0.)
+          wheel.hub->roll_by(rolled[k]);
+        for (std::size_t j = 0; j < wheel.nodes.size(); ++j)
+          {
+            const unsigned int i = wheel.nodes[j];
+            x[i]                 = wheel.hub->position_of(wheel.reference[j]);
+            d.v[i]               = Vector3{0., 0., of_wheels[k].hub_velocity, 0.} +
+                     of_wheels[k].hub_roll_velocity * by_roll(wheel, i);
+          }
+      }
     d.mesh.distribute_hanging_nodes(x.data());
     Mesh::distribute(d.levels.hanging_at_contact, d.v.data()); // all that is asked for
     if (!measure)

@@ -97,6 +97,28 @@ namespace tread
       return columns;
     }
 
+    /// Of a wheelset with both wheels.
+    const Columns<WheelRecord> &both_wheels_columns()
+    {
+      using R = WheelRecord;
+      static const Columns<R> columns{{"roll", "rad",
+                                       [](const R &r) {
+                                         return r.roll;
+                                       }},
+                                      {"other_normal_force", "N",
+                                       [](const R &r) {
+                                         return r.other_force[2];
+                                       }},
+                                      {"other_longitudinal_force", "N",
+                                       [](const R &r) {
+                                         return r.other_force[0];
+                                       }},
+                                      {"other_lateral_force", "N", [](const R &r) {
+                                         return r.other_force[1];
+                                       }}};
+      return columns;
+    }
+
     const Columns<EnergyLedger> &energy_columns()
     {
       using R = EnergyLedger;
@@ -162,9 +184,7 @@ namespace tread
   } // namespace
 
 
-  Columns<HistoryRow> history_columns(const unsigned int      n_wheels,
-                                      const bool              moves_across,
-                                      const std::vector<int> &supports)
+  Columns<HistoryRow> history_columns(const HistoryParts &parts)
   {
     using R          = HistoryRow;
     const auto wheel = [](const std::size_t i) {
@@ -182,9 +202,11 @@ namespace tread
     add_columns(columns, contact_columns(), "", wheel(0));
     add_columns(columns, energy_columns(), "", [](const R &r) -> const EnergyLedger & { return r.energy; });
     add_columns(columns, axle_columns(), "", wheel(0));
-    if (moves_across)
+    if (parts.moves_across)
       add_columns(columns, across_columns(), "", wheel(0));
-    if (!supports.empty())
+    if (parts.has_both_wheels)
+      add_columns(columns, both_wheels_columns(), "", wheel(0));
+    if (!parts.supports.empty())
       columns.push_back({"spring_energy", "J", [](const R &r) {
                            return r.energy.springs;
                          }});
@@ -211,10 +233,10 @@ namespace tread
                                             {"rail_at_next_mid_span", "m", [](const SupportRecord &s) {
                                                return s.rail_at_mid_span;
                                              }}};
-    for (std::size_t i = 0; i < supports.size(); ++i)
-      add_columns(columns, of_support, "support_" + std::to_string(supports[i]) + "_",
+    for (std::size_t i = 0; i < parts.supports.size(); ++i)
+      add_columns(columns, of_support, "support_" + std::to_string(parts.supports[i]) + "_",
                   [i](const R &r) -> const SupportRecord & { return r.supports[i]; });
-    for (unsigned int i = 1; i < n_wheels; ++i)
+    for (unsigned int i = 1; i < parts.n_wheels; ++i)
       for (const auto *of_wheel : {&contact_columns(), &axle_columns()})
         add_columns(columns, *of_wheel, "wheel_" + std::to_string(i + 1) + "_", wheel(i));
     return columns;

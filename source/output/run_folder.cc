@@ -230,12 +230,10 @@ namespace tread
   }
 
 
-  void RunFolder::open_histories(const bool              resume,
-                                 const double            time,
-                                 const unsigned int      n_wheels,
-                                 const bool              moves_across,
-                                 const std::vector<int> &supports,
-                                 const std::size_t       n_cells)
+  void RunFolder::open_histories(const bool          resume,
+                                 const double        time,
+                                 const HistoryParts &parts,
+                                 const std::size_t   n_cells)
   {
     if (!writes_tables)
       return;
@@ -250,7 +248,7 @@ namespace tread
             if (std::stod((*i)[1]) <= time)
               (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
         }
-    of_history = history_columns(n_wheels, moves_across, supports);
+    of_history = history_columns(parts);
     of_cells   = cell_columns(n_cells);
     open_table(history, "history.csv", heading(of_history), resume, time);
     if (n_cells > 0)

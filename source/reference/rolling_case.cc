@@ -8,6 +8,7 @@
 #include "slip_friction.h"
 
 #include <algorithm>
+#include <iterator>
 #include <chrono>
 #include <cmath>
 
@@ -28,6 +29,9 @@ namespace tread::reference
     require(std::isfinite(c.layer) && c.layer >= 0., "layer", c.layer, ">= 0 m/Pa");
     require(!c.slip_friction || combine(c.wheel, c.rail).coupling == 0., "slip_friction with coupling",
             combine(c.wheel, c.rail).coupling, "that of like bodies, 0");
+    require(!c.pressure_factor || combine(c.wheel, c.rail).coupling == 0., "pressure_factor with coupling",
+            combine(c.wheel, c.rail).coupling, "that of like bodies, 0");
+    require(!c.pressure_factor || !c.slip_friction, "pressure_factor", 1., "none with slip_friction");
     if (c.prescribe_force)
       require(std::abs(c.traction_coefficient) < c.friction ||
                 (c.friction == 0. && c.traction_coefficient == 0.),
@@ -290,15 +294,20 @@ namespace tread::reference
           if (known)
             contact.normal = by_elements;
         }
-      else if (c.slip_friction)
+      else if (c.slip_friction || c.pressure_factor)
         {
           if (!known)
             {
               const FourierGrid fourier(grid);
               contact.normal = solve_normal(fourier, NormalOperator(fourier, pair), normal);
             }
-          contact.tangential = solve_with_slip_friction(grid, pair, contact.normal.pressure, tangential,
-                                                        *c.slip_friction, c.speed);
+          const std::vector<double> &pressure = contact.normal.pressure;
+          if (c.pressure_factor)
+            std::transform(pressure.begin(), pressure.end(), std::back_inserter(tangential.friction_share),
+                           c.pressure_factor);
+          contact.tangential = c.slip_friction ? solve_with_slip_friction(grid, pair, pressure, tangential,
+                                                                          *c.slip_friction, c.speed)
+                                               : solve_tangential(grid, pair, pressure, tangential);
         }
       else if (known)
         contact.tangential = solve_tangential(grid, pair, contact.normal.pressure, tangential);

@@ -31,7 +31,7 @@ namespace tread::reference
         , bound(r.pressure)
       {
         for (double &b : bound)
-          b *= c.friction;
+          b = c.friction_bound(b);
       }
 
       Measures measures() const
@@ -212,7 +212,7 @@ namespace tread::reference
     for (std::size_t e = 0; e < fine.pressure.size(); ++e)
       {
         const double shear = std::hypot(fine.shear_x[e], fine.shear_y[e]),
-                     limit = rolling_case.friction * fine.pressure[e];
+                     limit = rolling_case.friction_bound(fine.pressure[e]);
         if (shear > limit)
           {
             fine.shear_x[e] *= limit / shear;

@@ -169,11 +169,7 @@ namespace tread
     require(wheel.is_full() || wheel.sector_margin >= 3. * a,
             "'Wheel/Sector margin (mm)' " + text_in_mm(wheel.sector_margin) +
               " lets the contact leave the sector; at least three semi-axes, " + text_in_mm(3. * a));
-    const double longest_arc = 0.95 * 2. * dealii::numbers::PI * wheel.radius;
-    require(wheel.is_full() || motion.rolled_distance + 2. * wheel.sector_margin <= longest_arc,
-            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
-            "wheel's circumference, " +
-              text_in_mm(longest_arc));
+    check_sector();
 
     // Around the finest cells there is room for at least one more.
     const double beside = std::abs(path_y());
@@ -196,6 +192,16 @@ namespace tread
             "'Mesh/Fine from (mm)' to 'Fine to (mm)', from the defect's leading edge at " +
               text_in_mm(defect.position) + " mm, must lie on the rail from " + text_in_mm(rail_begin()) +
               " to " + text_in_mm(rail_end()) + " mm at least in part");
+  }
+
+
+  void Scene::check_sector() const
+  {
+    const double longest_arc = 0.95 * 2. * dealii::numbers::PI * wheel.radius;
+    require(wheel.is_full() || motion.rolled_distance + 2. * wheel.sector_margin <= longest_arc,
+            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
+            "wheel's circumference, " +
+              text_in_mm(longest_arc));
   }
 
 

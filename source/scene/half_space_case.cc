@@ -63,6 +63,8 @@ namespace tread
     const auto   law    = scene.friction_law();
     c.friction          = factor * law->coefficient(0.);
     c.slip_friction.reset();
+    if (!scene.contact.friction_pressures.empty())
+      c.pressure_factor = [contact = scene.contact](const double p) { return contact.pressure_factor(p); };
     if (!law->is_constant())
       c.slip_friction = std::make_shared<const reference::RollingCase::SlipFriction>(
         reference::RollingCase::SlipFriction{[=](const double s) { return factor * law->coefficient(s); },
@@ -80,6 +82,11 @@ namespace tread
       text_of(c.traction_coefficient);
     if (c.slip_friction && reference::combine(c.wheel, c.rail).coupling != 0.)
       throw InputError(law + " with unlike materials of wheel and rail has no half-space answer");
+    if (c.pressure_factor && reference::combine(c.wheel, c.rail).coupling != 0.)
+      throw InputError(
+        "'Contact/Friction pressures (MPa)' with unlike materials of wheel and rail has no half-space answer");
+    if (c.pressure_factor && c.slip_friction)
+      throw InputError("'Contact/Friction pressures (MPa)' with " + law + " has no half-space answer");
     if (c.prescribe_force && c.traction_coefficient != 0. && std::abs(c.traction_coefficient) >= c.friction)
       throw InputError(traction + " is not below the friction coefficient in size, which is " +
                        text_of(c.friction) +

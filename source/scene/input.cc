@@ -211,7 +211,8 @@ namespace tread
     if (time_stepping.levels > 1 && solid.mass_damping == 0.)
       time_stepping.courant_number = std::min(time_stepping.courant_number, largest_with_levels);
     folder = std::filesystem::path(file).parent_path();
-    guidance.check();
+    wheelset.check();
+    guidance.check(wheelset.both_wheels);
     if (guidance.kind == Guidance::file)
       take_wheelset_motion();
   }
@@ -222,6 +223,8 @@ namespace tread
     wheelset_motion = std::make_shared<const WheelsetMotion>(located(guidance.file));
     const Across start =
       wheelset_motion->at(0., {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
+    require(!(wheelset.both_wheels && wheelset_motion->has_roll()),
+            "'Guidance/File' has roll_mrad, which is found where 'Wheelset/Both wheels' is true");
     wheelset.shift = start.y;
     wheelset.yaw   = start.yaw;
     wheelset.roll  = start.roll;

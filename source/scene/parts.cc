@@ -179,13 +179,15 @@ namespace tread
   WheelHubParameters hub_parameters(const Scene &scene)
   {
     WheelHubParameters p;
-    p.mass                 = scene.wheel.mass;
-    p.moment_of_inertia    = scene.wheel.moment_of_inertia;
-    p.sprung_mass          = scene.vehicle.sprung_mass;
-    p.suspension_stiffness = scene.vehicle.suspension_stiffness;
-    p.suspension_damping   = scene.vehicle.suspension_damping;
-    p.gravity              = scene.vehicle.gravity;
-    p.yaw_inertia          = scene.guidance.yaw_inertia;
+    const double       n_wheels = scene.wheelset.n_wheels();
+    p.mass                      = n_wheels * scene.wheel.mass;
+    p.moment_of_inertia         = n_wheels * scene.wheel.moment_of_inertia;
+    p.sprung_mass               = n_wheels * scene.vehicle.sprung_mass;
+    p.suspension_stiffness      = n_wheels * scene.vehicle.suspension_stiffness;
+    p.suspension_damping        = n_wheels * scene.vehicle.suspension_damping;
+    p.gravity                   = scene.vehicle.gravity;
+    p.yaw_inertia               = scene.guidance.yaw_inertia;
+    p.roll_inertia              = scene.wheelset.both_wheels ? p.yaw_inertia : 0.;
     return p;
   }
 

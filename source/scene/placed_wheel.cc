@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/geometry/contact_points.h>
 #include <tread/mesh/profile_block.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/wheelset_case.h>
@@ -16,25 +17,52 @@ namespace tread
       return Vector3{v[0], v[1], v[2], 0.};
     }
 
-    WheelContact solve(const Scene            &scene,
-                       const WheelOnRail      &surfaces,
-                       const WheelsetPosition &position,
-                       const WheelRolling     &rolling)
+    const WheelPatch &most_loaded(const std::vector<WheelPatch> &patches)
     {
-      try
-        {
-          return contact_under_load(surfaces, rolling, position, scene.static_load());
-        }
-      catch (const std::exception &error)
-        {
-          throw InputError(
-            format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and a roll of "
-                   "%g mrad: ",
-                   1e3 * position.shift, 1e3 * position.yaw, 1e3 * position.roll) +
-            error.what());
-        }
+      return *std::max_element(patches.begin(), patches.end(), [](const WheelPatch &a, const WheelPatch &b) {
+        return a.solution.normal_force < b.solution.normal_force;
+      });
     }
   } // namespace
+
+
+  std::vector<PlacedWheel::Side> PlacedWheel::solve(const Scene            &scene,
+                                                    const WheelOnRail      &surfaces,
+                                                    const WheelsetPosition &position,
+                                                    const WheelRolling     &rolling)
+  {
+    const double load = scene.static_load();
+    try
+      {
+        if (!scene.wheelset.both_wheels)
+          return {{contact_under_load(surfaces, rolling, position, load), false}};
+        const BothWheels both = contact_of_both_wheels(surfaces, rolling, position, 2. * load);
+        return {{both.own, false}, {both.other, true}};
+      }
+    catch (const std::exception &error)
+      {
+        throw InputError(
+          format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and a roll of "
+                 "%g mrad: ",
+                 1e3 * position.shift, 1e3 * position.yaw, 1e3 * position.roll) +
+          error.what());
+      }
+  }
+
+
+  WheelContact PlacedWheel::together(const std::vector<Side> &sides)
+  {
+    WheelContact all = sides.front().contact;
+    for (const Side &side : sides)
+      if (side.is_mirrored)
+        {
+          const WheelContact other = of_other_wheel(side.contact);
+          all.patches.insert(all.patches.end(), other.patches.begin(), other.patches.end());
+          for (unsigned int d = 0; d < 3; ++d)
+            all.force[d] += other.force[d];
+        }
+    return all;
+  }
 
 
   PlacedWheel::PlacedWheel(const Scene &scene)
@@ -45,18 +73,27 @@ namespace tread
 
   PlacedWheel::PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling)
     : surfaces(scene.wheel_on_rail())
-    , contact(solve(scene, surfaces, position, rolling))
+    , sides(solve(scene, surfaces, position, rolling))
     , load(scene.static_load())
+    , contact(together(sides))
   {
   }
 
 
   const WheelPatch &PlacedWheel::main_patch() const
   {
-    return *std::max_element(patches().begin(), patches().end(),
-                             [](const WheelPatch &a, const WheelPatch &b) {
-                               return a.solution.normal_force < b.solution.normal_force;
-                             });
+    return most_loaded(sides.front().contact.patches);
+  }
+
+
+  PlacedWheel::Rise PlacedWheel::rise() const
+  {
+    const double own = main_patch().rise;
+    if (sides.size() == 1)
+      return {own, 0.};
+    const double other = most_loaded(sides.back().contact.patches).rise;
+    // A positive roll rate takes the own side down.
+    return {0.5 * (own + other), 0.5 * (other - own) / surfaces.wheel_origin_y()};
   }
 
 
@@ -240,7 +277,8 @@ namespace tread
       OnBody rail, wheel;
     };
 
-    Wandering wandering(const Scene &scene, const WheelOnRail &surfaces)
+    /// @param of_other_wheel whether the other wheel's is asked for, in the axes of its own side
+    Wandering wandering(const Scene &scene, const WheelOnRail &surfaces, const bool of_other_wheel)
     {
       Wandering all;
       if (scene.guidance.kind != Guidance::file)
@@ -251,8 +289,12 @@ namespace tread
       std::optional<WheelOnRail::OutlinePoint> first;
       for (unsigned int i = 0; i <= n_instants; ++i)
         {
-          const Across                    now = scene.across(duration * i / n_instants);
-          const WheelOnRail::OutlinePoint at = surfaces.nearest({shift + now.y, now.yaw, now.roll, 0.}).point;
+          const Across     now = scene.across(duration * i / n_instants);
+          WheelsetPosition position{shift + now.y, now.yaw, now.roll, 0.};
+          if (scene.wheelset.both_wheels)
+            position = touching_wheelset(surfaces, position).position;
+          const WheelOnRail::OutlinePoint at =
+            surfaces.nearest(of_other_wheel ? position.mirrored() : position).point;
           if (!first)
             first = at;
           const auto on_rail = [&](const WheelOnRail::OutlinePoint &p) {
@@ -338,25 +380,19 @@ namespace tread
   } // namespace
 
 
+  std::function<dealii::Point<3>(const Vector3d &)> PlacedWheel::from_track(const bool is_mirrored) const
+  {
+    return [origin = surfaces.rail_origin_y(), sign = is_mirrored ? -1. : 1.](const Vector3d &p) {
+      return dealii::Point<3>(p[0], sign * p[1] - origin, p[2]);
+    };
+  }
+
+
   Body PlacedWheel::make_rail(const Scene &scene) const
   {
-    const ProfileCurve profile      = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
-    const auto         parameter_of = [&](const WheelPatch &patch) {
-      return surfaces.rail().parameter(patch.region.reference[1]);
-    };
-    const Middle          middle = middle_of(patches(), parameter_of);
-    const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
-                                  scene.wheel.sector_thickness, scene.wheel.half_width());
-    const Wandering       wanders = wandering(scene, surfaces);
-    std::vector<FineZone> zones;
-    for (const WheelPatch &patch : patches())
-      zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
-                              parameter_of(patch), middle.s, wanders.rail));
-    require_on_profile(section, zones,
-                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head");
-    Body body = make_profile_block(
-      section, scene.rail_begin(), scene.rail_end(), scene.mesh.coarsest_cell, zones, false,
-      [](const double x, const dealii::Point<2> p) { return dealii::Point<3>(x, p[0], p[1]); });
+    Body body = rail_of(scene, sides.front());
+    if (sides.size() > 1)
+      body = join(body, rail_of(scene, sides.back()));
     body.name = "rail";
     return body;
   }
@@ -364,16 +400,53 @@ namespace tread
 
   Body PlacedWheel::make_wheel(const Scene &scene) const
   {
-    const ProfileCurve  &profile = surfaces.wheel();
-    const Middle         middle = middle_of(patches(), [](const WheelPatch &patch) { return patch.wheel_s; });
+    Body body = wheel_of(scene, sides.front());
+    if (sides.size() > 1)
+      body = join(body, wheel_of(scene, sides.back()));
+    body.name = "wheel";
+    return body;
+  }
+
+
+  Body PlacedWheel::rail_of(const Scene &scene, const Side &side) const
+  {
+    const std::vector<WheelPatch> &patches = side.contact.patches;
+    const ProfileCurve             profile = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
+    const auto                     parameter_of = [&](const WheelPatch &patch) {
+      return surfaces.rail().parameter(patch.region.reference[1]);
+    };
+    const Middle          middle = middle_of(patches, parameter_of);
+    const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
+                                  scene.wheel.sector_thickness, scene.wheel.half_width());
+    const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
+    std::vector<FineZone> zones;
+    for (const WheelPatch &patch : patches)
+      zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
+                              parameter_of(patch), middle.s, wanders.rail));
+    require_on_profile(section, zones,
+                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head");
+    return make_profile_block(section, scene.rail_begin(), scene.rail_end(), scene.mesh.coarsest_cell, zones,
+                              side.is_mirrored,
+                              [in_mesh = from_track(side.is_mirrored),
+                               origin  = surfaces.rail_origin_y()](const double x, const dealii::Point<2> p) {
+                                return in_mesh({x, p[0] + origin, p[1]});
+                              });
+  }
+
+
+  Body PlacedWheel::wheel_of(const Scene &scene, const Side &side) const
+  {
+    const std::vector<WheelPatch> &patches = side.contact.patches;
+    const ProfileCurve            &profile = surfaces.wheel();
+    const Middle         middle = middle_of(patches, [](const WheelPatch &patch) { return patch.wheel_s; });
     const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
                                  scene.wheel.sector_thickness, scene.wheel.half_width());
     // Along the tread arcs have the length that they have on the circle through the middle.
     const double          radius  = surfaces.radius() - profile.at(middle.s).z;
-    const Wandering       wanders = wandering(scene, surfaces);
+    const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
     std::vector<FineZone> zones;
     double                begin = 1e300, end = -1e300;
-    for (const WheelPatch &patch : patches())
+    for (const WheelPatch &patch : patches)
       {
         const double arc = radius * patch.wheel_angle;
         zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, wanders.wheel));
@@ -382,16 +455,14 @@ namespace tread
       }
     require_on_profile(section, zones, "Wheel/Tread profile");
     const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
-    Body         body =
-      make_profile_block(section, begin - margin, end + scene.motion.rolled_distance + margin,
-                         scene.mesh.coarsest_cell, zones, true,
-                         [surfaces = surfaces, position = contact.position, radius,
-                          x_start](const double arc, const dealii::Point<2> p) {
-                           const Vector3d q = surfaces.place(position, p[0], p[1], arc / radius);
-                           return dealii::Point<3>(q[0] + x_start, q[1] - surfaces.rail_origin_y(), q[2]);
-                         });
-    body.name = "wheel";
-    return body;
+    return make_profile_block(section, begin - margin, end + scene.motion.rolled_distance + margin,
+                              scene.mesh.coarsest_cell, zones, !side.is_mirrored,
+                              [in_mesh = from_track(side.is_mirrored), surfaces = surfaces,
+                               position = side.contact.position, radius,
+                               x_start](const double arc, const dealii::Point<2> p) {
+                                const Vector3d q = surfaces.place(position, p[0], p[1], arc / radius);
+                                return in_mesh({q[0] + x_start, q[1], q[2]});
+                              });
   }
 
 

@@ -220,7 +220,11 @@ namespace tread
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
     if (is_positioned())
-      return placed_wheel().place_in_rail(p, placed_wheel().main_patch()).below;
+      {
+        const PlacedWheel &wheel = placed_wheel();
+        const WheelPatch  &patch = wheel.patches()[wheel.nearest_patch(Vector3{p[0], p[1], p[2], 0.})];
+        return wheel.place_in_rail(p, patch).below;
+      }
     const auto &height = surfaces().defect;
     return surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
   }

@@ -99,9 +99,8 @@ namespace tread
       "'Wheel/Lateral position (mm)' is for an upright wheel; in a track 'Wheelset/Lateral shift (mm)' takes "
       "its place");
     require(defect.shape == "none", "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
-    require(
-      further_wheels.distances.empty(),
-      "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position: one wheel is solved");
+    require(further_wheels.distances.empty(),
+            "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position");
     require(motion.angular_velocity || (motion.drive == Drive::creepage && motion.creepage),
             "a wheelset in a given position needs 'Motion/Angular velocity (rad per s)', or a number for "
             "'Motion/Creepage'");
@@ -110,9 +109,10 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
-    require(contact.friction_places.empty() && friction_law()->is_constant(),
-            "'Contact/Friction law' must be Coulomb and 'Friction places (mm)' empty where 'Wheelset' has a "
-            "position: its half-space answer knows one coefficient");
+    require(contact.friction_places.empty() && contact.friction_pressures.empty() &&
+              friction_law()->is_constant(),
+            "'Contact/Friction law' must be Coulomb, 'Friction places (mm)' and 'Friction pressures (MPa)' "
+            "empty where 'Wheelset' has a position: its half-space answer knows one coefficient");
   }
 
 
@@ -150,6 +150,7 @@ namespace tread
                     "ahead of the axle, " +
                     text_in_mm(3. * a + std::abs(patch.region.reference[0])));
       }
+    check_sector();
     check_plasticity();
     check_numerics();
   }

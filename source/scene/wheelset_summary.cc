@@ -49,7 +49,7 @@ namespace tread
                }},
               {"y_rail_m", "y from the rail's middle, mm", 1e3,
                [rail_y](const P &p) {
-                 return p.region.reference[1] - rail_y;
+                 return (p.is_of_other_wheel ? -1. : 1.) * p.region.reference[1] - rail_y;
                }},
               {"z_m", "", 1e3,
                [](const P &p) {
@@ -149,7 +149,8 @@ namespace tread
     std::string text = format("%-32s", "");
     for (std::size_t k = 0; k < patches.size(); ++k)
       {
-        text += format(" %12s", ("patch " + std::to_string(k + 1)).c_str());
+        text += format(
+          " %12s", ((patches[k].is_of_other_wheel ? "other " : "patch ") + std::to_string(k + 1)).c_str());
         if (!references.empty())
           text += format(" %12s %10s", "half-space", "diff.");
       }
@@ -180,6 +181,7 @@ namespace tread
     for (const WheelPatch &patch : patches)
       {
         nlohmann::ordered_json entry;
+        entry["wheel"] = patch.is_of_other_wheel ? "other" : "own";
         for (const Figure &figure : figures_of_patch(rail_y))
           entry[figure.key] = figure.value(patch);
         list.push_back(entry);
@@ -236,7 +238,7 @@ namespace tread
     summary.set("completed", completed);
     summary.set("lateral_shift_m", scene.wheelset.position().shift);
     summary.set("yaw_rad", scene.wheelset.yaw);
-    summary.set("roll_rad", scene.wheelset.roll);
+    summary.set("roll_rad", contact.position.roll);
     summary.set("angular_velocity_rad_per_s", wheel_rolling(scene).angular_velocity);
     summary.show("wheelset_height_m", "wheelset over its radius, mm", 1e3, contact.position.height);
     summary.set("traction_coefficient", contact.force[2] > 0. ? contact.force[0] / contact.force[2] : 0.);

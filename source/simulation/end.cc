@@ -87,8 +87,10 @@ namespace tread
                            std::hypot(patch.longitudinal_force, patch.lateral_force) >=
                              nearly_sliding * scene.contact.friction_coefficient *
                                scene.contact.friction_factor(scene.path_end()) * patch.normal_force;
-    // Where friction falls with slip, a force belongs to several creepages.
-    const bool             by_creepage = all_slips || !scene.friction_law()->is_constant();
+    // Where friction falls with slip, a force belongs to several creepages; where it depends on the pressure,
+    // forces do not tell how near to sliding a patch is.
+    const bool by_creepage =
+      all_slips || !scene.friction_law()->is_constant() || !scene.contact.friction_pressures.empty();
     reference::RollingCase c           = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
     c.prescribe_force                  = !by_creepage;
     c.creepage                         = -answer.creepage;
@@ -161,13 +163,14 @@ namespace tread
     computed.position = half_space_wheel.contact.position;
     computed.position.height =
       half_space_wheel.contact.position.height + wheel.hub.motion.z - wheel.hub.start()[2];
-    computed.force   = {force[0], force[1], force[2]};
-    computed.patches = computed_patches();
+    computed.position.roll = wheel.hub.motion.roll;
+    computed.force         = {force[0], force[1], force[2]};
+    computed.patches       = computed_patches();
     summarise_wheelset(summary, scene, "explicit finite elements", computed, completed);
     summary.set("free_rolling_creepage", wheel.free_creepage);
     const Vector3d &half_space = half_space_wheel.contact.force;
     // As good as nothing beside the force that is given.
-    const double negligible = 0.01 * scene.static_load();
+    const double negligible = 0.01 * scene.wheelset.n_wheels() * scene.static_load();
     summary.compare("normal_force_N", "vertical force, kN", 1e-3, force[2], "half-space", half_space[2]);
     summary.compare("longitudinal_force_N", "longitudinal force, kN", 1e-3, force[0], "half-space",
                     half_space[0], negligible);
@@ -200,7 +203,7 @@ namespace tread
 
     const double                  distance = position() - scene.path_begin();
     const reference::HertzEllipse ellipse =
-      hertz(scene, normal_force > 0. ? normal_force : scene.static_load());
+      hertz(scene, normal_force > 0. ? normal_force / scene.wheelset.n_wheels() : scene.static_load());
     Rolled rolled;
     rolled.patch_lengths =
       (distance - (torque_released ? scene.motion.hold_distance : 0.)) / (2. * ellipse.semi_axis_x);

@@ -76,9 +76,11 @@ namespace tread
                              (hub.motion.velocity_z - interval_start_speed) / seconds,
                              hub.motion.y + scene.wheelset.position().shift,
                              hub.motion.yaw,
-                             hub.guidance_force()};
-    interval_force       = Vector3{};
-    interval_start_speed = hub.motion.velocity_z;
+                             hub.guidance_force(),
+                             hub.motion.roll,
+                             (1. / n_steps) * interval_other_force};
+    interval_force = interval_other_force = Vector3{};
+    interval_start_speed                  = hub.motion.velocity_z;
     return record;
   }
 
@@ -88,7 +90,7 @@ namespace tread
     average.serialize(archive);
     for (PatchAverage &of_patch : averages_of_patches)
       of_patch.serialize(archive);
-    archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_start_speed,
-                 last_force_sum, last_force_low, last_force_high);
+    archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_other_force,
+                 interval_start_speed, last_force_sum, last_force_low, last_force_high);
   }
 } // namespace tread

@@ -81,6 +81,9 @@ namespace tread
     if (!scene.contact.friction_places.empty())
       contact.vary_friction(
         [this](const Vector3 place) { return this->scene.contact.friction_factor(place[0]); });
+    if (!scene.contact.friction_pressures.empty())
+      contact.vary_friction_with_pressure(
+        [this](const double pressure) { return this->scene.contact.pressure_factor(pressure); });
     if (scene.motion.lateral_creepage != 0. || scene.motion.spin != 0.)
       contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
         const auto wheel =
@@ -193,6 +196,8 @@ namespace tread
       {
         const Vector3 force = force_on(wheel);
         wheel.interval_force += force;
+        if (scene.wheelset.both_wheels)
+          wheel.interval_other_force += force_on_other();
         if (is_last)
           wheel.add_to_last_force(force);
       }
@@ -399,8 +404,9 @@ namespace tread
         folder.remove_results();
       }
     // Times are written with twelve digits.
-    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size(),
-                          scene.guidance.kind != Guidance::rigid, scene.recorded_supports(),
+    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step,
+                          {static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
+                           scene.wheelset.both_wheels, scene.recorded_supports()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.surface_interval > 0.)
       folder.open_patches(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size());

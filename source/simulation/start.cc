@@ -126,8 +126,11 @@ namespace tread
         wheel.hub.drive             = Drive::creepage;
         wheel.hub.motion.velocity_x = scene.motion.speed;
         if (scene.guidance.kind == Guidance::file)
-          wheel.hub.begin_to_follow(scene.time_stepping.courant_number * dynamics.critical_time_step(),
-                                    scene.placed_wheel().main_patch().rise);
+          {
+            const PlacedWheel::Rise rise = scene.placed_wheel().rise();
+            wheel.hub.begin_to_follow(scene.time_stepping.courant_number * dynamics.critical_time_step(),
+                                      rise.speed, rise.roll_rate);
+          }
         wheel.hub.motion.angular_velocity =
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }

@@ -49,7 +49,7 @@ namespace tread
     progress.say(format(
       "half-space solver: shift %g mm, yaw %g mrad, roll %g mrad, %g rad/s; forces act on the wheel, by "
       "patch in contact axes\n",
-      1e3 * scene.wheelset.position().shift, 1e3 * scene.wheelset.yaw, 1e3 * scene.wheelset.roll,
+      1e3 * contact.position.shift, 1e3 * contact.position.yaw, 1e3 * contact.position.roll,
       wheel_rolling(scene).angular_velocity));
     progress.say(table_of_patches(contact.patches, rail_y));
     progress.say(summary.table());

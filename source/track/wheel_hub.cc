@@ -43,13 +43,20 @@ namespace tread
   }
 
 
-  void WheelHub::begin_to_follow(const double time_step, const double rise)
+  void WheelHub::begin_to_follow(const double time_step, const double rise, const double roll_rate)
   {
     const Across now = across(0.), next = across(time_step);
     motion.velocity_y = (next.y - now.y) / time_step;
     motion.yaw_rate   = (next.yaw - now.yaw) / time_step;
-    motion.roll_rate  = (next.roll - now.roll) / time_step;
+    motion.roll_rate  = rolls() ? roll_rate : (next.roll - now.roll) / time_step;
     motion.velocity_z = rise;
+  }
+
+
+  void WheelHub::roll_by(const double angle)
+  {
+    motion.roll += angle;
+    present = frame(motion.yaw, motion.roll);
   }
 
 
@@ -90,14 +97,29 @@ namespace tread
   }
 
 
+  Vector3 WheelHub::gyroscopic_moment() const
+  {
+    if (!rolls())
+      return Vector3{};
+    // What is left of the change of the angular momentum about the axle.
+    const Vector3 turning = motion.yaw_rate * present.z - motion.roll_rate * Vector3{1., 0., 0., 0.};
+    return -parameters.moment_of_inertia * motion.angular_velocity * cross(turning, present.y);
+  }
+
+
   double WheelHub::guide(const double lateral, const Vector3 moment, const double time_step)
   {
+    const Motion before = motion;
+    if (rolls())
+      {
+        motion.roll_rate -= time_step * moment[0] / parameters.roll_inertia;
+        motion.roll += time_step * motion.roll_rate;
+      }
     if (guidance == Guidance::rigid)
       {
         lateral_guidance = -lateral;
         return 0.;
       }
-    const Motion before      = motion;
     const double yaw_moment  = dot(moment, present.z);
     double       yaw_support = 0.; // moment of guidance
     if (guidance == Guidance::file)
@@ -105,8 +127,9 @@ namespace tread
         const Across next = across(guidance_time + time_step);
         motion.velocity_y = (next.y - motion.y) / time_step;
         motion.yaw_rate   = (next.yaw - motion.yaw) / time_step;
-        motion.roll_rate  = (next.roll - motion.roll) / time_step;
-        lateral_guidance  = parameters.mass * (motion.velocity_y - before.velocity_y) / time_step - lateral;
+        if (!rolls())
+          motion.roll_rate = (next.roll - motion.roll) / time_step;
+        lateral_guidance = parameters.mass * (motion.velocity_y - before.velocity_y) / time_step - lateral;
         yaw_support = parameters.yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - yaw_moment;
         // Free rolling may lie beside what theory takes for it.
         if (next.angular_velocity)
@@ -129,8 +152,9 @@ namespace tread
     guidance_time += time_step;
     motion.y += time_step * motion.velocity_y;
     motion.yaw += time_step * motion.yaw_rate;
-    motion.roll += time_step * motion.roll_rate;
-    const double roll_support = moment[0]; // about -x, against that of the cells
+    if (!rolls())
+      motion.roll += time_step * motion.roll_rate;
+    const double roll_support = rolls() ? 0. : moment[0]; // about -x, against that of the cells
     return 0.5 * time_step *
            (lateral_guidance * (before.velocity_y + motion.velocity_y) +
             yaw_support * (before.yaw_rate + motion.yaw_rate) +
@@ -156,7 +180,7 @@ namespace tread
     // Its centrifugal force is no work from outside.
     const double centrifugal = before.angular_velocity * before.angular_velocity * moments[2];
     const double guiding = guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1],
-                                 moment_about_middle, time_step);
+                                 moment_about_middle + gyroscopic_moment(), time_step);
     // with it the angular velocity is as prescribed; includes the weight's moment
     double turning_outside =
       parameters.moment_of_inertia * (motion.angular_velocity - before.angular_velocity) / time_step -
@@ -186,7 +210,7 @@ namespace tread
       time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
     work += along + up + turn + guiding;
     gross += std::abs(along) + std::abs(up) + std::abs(turn) + std::abs(guiding);
-    present = guidance == Guidance::rigid ? present : frame(motion.yaw, motion.roll);
+    present = guidance == Guidance::rigid && !rolls() ? present : frame(motion.yaw, motion.roll);
   }
 
 
@@ -209,7 +233,8 @@ namespace tread
     return 0.5 * parameters.mass * dot(velocity(), velocity()) +
            motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity +
-           0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate;
+           0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate +
+           0.5 * parameters.roll_inertia * motion.roll_rate * motion.roll_rate;
   }
 
 

@@ -47,6 +47,27 @@ namespace
 
 void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
+  // Friction that falls with the pressure, 1 - p/p_1: what slides carries is that of the mean of p^2, three
+  // quarters of the largest pressure times the force, and no element carries more than its own bound.
+  {
+    RollingCase  c    = locomotive(0.05, 0.33);
+    const double p_1  = 3e9;
+    c.pressure_factor = [p_1](const double p) { return 1. - p / p_1; };
+    const RollingResult sliding = solve_rolling(c);
+    check.relative("falls with pressure, sliding", -sliding.traction_coefficient,
+                   0.33 * (1. - 0.75 * sliding.hertz_pressure / p_1), 1e-3);
+    c.creepage                  = 0.0016;
+    const RollingResult rolling = solve_rolling(c);
+    double              worst   = 0.;
+    for (std::size_t e = 0; e < rolling.pressure.size(); ++e)
+      worst = std::max(worst, std::hypot(rolling.shear_x[e], rolling.shear_y[e]) -
+                                c.friction_bound(rolling.pressure[e]));
+    check.absolute("falls with pressure, rolling: shear beyond the bound", worst / rolling.hertz_pressure, 0.,
+                   1e-9);
+    check.that("falls with pressure, rolling: less traction than 0.2584",
+               -rolling.traction_coefficient < 0.25 && -rolling.traction_coefficient > 0.15);
+  }
+
   // Square elements of 0.29 mm beside 0.289 x 0.63 mm there, and printed with four digits.
   for (const auto &[creepage, traction] :
        {Point{0.0008, 0.15651}, {0.0016, 0.25839}, {0.0024, 0.31237}, {0.0032, 0.32924}, {0.0056, 0.32990}})

@@ -139,6 +139,8 @@ PAIRS = [
     (["Motion/Drive=torque", "Motion/Speed (km per h)=0"], ["Motion/Speed (km per h)", "torque"]),
     (["Contact/Friction places (mm)=-16"], ["Contact/Friction places (mm)", "Contact/Friction factors", "each place has a factor"]),
     (["Contact/Friction places (mm)=-16, -18", "Contact/Friction factors=1, 0.5"], ["Contact/Friction places (mm)", "-16", "-18"]),
+    (["Contact/Friction pressures (MPa)=900"], ["Contact/Friction pressures (MPa)", "Contact/Friction pressure factors", "each pressure has a factor"]),
+    (["Contact/Friction pressures (MPa)=900, 600", "Contact/Friction pressure factors=1, 0.5"], ["Contact/Friction pressures (MPa)", "900", "600"]),
     (["Contact/Friction places (mm)=-90", "Contact/Friction factors=0.5"], ["Motion/Traction coefficient", "where the wheel begins"]),
     (["Motion/Drive=torque", "Motion/Hold distance (mm)=80"], ["Motion/Hold distance (mm)", "Rolled distance"]),
     (["Wheel/Shape=full", "Wheel/Bore radius (mm)=200"], ["Wheel/Bore radius (mm)", "Hub outer radius"]),

@@ -57,6 +57,20 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("sliding before the spot: traction over friction", rows[2]["traction_coefficient"] / 0.3, 1., 0.003)
     check.relative("sliding on the spot: traction over friction", rows[-1]["traction_coefficient"] / 0.3, 0.5, 0.003)
 
+    # Friction that falls with the pressure p as 1 - p/p_1: of a Hertzian patch that slides, the integral of p^2 is three quarters of p_0
+    # times the force. With part of the patch in adhesion: the half-space's.
+    falls_with_pressure = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=12", "Motion/Lateral creepage=0",
+                           "Motion/Spin (1 per m)=0", "Contact/Friction pressures (MPa)=0, 4000", "Contact/Friction pressure factors=1, 0"]
+    slides = run(program, SCENE, path("slides"), falls_with_pressure + ["Motion/Creepage=0.05"], 2)
+    check.relative("falls with pressure, sliding: traction over friction", share(slides, "longitudinal") / 0.3,
+                   1. - 0.75 * slides["hertz_max_pressure_Pa"] / 4e9, 0.005)
+    rolls = run(program, SCENE, path("rolls"), falls_with_pressure + ["Motion/Creepage=0.002"], 2)
+    wanted = run(program, SCENE, path("rolls, half-space"), falls_with_pressure + ["Motion/Creepage=0.002"], more=["--reference-only"])
+    check.relative("falls with pressure, rolling: traction coefficient", share(rolls, "longitudinal"), share(wanted, "longitudinal"), 0.01)
+    check.absolute("falls with pressure, rolling: adhesion share, %", 100. * rolls["adhesion_share"], 100. * wanted["adhesion_share"], 3.)
+    usual = run(program, SCENE, path("usual, half-space"), falls_with_pressure[:5] + ["Motion/Creepage=0.002"], more=["--reference-only"])
+    check.that("and not that without it", share(wanted, "longitudinal") < 0.9 * share(usual, "longitudinal"))
+
     coarse = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=8"]
     this_way = run(program, SCENE, path("this way"), coarse)
     mirrored = run(program, SCENE, path("mirrored"), coarse + ["Motion/Lateral creepage=-0.0005", "Motion/Spin (1 per m)=-0.2"], 3)

@@ -3,15 +3,14 @@
 """A wheelset that moves across its track: as a table says, or free on springs; ranks, resuming, and what is refused."""
 
 import os
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
 
 from tread.files import read_summary
-from tread.runs import ROOT, command, environment, execute
-from tread_runner import Check, press_ctrl_c, run, table
+from tread.runs import ROOT, execute
+from tread_runner import Check, run, run_stopped, table
 
 program = sys.argv[1]
 check = Check()
@@ -102,11 +101,7 @@ with tempfile.TemporaryDirectory() as folder:
     whole, on_three = run(program, SCENE, path("whole"), short), run(program, SCENE, path("three"), short, 3)
     for key in keys:
         check.relative(f"3 ranks against 1: {key}", on_three[key], whole[key], 1e-7)
-    parts = subprocess.Popen(command([os.path.join(ROOT, "prm", SCENE), "--output", path("parts")] + [
-        word for setting in short.items() for word in ("-s", "%s=%s" % setting)], 1, program), env=environment(),
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    press_ctrl_c(parts, os.path.join(path("parts"), "history.csv"), 6)
-    parts.wait(timeout=120)
+    run_stopped(program, SCENE, path("parts"), short, 6)
     check.that("Ctrl-C: not complete", read_summary(path("parts"))["completed"] is False)
     resumed = run(program, SCENE, path("parts"), short, more=["--resume"])
     for key in keys:
@@ -114,12 +109,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # What cannot be.
     def must_fail(what, settings, *words):
-        more = [word for setting in {**COARSE, **settings}.items() for word in ("-s", "%s=%s" % setting)]
-        failed = execute([os.path.join(ROOT, "prm", SCENE), "--output", path("bad"), *more], program=program)
-        lines = [line for line in failed.stderr.splitlines() if line.startswith("tread:")]
-        if not check.that(f"{what}: exit code 1, one line with {words}", failed.returncode == 1 and len(lines) == 1
-                          and all(word in lines[0] for word in words)):
-            print(failed.returncode, failed.stderr)
+        check.refused(what, program, SCENE, path("bad"), {**COARSE, **settings}, words)
 
     def with_rows(name, times, **columns):
         return write_motion(path(name), {"time_s": times, **(columns or {"lateral_shift_mm": np.zeros(len(times))})})

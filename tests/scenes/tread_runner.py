@@ -9,7 +9,7 @@ import time
 
 import tread
 from tread.files import read_table
-from tread.runs import ROOT, environment
+from tread.runs import ROOT, arguments_of, command, environment, execute
 
 
 def run(program, scene, output, settings=(), ranks=1, more=()):
@@ -47,6 +47,14 @@ def press_ctrl_c(process, history, rows):
     process.send_signal(signal.SIGINT)
 
 
+def run_stopped(program, scene, output, settings, rows):
+    """Run a scene on one rank until its history has more than so many lines, then press Ctrl-C."""
+    process = subprocess.Popen(command(arguments_of(scene, settings, output), 1, program), env=environment(),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    press_ctrl_c(process, os.path.join(output, "history.csv"), rows)
+    process.wait(timeout=120)
+
+
 class Check:
     """Counts and prints comparisons: computed, reference, error, allowed, PASS or FAIL."""
 
@@ -80,6 +88,14 @@ class Check:
         pairs = summary["frictional_work_J"] + summary["contact_loss_J"]
         self.below(f"{name}work of contact on the nodes less that of the pairs, over what was dissipated",
                    (summary["contact_work_on_nodes_J"] - pairs) / summary["dissipated_work_J"], 1e-9)
+
+    def refused(self, what, program, scene, output, settings, words):
+        """A scene that must end at once with one line that has all of the words."""
+        ended = execute(arguments_of(scene, settings, output), program=program)
+        lines = [line for line in ended.stderr.splitlines() if line.startswith("tread:")]
+        if not self.that(f"{what}: exit code 1, one line with {words}", ended.returncode == 1 and len(lines) == 1
+                         and all(word in lines[0] for word in words)):
+            print(ended.returncode, ended.stderr)
 
     def exit(self):
         print(f"{self.lines} comparisons, {self.failed} failed")

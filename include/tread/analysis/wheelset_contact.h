@@ -30,6 +30,9 @@ namespace tread
     /// Whether the rigid slip follows the wheel's surface over the patch, which is no cone in general,
     /// instead of being linear from the reference point on.
     bool slip_follows_surface = true;
+
+    /// The same of the other wheel, in the axes of its own side.
+    WheelRolling mirrored() const;
   };
 
   /// Contact of one region in its own plane: axes x forward, s lateral along the rail and n up into the
@@ -37,6 +40,9 @@ namespace tread
   struct WheelPatch
   {
     WheelOnRail::Region region;
+    /// Of the other wheel of the wheelset: its own axes are the mirrored ones, so that s points to the other
+    /// side, but its reference point is given in the track axes of the own wheel. @see of_other_wheel()
+    bool   is_of_other_wheel = false;
     double wheel_s = 0., wheel_angle = 0.;       ///< where the wheel's profile (m) and its turn (rad) meet it
     double rolling_radius = 0.;                  ///< of the undeformed wheel at the reference point (m)
     double rolling_speed  = 0.;                  ///< V, mean of both surfaces' speeds through the patch (m/s)
@@ -72,6 +78,10 @@ namespace tread
     unsigned int            turns = 0; ///< solutions at different heights
   };
 
+  /// What was found in the axes of the other wheel's side, in the track axes of the own wheel; the patches
+  /// keep their own axes.
+  WheelContact of_other_wheel(const WheelContact &mirrored);
+
   /// The normal of the rail must not turn by more over a patch that is solved in one plane: beyond it
   /// pressures of both ends differ in direction by so much that the resultant is 0.5 % too large.
   constexpr double largest_turn_of_a_plane = 0.2; // rad
@@ -95,6 +105,21 @@ namespace tread
                                   const WheelRolling &rolling,
                                   WheelsetPosition    position,
                                   double              load);
+
+  /// Both wheels of a wheelset, each in the axes of its own side.
+  struct BothWheels
+  {
+    WheelContact own, other;
+  };
+
+  /// Contact of both wheels on a rigid axle under a vertical load (N) in its middle: height and roll are
+  /// found, with which the forces of both carry the load and have no moment about x. Each wheel's position
+  /// is that of the wheelset, seen from its side.
+  /// @throws std::runtime_error as contact_under_load(), or where no roll balances them
+  BothWheels contact_of_both_wheels(const WheelOnRail  &surfaces,
+                                    const WheelRolling &rolling,
+                                    WheelsetPosition    position,
+                                    double              load);
 } // namespace tread
 
 #endif

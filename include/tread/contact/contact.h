@@ -103,6 +103,13 @@ namespace tread
       time_to_refresh = 0.;
     }
 
+    /// Friction depends on the pressure (Pa): another factor of the law's coefficient. Not while the
+    /// equilibrium at the start is found, whose steps have no unit of time.
+    void vary_friction_with_pressure(std::function<double(double)> factor)
+    {
+      pair_friction.of_pressure = std::move(factor);
+    }
+
     /// Distribute to all ranks the data that only the rank of a constraint or node has. Collective.
     void complete_state();
 
@@ -132,6 +139,8 @@ namespace tread
 
     /// Total impulse on the given body in the last step, N s.
     Vector3 total_impulse_on(const unsigned int body) const;
+    /// Total impulse on the master surfaces from slave nodes whose reference position is at smaller y, N s.
+    Vector3 total_impulse_below(const double y) const;
 
     /// This rank's share.
     ContactWork last_work() const

@@ -5,6 +5,7 @@
 #include <tread/contact/friction_law.h>
 #include <tread/contact/strips.h>
 
+#include <functional>
 #include <vector>
 
 namespace tread
@@ -27,6 +28,9 @@ namespace tread
   {
     std::vector<double> coefficient; ///< in this step, of a law with a memory; empty: that of the law
     std::vector<double> factor;      ///< of the law's coefficient, by the place; empty: 1
+    /// Another factor, by the pressure (Pa), which is the normal impulse over area and step; empty: 1.
+    std::function<double(double)> of_pressure;
+    double                        time_step = 0.; ///< s, used with of_pressure
   };
 
   /// Block Gauss-Seidel on the impulses (Moreau 1988; Jean 1999): each block is solved exactly,

@@ -51,6 +51,9 @@ namespace tread
     /// everywhere.
     std::function<bool(const dealii::Point<3> &)> in_reach;
   };
+
+  /// Two separate pieces as one body. Both have charts in which new vertices are placed straight.
+  Body join(const Body &first, const Body &second);
 } // namespace tread
 
 #endif

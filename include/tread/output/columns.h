@@ -67,11 +67,16 @@ namespace tread
 
   // The tables of a run. A new column is one line in its list.
 
-  /// history.csv. @param n_wheels so many have columns, all but the first with their number in the name;
-  /// @param supports numbers of those that have columns
-  Columns<HistoryRow> history_columns(const unsigned int      n_wheels,
-                                      const bool              moves_across,
-                                      const std::vector<int> &supports);
+  /// What has columns in history.csv.
+  struct HistoryParts
+  {
+    unsigned int     n_wheels;        ///< all but the first have their number in the name
+    bool             moves_across;    ///< the first one, across its track
+    bool             has_both_wheels; ///< the first one's wheelset
+    std::vector<int> supports;        ///< their numbers
+  };
+  /// history.csv.
+  Columns<HistoryRow> history_columns(const HistoryParts &parts);
   /// cells.csv. @param n_cells so many have columns
   Columns<HistoryRow>                cell_columns(std::size_t n_cells);
   const Columns<PatchNode>          &patch_columns();

@@ -29,6 +29,8 @@ namespace tread
     double        axle_box_acceleration; ///< vertical, mean over the interval
     double        lateral_shift, yaw;    ///< of the wheelset at the end of the interval
     double        guidance_force;        ///< lateral, on the wheelset, at the end of the interval
+    double        roll;                  ///< of a wheelset with both wheels, likewise
+    Vector3       other_force;           ///< of `force`, that on the other wheel
   };
 
   /// One row of history.csv and of cells.csv, SI units.

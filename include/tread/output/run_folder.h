@@ -96,15 +96,11 @@ namespace tread
     void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
 
     /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
-    /// row not later than time. @param n_wheels that the rows contain; @param
-    /// moves_across whether the first moves across its track; @param supports numbers of those whose
-    /// forces they contain.
-    void open_histories(const bool              resume,
-                        const double            time,
-                        const unsigned int      n_wheels,
-                        const bool              moves_across,
-                        const std::vector<int> &supports,
-                        const std::size_t       n_cells);
+    /// row not later than time. @param parts that the rows contain
+    void open_histories(const bool          resume,
+                        const double        time,
+                        const HistoryParts &parts,
+                        const std::size_t   n_cells);
     void append(const HistoryRow &row);
 
     /// Likewise one patches.csv for each wheel: the patch at chosen instants.

@@ -58,6 +58,13 @@ namespace tread::reference
       double memory_speed    = 0.; ///< [m/s]
     };
     std::shared_ptr<const SlipFriction> slip_friction;
+    /// Factor of `friction` at a pressure [Pa]; empty: 1. Not with slip_friction.
+    std::function<double(double)> pressure_factor;
+    /// Largest shear stress that friction carries at a pressure [Pa].
+    double friction_bound(const double pressure) const
+    {
+      return friction * (pressure_factor ? pressure_factor(pressure) : 1.) * pressure;
+    }
     /// Of a layer between the bodies: ElasticPair::layer [m/Pa].
     double layer = 0.;
 

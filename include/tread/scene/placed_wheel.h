@@ -15,12 +15,13 @@ namespace tread
 {
   class Scene;
 
-  /// The wheel of a wheelset in its position under the static load, as half-space theory finds it: where a
-  /// mesh must be fine, and what a run is compared with.
+  /// The wheel of a wheelset, or both wheels, in its position under the static load, as half-space theory
+  /// finds it: where a mesh must be fine, and what a run is compared with.
   ///
   /// Axes of the mesh: x along the track, the wheelset's middle at the wheel's x; y from the middle of the
   /// rail's top to the own side; z up from the plane on the rail tops (m). Contact axes of a patch: x, s
-  /// along the tangent plane, n normal to it into the wheel, origin at its reference point.
+  /// along the tangent plane, n normal to it into the wheel, origin at its reference point; s of the other
+  /// wheel points to its own side.
   class PlacedWheel
   {
   public:
@@ -29,12 +30,21 @@ namespace tread
     /// The same in another position.
     PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling);
 
+    /// Those of the own wheel first.
     const std::vector<WheelPatch> &patches() const
     {
       return contact.patches;
     }
-    /// That with the largest normal force.
+    /// Of the own wheel, that with the largest normal force.
     const WheelPatch &main_patch() const;
+
+    /// Vertical speed (m/s) and roll rate (rad/s) of the wheelset with which its wheels keep touching while
+    /// it moves across the track as prescribed.
+    struct Rise
+    {
+      double speed, roll_rate;
+    };
+    Rise rise() const;
     /// Of the patch, from one edge across the path to the other, that is nearest to a place relative to the
     /// wheelset's middle.
     unsigned int nearest_patch(const Vector3 place) const;
@@ -67,7 +77,7 @@ namespace tread
     /// The main patch as an ellipse of its length and width, at another normal force in proportion (N).
     reference::HertzEllipse ellipse(const double vertical_force) const;
 
-    /// Rail and wheel: blocks behind the running surfaces, finest at the patches.
+    /// Rail and wheel, or both of them: blocks behind the running surfaces, finest at the patches.
     Body make_rail(const Scene &scene) const;
     Body make_wheel(const Scene &scene) const;
 
@@ -82,10 +92,31 @@ namespace tread
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
 
     const WheelOnRail surfaces;
-    WheelContact      contact;
 
   private:
-    double load; ///< N
+    /// One wheel in the track axes of its own side.
+    struct Side
+    {
+      WheelContact contact;
+      bool         is_mirrored;
+    };
+    /// The own wheel, then the other one where it is there.
+    static std::vector<Side> solve(const Scene            &scene,
+                                   const WheelOnRail      &surfaces,
+                                   const WheelsetPosition &position,
+                                   const WheelRolling     &rolling);
+    static WheelContact      together(const std::vector<Side> &sides);
+    /// From the track axes of a side to those of the mesh.
+    std::function<dealii::Point<3>(const Vector3d &)> from_track(const bool is_mirrored) const;
+    Body                                              rail_of(const Scene &scene, const Side &side) const;
+    Body                                              wheel_of(const Scene &scene, const Side &side) const;
+
+    std::vector<Side> sides;
+    double            load; ///< on a wheel, N
+
+  public:
+    /// Of all wheels, in the track axes of the own one.
+    WheelContact contact;
   };
 } // namespace tread
 

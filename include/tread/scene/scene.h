@@ -258,6 +258,7 @@ namespace tread
     void check_defect() const;
     void check_peak_stress() const;
     void check_mesh() const;
+    void check_sector() const;
     void check_track() const;
     void check_overhang() const;
     void check_plasticity() const;

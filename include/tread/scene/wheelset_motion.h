@@ -30,6 +30,10 @@ namespace tread
     {
       return bool(angular_velocity);
     }
+    bool has_roll() const
+    {
+      return bool(roll);
+    }
 
   private:
     using Curve = std::function<double(double)>;

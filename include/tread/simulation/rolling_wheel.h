@@ -62,6 +62,7 @@ namespace tread
     double       target_creepage = 0., free_creepage = 0.;
 
     Vector3 interval_force{};          ///< sum since the last row of the history, N
+    Vector3 interval_other_force{};    ///< the same of the other wheel of the wheelset
     double  interval_start_speed = 0.; ///< of the hub, vertical, m/s
 
     PatchAverage average; ///< while the wheel rolls over one cell around the solution instant

@@ -77,6 +77,13 @@ namespace tread
     {
       return (1. / dynamics.time_step) * contact.total_impulse_on(wheel.body);
     }
+    /// On the other wheel of the wheelset in the last step, N. @pre scene.wheelset.both_wheels
+    Vector3 force_on_other() const
+    {
+      // The middle of the track lies between the rails.
+      return (1. / dynamics.time_step) *
+             contact.total_impulse_below(-scene.placed_wheel().surfaces.rail_origin_y());
+    }
     /// Mean force on a wheel over the end of the way, or the present one if that has not begun, N.
     Vector3 last_force_on(const RollingWheel &wheel) const;
     /// The wheelset where half-space theory is compared with it: at the start, or where it has moved to. @pre

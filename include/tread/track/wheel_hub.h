@@ -53,14 +53,15 @@ namespace tread
     double suspension_damping   = 0.;   ///< N s/m
     double gravity              = 9.81; ///< m/s^2
     double yaw_inertia          = 0.;   ///< of the wheelset without the cells, about the vertical, kg m^2
+    double roll_inertia = 0.; ///< likewise, about x, where both wheels carry it; 0: roll is prescribed
   };
 
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
   /// primary suspension with the sprung mass, runs along x at constant speed, moves in z and
   /// turns about its axle, which is y or stands in a yaw and a roll. Positive angular velocity rolls towards
-  /// +x. Across the track it moves as its guidance lets it. What the rigid part does to itself when it turns
-  /// about two axes at once (gyroscopic moments, products of inertia with the first moment) is left out of
-  /// yaw: the roll that it would cause is held.
+  /// +x. Across the track it moves as its guidance lets it. With a roll inertia it rolls freely, and the
+  /// gyroscopic moments of its turning about the axle couple yaw and roll; without one they are left out, as
+  /// the roll that they would cause is held. Products of inertia of the rigid rest are left out.
   class WheelHub
   {
   public:
@@ -86,8 +87,21 @@ namespace tread
     void follow(const std::function<Across(const double time)> &across);
 
     /// Take the velocities of the motion that is followed. @param time_step over which they are differences,
-    /// s. @param rise vertical velocity with it, m/s
-    void begin_to_follow(const double time_step, const double rise);
+    /// s. @param rise vertical velocity with it, m/s; @param roll_rate of a hub that rolls, rad/s
+    void begin_to_follow(const double time_step, const double rise, const double roll_rate);
+
+    /// Whether the roll follows from the forces.
+    bool rolls() const
+    {
+      return parameters.roll_inertia > 0.;
+    }
+    /// Turn the axle about x, rad.
+    void roll_by(const double angle);
+    /// Displacement of a point by a small roll, per radian, from its arm from the middle (m).
+    static Vector3 by_roll(const Vector3 arm)
+    {
+      return Vector3{0., arm[2], -arm[1], 0.};
+    }
 
     /// Move across the track on springs from now on.
     void release(const GuidanceSprings &springs);
@@ -189,6 +203,8 @@ namespace tread
     /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
     /// moment of all but guidance (N, N m). @returns work of guidance, J
     double guide(const double lateral, const Vector3 moment, const double time_step);
+    /// Gyroscopic moment of the rigid part where yaw and roll are free, about x and about the vertical, N m.
+    Vector3 gyroscopic_moment() const;
 
     Frame    reference, present;
     double   reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;

@@ -25,6 +25,13 @@ namespace tread
       Double(-1e6, 1e6), 10000);
     section.add("Friction factors", friction_factors, "At these places, one for each.", Double(0., 100.),
                 10000);
+    section.add("Friction pressures (MPa)", friction_pressures,
+                "Pressures of a node at which its friction coefficient is multiplied by 'Friction pressure "
+                "factors': ascending, separated by commas; linear in between, constant beyond. As for layers "
+                "that shear at a limit, or elastic asperities.",
+                Double(0., 1e6), 10000);
+    section.add("Friction pressure factors", pressure_factors, "At these pressures, one for each.",
+                Double(0., 100.), 10000);
     section.add(
       "Tolerance", tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
@@ -33,18 +40,34 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// Of values at ascending places, linear in between and constant beyond; 1 if there are none.
+    double interpolated(const std::vector<double> &places, const std::vector<double> &values, const double x)
+    {
+      if (places.empty() || values.size() != places.size()) // check() refuses these
+        return 1.;
+      const auto after = std::upper_bound(places.begin(), places.end(), x);
+      if (after == places.begin())
+        return values.front();
+      if (after == places.end())
+        return values.back();
+      const std::size_t k     = after - places.begin();
+      const double      share = (x - places[k - 1]) / (places[k] - places[k - 1]);
+      return (1. - share) * values[k - 1] + share * values[k];
+    }
+  } // namespace
+
+
   double ContactSection::friction_factor(const double x) const
   {
-    if (friction_places.empty() || friction_factors.size() != friction_places.size()) // check() refuses these
-      return 1.;
-    const auto after = std::upper_bound(friction_places.begin(), friction_places.end(), x);
-    if (after == friction_places.begin())
-      return friction_factors.front();
-    if (after == friction_places.end())
-      return friction_factors.back();
-    const std::size_t k     = after - friction_places.begin();
-    const double      share = (x - friction_places[k - 1]) / (friction_places[k] - friction_places[k - 1]);
-    return (1. - share) * friction_factors[k - 1] + share * friction_factors[k];
+    return interpolated(friction_places, friction_factors, x);
+  }
+
+
+  double ContactSection::pressure_factor(const double pressure) const
+  {
+    return interpolated(friction_pressures, pressure_factors, pressure);
   }
 
 
@@ -68,5 +91,13 @@ namespace tread
       require(friction_places[k - 1] < friction_places[k],
               "'Contact/Friction places (mm)': " + text_in_mm(friction_places[k - 1]) + " must be below " +
                 text_in_mm(friction_places[k]) + ", which follows it");
+    require(friction_pressures.size() == pressure_factors.size(),
+            "'Contact/Friction pressures (MPa)' has " + std::to_string(friction_pressures.size()) +
+              " entries and 'Contact/Friction pressure factors' " + std::to_string(pressure_factors.size()) +
+              ": each pressure has a factor");
+    for (std::size_t k = 1; k < friction_pressures.size(); ++k)
+      require(friction_pressures[k - 1] < friction_pressures[k],
+              "'Contact/Friction pressures (MPa)': " + text_of(1e-6 * friction_pressures[k - 1]) +
+                " must be below " + text_of(1e-6 * friction_pressures[k]) + ", which follows it");
   }
 } // namespace tread

@@ -40,12 +40,13 @@ namespace tread
     section.add("Yaw moment (kN m)", springs.moment, "balance", "Constant, likewise.", Double());
     section.add(
       "Yaw inertia (kg m2)", yaw_inertia,
-      "Of the wheelset about the vertical, without the wheel's cells. 0: on springs the yaw is held.",
+      "Of the wheelset about the vertical, and about x where both wheels are meshed, without the wheels' "
+      "cells. 0: on springs the yaw is held.",
       Double(0.));
   }
 
 
-  void GuidanceSection::check() const
+  void GuidanceSection::check(const bool has_both_wheels) const
   {
     require(kind == Guidance::file || file.empty(), "'Guidance/File' is read where 'Guidance/Kind' is file");
     require(kind != Guidance::file || !file.empty(), "'Guidance/Kind' file needs 'Guidance/File'");
@@ -59,7 +60,9 @@ namespace tread
     of_springs(springs.yaw_stiffness != 0., "Yaw stiffness (MN m per rad)");
     of_springs(springs.yaw_damping != 0., "Yaw damping (kN m s per rad)");
     of_springs(bool(springs.moment), "Yaw moment (kN m)");
-    of_springs(yaw_inertia != 0., "Yaw inertia (kg m2)");
+    of_springs(yaw_inertia != 0. && !has_both_wheels, "Yaw inertia (kg m2)");
+    require(yaw_inertia > 0. || !has_both_wheels,
+            "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
     require(yaw_inertia > 0. || (springs.yaw_stiffness == 0. && springs.yaw_damping == 0. && !springs.moment),
             "'Guidance/Yaw inertia (kg m2)' must be above 0 for a wheelset that yaws on springs");
   }

@@ -35,6 +35,10 @@ namespace tread
       "5 degrees.",
       Double());
     section.add("Roll (mrad)", roll, "Positive when the own side goes down. Up to 5 degrees.", Double());
+    section.add(
+      "Both wheels", both_wheels,
+      "Mesh both wheels on a rigid axle, over both rails. Mass, inertia, load and suspension of the "
+      "wheel are those of each. The roll follows from both contacts. false: the own wheel alone.");
     section.add("Track gauge (mm)", track.gauge, "Between the gauge faces of both rails.",
                 Double(500., 3000.));
     section.add("Gauge depth (mm)", track.measuring_depth,
@@ -60,5 +64,9 @@ namespace tread
       require(std::abs(angle) <= largest, "'Wheelset/" + std::string(name) + " (mrad)' " +
                                             text_of(1e3 * angle) + " is more than 5 degrees, " +
                                             text_of(1e3 * largest) + " mrad");
+    require(!both_wheels || shift,
+            "'Wheelset/Both wheels' needs 'Wheelset/Lateral shift (mm)': a number, 0 too");
+    require(!both_wheels || roll == 0.,
+            "'Wheelset/Roll (mrad)' is found where 'Wheelset/Both wheels' is true");
   }
 } // namespace tread

@@ -15,9 +15,12 @@ namespace tread
     double              tolerance            = 1e-7;      ///< of the sweeps, share of the largest impulse
     unsigned int        max_sweeps           = 200;
     std::vector<double> friction_places, friction_factors; ///< along the rail, m and -
+    std::vector<double> friction_pressures, pressure_factors; ///< Pa and -
 
     /// Of the friction coefficient at x (m), linear between the places.
     double friction_factor(const double x) const;
+    /// Of the friction coefficient at a pressure (Pa), linear between those given; 1 where none is given.
+    double pressure_factor(const double pressure) const;
     /// Whether that factor changes between two places (m).
     bool friction_varies(const double from, const double to) const;
 

@@ -19,8 +19,8 @@ namespace tread
     double          yaw_inertia = 0.;
 
     void declare(dealii::ParameterHandler &handler);
-    /// @throws InputError
-    void check() const;
+    /// @param has_both_wheels whether the wheelset rolls. @throws InputError
+    void check(const bool has_both_wheels) const;
   };
 } // namespace tread
 

@@ -22,6 +22,7 @@ namespace tread
   {
     std::optional<double> shift; ///< y of the wheelset's middle in the track; none: see is_positioned()
     double                yaw = 0., roll = 0.;
+    bool                  both_wheels = false; ///< on a rigid axle; then the roll is found
     TrackGauge            track;
     SlipOverPatch         slip_over_patch = SlipOverPatch::surface;
     double patch_distance = 8e-3; ///< along the surface, from which on half-spaces do not feel each other
@@ -36,6 +37,10 @@ namespace tread
     WheelsetPosition position() const
     {
       return {shift.value_or(0.), yaw, roll, 0.};
+    }
+    unsigned int n_wheels() const
+    {
+      return both_wheels ? 2 : 1;
     }
 
     void declare(dealii::ParameterHandler &handler);

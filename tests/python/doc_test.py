@@ -1,0 +1,112 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The pages: links lead somewhere, sections that pages name are there, doc/README.md lists every page, and the messages explained in doc/faq.md are
+the program's."""
+
+import glob
+import os
+import re
+import unittest
+
+from tread.runs import ROOT
+
+PAGES = sorted(path for pattern in ("*.md", "doc/*.md", "contrib/*/README.md") for path in glob.glob(os.path.join(ROOT, pattern)))
+LINK = r"\]\(([^)\s]+)\)"
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as stream:
+        return stream.read()
+
+
+def prose(text):
+    """Without blocks and pieces of code, in which brackets mean something else."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"(?m)^(?: {4}|\t).*$", "", text)
+    return re.sub(r"`[^`\n]*`", "", text)
+
+
+def headings(text):
+    return re.findall(r"^#+ (.*)$", text, flags=re.MULTILINE)
+
+
+def anchor(heading):
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def wrong_links(page, text):
+    wrong = []
+    for link in re.findall(LINK, prose(text)) + re.findall(r'<img [^>]*src="([^"]+)"', text):
+        if "://" in link:
+            continue
+        path, _, place = link.partition("#")
+        target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+        if not os.path.exists(target):
+            wrong.append(f"{link}: there is no such file")
+        elif place and place not in map(anchor, headings(text_of(target))):
+            wrong.append(f"{link}: there is no such heading")
+    return wrong
+
+
+def wrong_sections(page, text):
+    """Of places that are named behind a link: [a](b.md), "Heading"; [a](b.md), section 2; [a](b.md), 2.1; [a](b.md), (10)."""
+    wrong = []
+    for link, quoted, number, equation in re.findall(
+            LINK.replace(r"[^)\s]+", r"[^)\s#]+\.md") + r',\s(?:"([^"]+)"|(?:section\s)?(\d+(?:\.\d+)?)(?![\w.]*\d)|\((\d+\w?)\))', text):
+        target = os.path.join(os.path.dirname(page), link)
+        if not os.path.exists(target):
+            continue # said by wrong_links()
+        there = text_of(target)
+        titles = headings(there) + re.findall(r"(?m)^(?:- )?\*\*([^*]+)\*\*", there)
+        if quoted and not any(" ".join(title.split()).startswith(quoted) for title in titles):
+            wrong.append(f'{link}, "{quoted}": there is no such heading')
+        if number and not any(re.match(re.escape(number) + r"[. ]", title) for title in titles):
+            wrong.append(f"{link}, section {number}: there is no such heading")
+        if equation and f"\\tag{{{equation}}}" not in there:
+            wrong.append(f"{link}, ({equation}): there is no such equation")
+    return wrong
+
+
+class Pages(unittest.TestCase):
+    def test_links(self):
+        for page in PAGES:
+            with self.subTest(page=os.path.relpath(page, ROOT)):
+                self.assertEqual(wrong_links(page, text_of(page)), [])
+
+    def test_sections(self):
+        for page in PAGES:
+            with self.subTest(page=os.path.relpath(page, ROOT)):
+                self.assertEqual(wrong_sections(page, text_of(page)), [])
+
+    def test_what_is_wrong_is_found(self):
+        page = os.path.join(ROOT, "doc", "made-up.md")
+        self.assertEqual(len(wrong_links(page, "[a](nothing.md) [b](method.md#nothing) ![c](pictures/no.png) `[d](no.md)` [e](method.md#2-cells)")), 3)
+        self.assertEqual(len(wrong_sections(page, '[a](track.md), "No heading" [b](method.md), section 99 [c](verification.md), 2.9 [d](method.md), (99)')), 4)
+        self.assertEqual(wrong_sections(page, '[a](track.md), "How many spans" [b](method.md), section 7 [c](verification.md), 2.1 [d](method.md), (7a)'), [])
+
+    def test_every_page_is_listed(self):
+        listed = re.findall(r"^- " + r"\[[^]]*" + LINK, text_of(os.path.join(ROOT, "doc", "README.md")), flags=re.MULTILINE)
+        for page in glob.glob(os.path.join(ROOT, "doc", "*.md")):
+            if os.path.basename(page) != "README.md":
+                self.assertIn(os.path.basename(page), listed)
+
+    def test_sources(self):
+        keys = re.findall(r"^@\w+\{(\w+),", text_of(os.path.join(ROOT, "doc", "bibliography.bib")), flags=re.MULTILINE)
+        for page in PAGES:
+            for key in re.findall(r"\[([a-z]+\d{4})[],]", prose(text_of(page))):
+                self.assertIn(key, keys, page)
+
+    def test_messages(self):
+        sources = [path for folder in ("source", "include") for ending in ("cc", "h") for path in glob.glob(f"{ROOT}/{folder}/**/*.{ending}", recursive=True)]
+        said = re.sub(r'"\s*\n\s*"', "", "".join(map(text_of, sources))).replace("%%", "%")
+        messages = re.findall(r"^\| `([^`]+)` \|", text_of(os.path.join(ROOT, "doc", "faq.md")), flags=re.MULTILINE)
+        self.assertGreater(len(messages), 30)
+        for message in messages:
+            if message.startswith("mpirun"):
+                continue # Open MPI's
+            for part in message.split("..."):
+                self.assertIn(part.strip(" ';"), said, message)
+
+
+if __name__ == "__main__":
+    unittest.main()

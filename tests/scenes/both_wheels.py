@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Both wheels of a wheelset on a rigid axle: symmetry, equilibrium with the roll found, the first part of Klingel's wave, ranks,
+resuming, and what is refused."""
+
+import importlib.util
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from tread.runs import ROOT
+from tread_runner import Check, run, run_stopped, table
+
+program = sys.argv[1]
+check = Check()
+SCENE = "curves/klingel.prm"
+LOAD = 150e3  # N, on each wheel
+HELD = {"Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance",
+        "Motion/Rolled distance (mm)": 10, "Output/Write volume": "false", "Mesh/Fine half width (mm)": 0, "Mesh/Fine layers": 4}
+
+
+def history_of(folder):
+    return {name: np.array(values) for name, values in table(folder, "history.csv").items()}
+
+
+def klingel():
+    """contrib/plot/klingel.py as a module."""
+    spec = importlib.util.spec_from_file_location("klingel", os.path.join(ROOT, "contrib/plot/klingel.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def of(patches, wheel):
+    return [patch for patch in patches if patch["wheel"] == wheel][0]
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+
+    # Half-space: in the middle both wheels are alike; beside it they carry the load without a moment, and each is the single wheel's
+    # answer with that roll under its share of the load.
+    half = lambda name, **settings: run(program, SCENE, path(name), {**HELD, **settings}, 1, ["--reference-only"])
+    middle = half("middle", **{"Wheelset/Lateral shift (mm)": 0})
+    own, other = (of(middle["patches"], wheel) for wheel in ("own", "other"))
+    check.below("half-space, middle: roll, urad", 1e6 * middle["roll_rad"], 1e-3)
+    for name in ("normal_force_N", "longitudinal_force_N", "lateral_force_N", "max_pressure_Pa", "angle_rad"):
+        check.absolute(f"half-space, middle: {name} of the other wheel", other[name], own[name], 1e-6 * LOAD)
+    check.absolute("half-space, middle: y of the other wheel, mm", 1e3 * other["y_m"], -1e3 * own["y_m"], 1e-6)
+    beside = half("beside")
+    own, other = (of(beside["patches"], wheel) for wheel in ("own", "other"))
+    check.relative("half-space, 3 mm: vertical force, kN", 1e-3 * beside["normal_force_N"], 2e-3 * LOAD, 1e-5)
+    # The cone's rise and fall over the levers of the contacts on a crowned rail.
+    check.relative("half-space, 3 mm: roll, mrad", 1e3 * beside["roll_rad"], -3. * 0.2 / (0.75 - 0.04), 0.02)
+    check.that("half-space, 3 mm: the own wheel stands on a larger radius", own["rolling_radius_m"] > other["rolling_radius_m"] + 1e-3)
+    vertical = lambda patch: patch["normal_force_N"] * np.cos(patch["angle_rad"]) + patch["lateral_force_N"] * np.sin(patch["angle_rad"])
+    alone = half("alone", **{"Wheelset/Both wheels": "false", "Wheelset/Roll (mrad)": 1e3 * beside["roll_rad"],
+                             "Guidance/Yaw inertia (kg m2)": 0, "Vehicle/Wheel load (kN)": 1e-3 * vertical(own)})
+    for name in ("normal_force_N", "longitudinal_force_N", "lateral_force_N", "spin_moment_Nm", "max_pressure_Pa"):
+        check.relative(f"half-space, 3 mm: {name} of one wheel", alone["patches"][0][name], own[name], 1e-4)
+
+    # Finite elements: both rails and both wheels feel the same in the middle; mirrored positions have mirrored answers.
+    summary = run(program, SCENE, path("held"), {**HELD, "Wheelset/Lateral shift (mm)": 0}, 2)
+    own, other = (of(summary["patches"], wheel) for wheel in ("own", "other"))
+    for name in ("normal_force_N", "max_pressure_Pa", "area_m2", "length_m"):
+        check.relative(f"middle: {name} of the other wheel", other[name], own[name], 1e-6)
+    check.relative("middle: vertical force, kN", 1e-3 * summary["normal_force_N"], 2e-3 * LOAD, 5e-3)
+    check.relative("middle: largest pressure beside the half-space's, MPa", 1e-6 * own["max_pressure_Pa"],
+                   1e-6 * of(summary["half_space_patches"], "own")["max_pressure_Pa"], 0.03)
+    check.absolute("middle: lateral force of both, share of the load", summary["lateral_force_N"] / LOAD, 0., 1e-6)
+    sides = {}
+    for shift in (2, -2):
+        name = f"shift{shift}"
+        sides[shift] = run(program, SCENE, path(name), {**HELD, "Wheelset/Lateral shift (mm)": shift}, 2)
+        rows = history_of(path(name))
+        both = rows["normal_force_N"][-1], rows["other_normal_force_N"][-1]
+        check.that(f"{shift} mm: the forces of both wheels in the history", 0.4 < both[1] / both[0] < 0.6)
+    for name in ("normal_force_N", "longitudinal_force_N", "lateral_force_N", "max_pressure_Pa"):
+        check.relative(f"2 mm: {name} of the own wheel is the other's at -2 mm", of(sides[2]["patches"], "own")[name],
+                       of(sides[-2]["patches"], "other")[name], 1e-6)
+    check.absolute("2 mm: roll, urad, and at -2 mm", 1e6 * sides[2]["roll_rad"], -1e6 * sides[-2]["roll_rad"], 1e-3)
+    for wheel in ("own", "other"):
+        computed, reference = (of(sides[2][name], wheel) for name in ("patches", "half_space_patches"))
+        check.relative(f"2 mm: normal force of the {wheel} wheel beside the half-space's, kN", 1e-3 * computed["normal_force_N"],
+                       1e-3 * reference["normal_force_N"], 0.01)
+        check.absolute(f"2 mm: longitudinal force of the {wheel} wheel beside the half-space's, share of the load",
+                       computed["longitudinal_force_N"] / LOAD, reference["longitudinal_force_N"] / LOAD, 0.01)
+
+    # Free: the difference of the rolling radii turns the wheelset, by -k^2 y for each metre.
+    free = {"Motion/Rolled distance (mm)": 160, "Output/Write volume": "false", "Output/History interval (mm)": 2}
+    waved = run(program, SCENE, path("free"), free, 2)
+    rows = history_of(path("free"))
+    x = rows["position_m"] - rows["position_m"][0]
+    wave = 2. * np.pi / klingel().wavelengths()["with roll"]
+    settled = x > 0.05
+    turning = np.polyfit(x[settled], rows["yaw_rad"][settled], 1)[0]
+    check.relative("free: yaw for each metre, mrad", 1e3 * turning, -1e3 * wave ** 2 * np.mean(rows["lateral_shift_m"][settled]), 0.03)
+    drift = np.polyfit(x[settled], rows["lateral_shift_m"][settled], 2)
+    check.relative("free: curvature of the path, 1e-3/m", 2e3 * drift[0], -1e3 * wave ** 2 * np.mean(rows["lateral_shift_m"][settled]), 0.1)
+    check.energy("free: ", waved, 0.02)
+    # No guidance: what the rails do to the wheelset across is its momentum.
+    check.below("free: guidance force, N", np.abs(rows["guidance_force_N"]).max(), 1e-9)
+
+    # Ranks and resuming.
+    short = {**free, "Motion/Rolled distance (mm)": 20}
+    for ranks in (1, 3):
+        run(program, SCENE, path(f"ranks{ranks}"), short, ranks)
+    one, three = history_of(path("ranks1")), history_of(path("ranks3"))
+    for name, scale in (("lateral_shift_m", 1e-6), ("yaw_rad", 1e-5), ("roll_rad", 1e-5), ("other_normal_force_N", LOAD)):
+        check.below(f"3 ranks: {name}", np.abs(one[name] - three[name]).max() / scale, 1e-5)
+    run_stopped(program, SCENE, path("stopped"), short, 3)
+    run(program, SCENE, path("stopped"), short, 1, ["--resume"])
+    resumed = history_of(path("stopped"))
+    for name in ("lateral_shift_m", "yaw_rad", "roll_rad", "other_normal_force_N", "external_work_J"):
+        check.that(f"resumed: {name} has the same bits", np.array_equal(resumed[name], one[name]))
+
+    def must_fail(name, settings, *words):
+        check.refused(name, program, SCENE, path("bad"), {**HELD, **settings}, words)
+
+    must_fail("a roll", {"Wheelset/Roll (mrad)": 1}, "Wheelset/Roll (mrad)", "Both wheels")
+    must_fail("no inertia", {"Guidance/Yaw inertia (kg m2)": 0}, "Guidance/Yaw inertia (kg m2)", "Both wheels")
+    must_fail("no position", {"Wheelset/Lateral shift (mm)": "none"}, "Wheelset/Lateral shift (mm)")
+    must_fail("more than the wheel's circumference", {"Motion/Rolled distance (mm)": 1200}, "Rolled distance", "circumference")
+    must_fail("a wheelset between the rails", {"Wheelset/Lateral shift (mm)": 80}, "no half-space answer")
+    with open(path("roll.csv"), "w", encoding="utf-8") as file:
+        file.write("time_s,roll_mrad\n" + "".join(f"{0.01 * k},0.1\n" for k in range(9)))
+    must_fail("a roll over time", {"Guidance/Kind": "file", "Guidance/File": path("roll.csv")}, "roll_mrad", "Both wheels")
+
+check.exit()
