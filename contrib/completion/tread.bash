@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Completion of the program's command line in bash: options, parameter files, and parameters behind -s.
 #
-#     source contrib/completion/tread.bash        # in ~/.bashrc
+#     source contrib/completion/tread.bash        # in ~/.bashrc; an installed program needs no such line
 #
 # Options and parameters are asked of the program itself, once in a shell for each program.
 
-declare -A _tread_options _tread_parameters
+# Global: bash-completion reads this file inside a function.
+declare -gA _tread_options _tread_parameters
 
 # The program's long options, one a line.
 _tread_list_options()

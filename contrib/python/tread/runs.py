@@ -17,11 +17,13 @@ import subprocess
 
 from .files import Error, frame_or_rows, parameters_in, read_parameters, read_summary, read_table
 
-# This file is contrib/python/tread/runs.py, to which folders of commands have links; installed by pip it has no such root.
+# This file is contrib/python/tread/runs.py, to which folders of commands have links; in an installed package its place says nothing.
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *3 * [os.pardir]))
 PROGRAM = os.path.join(ROOT, "build/source/tread")
 if not os.path.isdir(os.path.join(ROOT, "prm")):
     PROGRAM = shutil.which("tread") or "tread"
+    if os.path.isabs(PROGRAM):  # What is installed with it has the layout of the source tree.
+        ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.realpath(PROGRAM)), os.pardir, "share", "tread"))
 
 
 class ProgramError(Error):
@@ -55,7 +57,7 @@ def command(arguments, ranks=1, program=PROGRAM):
 
 
 def scene_path(scene):
-    """A path from the current folder, or else from prm/ of the source tree."""
+    """A path from the current folder, or else from prm/ of the source tree or of the installed program."""
     scene = os.fspath(scene)
     shipped = os.path.join(ROOT, "prm", scene)
     return shipped if not os.path.exists(scene) and os.path.exists(shipped) else scene
