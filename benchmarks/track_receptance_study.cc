@@ -29,8 +29,8 @@ int main(int argc, char **argv)
   const double       cell = 1e-3 * std::atof(argv[2]), row = 1e-3 * std::atof(argv[3]);
   const unsigned int n = std::atoi(argv[4]);
   TrackParameters    track;
-  track.pad_stiffness = 1e6 * std::atof(argv[6]);
-  track.pad_damping   = 1e3 * std::atof(argv[7]);
+  track.springs.pad_stiffness = 1e6 * std::atof(argv[6]);
+  track.springs.pad_damping   = 1e3 * std::atof(argv[7]);
   if (std::string(argv[5]) == "points")
     {
       track.pad_width     = .02;
@@ -44,7 +44,7 @@ int main(int argc, char **argv)
   constexpr unsigned int max_level = 2;
   constexpr double       spread    = .06; // m
   const double compliance = tests::foot_compliance(tests::full_section(profile, 3, cell, row, 0.), track);
-  const auto   soft_foot  = tests::softened(track.layers(), compliance);
+  const auto   soft_foot  = tests::softened(track.layers(0), compliance);
   std::fprintf(stderr, "compliance of the foot %.3g nm/N, pad with it %.0f MN/m\n", 1e9 * compliance,
                1e-6 * soft_foot.pad_stiffness);
   std::vector<std::string>       names;

@@ -185,7 +185,7 @@ namespace tread::tests
     /// The same rail as a beam on the same supports, or on these.
     reference::SupportedBeam beam(const double element_length) const
     {
-      return beam(element_length, supports->parameters.layers());
+      return beam(element_length, supports->parameters.layers(0));
     }
     reference::SupportedBeam beam(const double element_length, const reference::SupportLayers &layers) const
     {

@@ -211,14 +211,14 @@ namespace tread
       c.gap  = [&heights](const double x, const double s) {
         return heights.gap(x, s);
       };
-      c.friction     = rolling.friction;
-      c.speed        = V;
-      c.longitudinal = patch.creepage;
-      c.lateral      = patch.lateral_creepage;
-      c.spin         = patch.spin;
-      c.wheel        = rolling.wheel;
-      c.rail         = rolling.rail;
-      c.order        = rolling.order;
+      static_cast<reference::Friction &>(c) = rolling;
+      c.speed                               = V;
+      c.longitudinal                        = patch.creepage;
+      c.lateral                             = patch.lateral_creepage;
+      c.spin                                = patch.spin;
+      c.wheel                               = rolling.wheel;
+      c.rail                                = rolling.rail;
+      c.order                               = rolling.order;
       if (rolling.slip_follows_surface)
         c.more_slip = [&heights, at_origin, by_x = turning[0] / V, by_s = dot(turning, heights.along()) / V](
                         const double, const double s) -> std::array<double, 2> {

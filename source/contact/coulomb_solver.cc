@@ -49,7 +49,7 @@ namespace tread
             {
               const Vector3 slip = u - normal_rate * constraint.normal;
               tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
-              double       factor = pairs.factor.empty() ? 1. : pairs.factor[j];
+              double factor = pairs.factor.empty() ? 1. : pairs.factor[j];
               if (pairs.of_pressure)
                 factor *= pairs.of_pressure(new_normal / (constraint.area * pairs.time_step));
               const double at_rest = pairs.coefficient.empty() ? static_coefficient : pairs.coefficient[j];

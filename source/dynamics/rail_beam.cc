@@ -65,7 +65,9 @@ namespace tread
       shear_coefficient * rail.young_modulus / (2. * (1. + rail.poisson_ratio)) * area;
     rail_section.mass           = rail.density * area;
     rail_section.rotary_inertia = rail.density * moment_of_inertia;
-    layers                      = supports.parameters.layers();
+    std::vector<reference::SupportLayers> layers;
+    for (unsigned int s = 0; s < supports.positions.size(); ++s)
+      layers.push_back(supports.parameters.layers(s));
     beam = std::make_unique<reference::SupportedBeam>(rail_section, layers, supports.positions, begin, end,
                                                       element_length);
   }
@@ -74,12 +76,15 @@ namespace tread
   RailBeam::Field RailBeam::respond(const std::vector<reference::SupportedBeam::Load> &loads,
                                     const std::vector<double>                         &sleeper_loads) const
   {
-    Field        field{beam->respond(loads), std::vector<double>(supports.positions.size(), 0.)};
-    const double k_pad = layers.pad_stiffness, k_ballast = layers.ballast_stiffness;
+    Field field{beam->respond(loads), std::vector<double>(supports.positions.size(), 0.)};
     if (supports.parameters.two_layers)
       for (unsigned int s = 0; s < field.sleepers.size(); ++s)
-        field.sleepers[s] = (k_pad * field.rail.deflection(supports.positions[s]).real() + sleeper_loads[s]) /
-                            (k_pad + k_ballast);
+        {
+          const double k_pad = beam->layers[s].pad_stiffness, k_ballast = beam->layers[s].ballast_stiffness;
+          field.sleepers[s] =
+            (k_pad * field.rail.deflection(supports.positions[s]).real() + sleeper_loads[s]) /
+            (k_pad + k_ballast);
+        }
     return field;
   }
 
@@ -124,8 +129,12 @@ namespace tread
     std::vector<double> sleeper_loads(sums.begin() + 2 * n, sums.end());
     if (!supports.solid_sleepers.empty())
       for (unsigned int s = 0; s < n_supports; ++s)
-        loads.push_back({supports.positions[s], sleeper_loads[s] * layers.pad_stiffness /
-                                                  (layers.pad_stiffness + layers.ballast_stiffness)});
+        {
+          const reference::SupportLayers &of_support = beam->layers[s];
+          loads.push_back(
+            {supports.positions[s], sleeper_loads[s] * of_support.pad_stiffness /
+                                      (of_support.pad_stiffness + of_support.ballast_stiffness)});
+        }
     return respond(loads, sleeper_loads);
   }
 

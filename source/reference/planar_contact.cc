@@ -2,6 +2,7 @@
 #include <tread/reference/planar_contact.h>
 
 #include "require.h"
+#include "slip_friction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,8 @@ namespace tread::reference
     {
       for (std::size_t e = 0; e < r.pressure.size(); ++e)
         {
-          const double shear = std::hypot(r.shear_x[e], r.shear_y[e]), limit = c.friction * r.pressure[e];
+          const double shear = std::hypot(r.shear_x[e], r.shear_y[e]),
+                       limit = c.friction_bound(r.pressure[e]);
           if (shear > limit)
             {
               r.shear_x[e] *= limit / shear;
@@ -113,11 +115,11 @@ namespace tread::reference
   PlanarResult solve_planar(const PlanarCase &c)
   {
     check_grid(c.grid);
-    require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
     require_positive("speed", c.speed, "m/s");
     require(std::isfinite(c.normal_force) && c.normal_force >= 0., "normal_force", c.normal_force, ">= 0 N");
     const ElasticPair pair = combine(c.wheel, c.rail);
-    NormalProblem     normal;
+    check_friction(c, pair);
+    NormalProblem normal;
     normal.prescribe_force = c.normal_force > 0.;
     normal.force           = c.normal_force;
     normal.approach        = 0.;
@@ -127,13 +129,15 @@ namespace tread::reference
 
     const TangentialProblem problem = tangential_problem(c);
     ContactSolution         contact;
-    if (c.friction > 0.)
+    if (c.friction > 0. && c.is_coulomb())
       contact = solve_contact(c.grid, pair, normal, problem);
     else
       {
         const FourierGrid fourier(c.grid);
-        contact.normal     = solve_normal(fourier, NormalOperator(fourier, pair), normal);
-        contact.tangential = frictionless(c.grid, contact.normal, problem);
+        contact.normal = solve_normal(fourier, NormalOperator(fourier, pair), normal);
+        contact.tangential =
+          c.friction > 0. ? solve_with_friction(c.grid, pair, contact.normal.pressure, problem, c, c.speed)
+                          : frictionless(c.grid, contact.normal, problem);
       }
     if (contact.normal.cut)
       throw std::runtime_error("contact reaches the border of the grid");

@@ -8,7 +8,6 @@
 #include "slip_friction.h"
 
 #include <algorithm>
-#include <iterator>
 #include <chrono>
 #include <cmath>
 
@@ -19,7 +18,6 @@ namespace tread::reference
     require_positive("curvature_x", c.curvature_x, "1/m");
     require_positive("curvature_y", c.curvature_y, "1/m");
     require_positive("normal_force", c.normal_force, "N (no contact otherwise)");
-    require(std::isfinite(c.friction) && c.friction >= 0., "friction", c.friction, "a number >= 0");
     require_positive("speed", c.speed, "m/s");
     require_positive("element_size", c.element_size, "m");
     require(std::isfinite(c.element_size_y) && c.element_size_y >= 0., "element_size_y", c.element_size_y,
@@ -27,11 +25,7 @@ namespace tread::reference
     require_finite("lateral_creepage", c.lateral_creepage);
     require_finite("spin", c.spin);
     require(std::isfinite(c.layer) && c.layer >= 0., "layer", c.layer, ">= 0 m/Pa");
-    require(!c.slip_friction || combine(c.wheel, c.rail).coupling == 0., "slip_friction with coupling",
-            combine(c.wheel, c.rail).coupling, "that of like bodies, 0");
-    require(!c.pressure_factor || combine(c.wheel, c.rail).coupling == 0., "pressure_factor with coupling",
-            combine(c.wheel, c.rail).coupling, "that of like bodies, 0");
-    require(!c.pressure_factor || !c.slip_friction, "pressure_factor", 1., "none with slip_friction");
+    check_friction(c, combine(c.wheel, c.rail));
     if (c.prescribe_force)
       require(std::abs(c.traction_coefficient) < c.friction ||
                 (c.friction == 0. && c.traction_coefficient == 0.),
@@ -294,20 +288,15 @@ namespace tread::reference
           if (known)
             contact.normal = by_elements;
         }
-      else if (c.slip_friction || c.pressure_factor)
+      else if (!c.is_coulomb())
         {
           if (!known)
             {
               const FourierGrid fourier(grid);
               contact.normal = solve_normal(fourier, NormalOperator(fourier, pair), normal);
             }
-          const std::vector<double> &pressure = contact.normal.pressure;
-          if (c.pressure_factor)
-            std::transform(pressure.begin(), pressure.end(), std::back_inserter(tangential.friction_share),
-                           c.pressure_factor);
-          contact.tangential = c.slip_friction ? solve_with_slip_friction(grid, pair, pressure, tangential,
-                                                                          *c.slip_friction, c.speed)
-                                               : solve_tangential(grid, pair, pressure, tangential);
+          contact.tangential =
+            solve_with_friction(grid, pair, contact.normal.pressure, tangential, c, c.speed);
         }
       else if (known)
         contact.tangential = solve_tangential(grid, pair, contact.normal.pressure, tangential);

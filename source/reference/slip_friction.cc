@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "slip_friction.h"
 
+#include "require.h"
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace tread::reference
@@ -11,12 +14,12 @@ namespace tread::reference
   {
     /// What is left of the static coefficient at each element, for slip speeds (m/s) on the full grid.
     /// Particles enter at the leading edge, the largest x of a row.
-    std::vector<double> shares(const Grid                      &grid,
-                               const std::vector<double>       &pressure,
-                               const std::vector<double>       &slip,
-                               const RollingCase::SlipFriction &law,
-                               const double                     friction,
-                               const double                     speed)
+    std::vector<double> shares(const Grid                   &grid,
+                               const std::vector<double>    &pressure,
+                               const std::vector<double>    &slip,
+                               const Friction::SlipFriction &law,
+                               const double                  friction,
+                               const double                  speed)
     {
       std::vector<double> share(grid.size(), 1.);
       for (unsigned int j = 0; j < grid.n_y; ++j)
@@ -42,13 +45,20 @@ namespace tread::reference
     }
   } // namespace
 
-  TangentialSolution solve_with_slip_friction(const Grid                      &grid,
-                                              const ElasticPair               &pair,
-                                              const std::vector<double>       &pressure,
-                                              TangentialProblem                problem,
-                                              const RollingCase::SlipFriction &law,
-                                              const double                     speed)
+  TangentialSolution solve_with_friction(const Grid                &grid,
+                                         const ElasticPair         &pair,
+                                         const std::vector<double> &pressure,
+                                         TangentialProblem          problem,
+                                         const Friction            &friction,
+                                         const double               speed)
   {
+    if (friction.pressure_factor)
+      {
+        problem.friction_share.clear();
+        std::transform(pressure.begin(), pressure.end(), std::back_inserter(problem.friction_share),
+                       friction.pressure_factor);
+        return solve_tangential(grid, pair, pressure, problem);
+      }
     constexpr double       tolerance  = 1e-5;
     constexpr unsigned int most_turns = 200;
     // Halved when the turns go to and fro, as they do where a law is steep.
@@ -60,8 +70,9 @@ namespace tread::reference
         std::vector<double>      slip(grid.size());
         for (std::size_t e = 0; e < grid.size(); ++e)
           slip[e] = speed * std::hypot(solution.slip_x[e], solution.slip_y[e]);
-        const std::vector<double> wanted = shares(grid, pressure, slip, law, problem.friction, speed);
-        double                    change = 0.;
+        const std::vector<double> wanted =
+          shares(grid, pressure, slip, *friction.slip_friction, problem.friction, speed);
+        double change = 0.;
         for (std::size_t e = 0; e < grid.size(); ++e)
           change = std::max(change, std::abs(wanted[e] - problem.friction_share[e]));
         if (change <= tolerance)
@@ -81,5 +92,16 @@ namespace tread::reference
     throw std::runtime_error(
       "tangential contact: friction and slip did not settle in " + std::to_string(most_turns) +
       " turns; the law falls steeply for these elements: a longer memory or larger elements help");
+  }
+
+
+  void check_friction(const Friction &friction, const ElasticPair &pair)
+  {
+    require(std::isfinite(friction.friction) && friction.friction >= 0., "friction", friction.friction,
+            "a number >= 0");
+    require(friction.is_coulomb() || pair.coupling == 0., "slip_friction or pressure_factor with coupling",
+            pair.coupling, "that of like bodies, 0");
+    require(!friction.pressure_factor || !friction.slip_friction, "pressure_factor", 1.,
+            "none with slip_friction");
   }
 } // namespace tread::reference

@@ -2,6 +2,7 @@
 #ifndef tread_source_reference_slip_friction_h
 #define tread_source_reference_slip_friction_h
 
+#include <tread/reference/friction.h>
 #include <tread/reference/half_space.h>
 
 namespace tread::reference
@@ -10,14 +11,18 @@ namespace tread::reference
   /// in turn with the slip, from that of the static coefficient down, until no coefficient changes by more
   /// than 1e-5 of it. Where a law falls so steeply that there are several answers, this is the one with the
   /// least slip that the turns find.
+  /// Friction that depends on the pressure is known with it.
   /// @param speed of rolling [m/s]
-  /// Throws std::runtime_error if the turns do not settle.
-  TangentialSolution solve_with_slip_friction(const Grid                      &grid,
-                                              const ElasticPair               &pair,
-                                              const std::vector<double>       &pressure,
-                                              TangentialProblem                problem,
-                                              const RollingCase::SlipFriction &law,
-                                              double                           speed);
+  /// @pre !friction.is_coulomb() Throws std::runtime_error if the turns do not settle.
+  TangentialSolution solve_with_friction(const Grid                &grid,
+                                         const ElasticPair         &pair,
+                                         const std::vector<double> &pressure,
+                                         TangentialProblem          problem,
+                                         const Friction            &friction,
+                                         double                     speed);
+
+  /// Throws std::invalid_argument where friction makes no sense, or has no answer for this pair.
+  void check_friction(const Friction &friction, const ElasticPair &pair);
 } // namespace tread::reference
 
 #endif

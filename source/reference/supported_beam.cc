@@ -72,18 +72,20 @@ namespace tread::reference
   }
 
 
-  SupportedBeam::SupportedBeam(const BeamSection         &section,
-                               const SupportLayers       &layers,
-                               const std::vector<double> &supports,
-                               const double               begin,
-                               const double               end,
-                               const double               element_length)
+  SupportedBeam::SupportedBeam(const BeamSection                &section,
+                               const std::vector<SupportLayers> &layers,
+                               const std::vector<double>        &supports,
+                               const double                      begin,
+                               const double                      end,
+                               const double                      element_length)
     : layers(layers)
     , supports(supports)
     , section(section)
   {
     require_positive("bending_stiffness", section.bending_stiffness, "N m^2");
-    require_positive("pad_stiffness", layers.pad_stiffness, "N/m");
+    require(layers.size() == supports.size(), "layers", layers.size(), "one for each support");
+    for (const SupportLayers &of_support : layers)
+      require_positive("pad_stiffness", of_support.pad_stiffness, "N/m");
     require_positive("element_length", element_length, "m");
     require(begin < end, "end", end, "above the begin");
     double last = begin;
@@ -160,12 +162,14 @@ namespace tread::reference
           }
         upper[e] = {{{-12. * k, 6. * L * k}, {-6. * L * k, (2. - phi) * L * L * k}}};
       }
-    for (const unsigned int i : node_of_support)
+    for (std::size_t s = 0; s < supports.size(); ++s)
       {
-        diagonal[i][0][0] += layers.stiffness(omega);
+        const unsigned int   i = node_of_support[s];
+        const SupportLayers &l = layers[s];
+        diagonal[i][0][0] += l.stiffness(omega);
         // The sleeper does not turn.
-        diagonal[i][1][1] += layers.pad_radius * layers.pad_radius *
-                             (layers.pad_stiffness + imaginary_unit * omega * layers.pad_damping);
+        diagonal[i][1][1] +=
+          l.pad_radius * l.pad_radius * (l.pad_stiffness + imaginary_unit * omega * l.pad_damping);
       }
     for (const Load &l : loads)
       {
@@ -238,12 +242,12 @@ namespace tread::reference
 
   Complex SupportedBeam::Response::pad_force(const unsigned int support) const
   {
-    return beam->layers.stiffness(omega) * nodes[beam->node_of_support.at(support)][0];
+    return beam->layers.at(support).stiffness(omega) * nodes[beam->node_of_support.at(support)][0];
   }
 
 
   Complex SupportedBeam::Response::ballast_force(const unsigned int support) const
   {
-    return beam->layers.transmission(omega) * pad_force(support);
+    return beam->layers.at(support).transmission(omega) * pad_force(support);
   }
 } // namespace tread::reference

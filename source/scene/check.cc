@@ -247,6 +247,10 @@ namespace tread
                   text_of(std::max(0., clear)) + " fits this rail");
       }
     const int first = first_support(), last = first + static_cast<int>(support_positions().size()) - 1;
+    for (const auto &[support, springs] : support_springs)
+      require(support >= first && support <= last, "'Track/Support file' has support " +
+                                                     std::to_string(support) + "; the rail has supports " +
+                                                     std::to_string(first) + " to " + std::to_string(last));
     for (const int support : recorded_supports())
       require(support >= first && support <= last, "'Output/Supports' has " + std::to_string(support) +
                                                      "; the rail has supports " + std::to_string(first) +

@@ -57,17 +57,19 @@ namespace tread
   }
 
 
-  void set_friction(reference::RollingCase &c, const Scene &scene, const double x)
+  void set_friction(reference::Friction &c, const Scene &scene, const double x)
   {
     const double factor = scene.contact.friction_factor(x);
     const auto   law    = scene.friction_law();
     c.friction          = factor * law->coefficient(0.);
     c.slip_friction.reset();
     if (!scene.contact.friction_pressures.empty())
-      c.pressure_factor = [contact = scene.contact](const double p) { return contact.pressure_factor(p); };
+      c.pressure_factor = [contact = scene.contact](const double p) {
+        return contact.pressure_factor(p);
+      };
     if (!law->is_constant())
-      c.slip_friction = std::make_shared<const reference::RollingCase::SlipFriction>(
-        reference::RollingCase::SlipFriction{[=](const double s) { return factor * law->coefficient(s); },
+      c.slip_friction = std::make_shared<const reference::Friction::SlipFriction>(
+        reference::Friction::SlipFriction{[=](const double s) { return factor * law->coefficient(s); },
                                              law->memory().distance, law->memory().speed});
   }
 
@@ -83,8 +85,8 @@ namespace tread
     if (c.slip_friction && reference::combine(c.wheel, c.rail).coupling != 0.)
       throw InputError(law + " with unlike materials of wheel and rail has no half-space answer");
     if (c.pressure_factor && reference::combine(c.wheel, c.rail).coupling != 0.)
-      throw InputError(
-        "'Contact/Friction pressures (MPa)' with unlike materials of wheel and rail has no half-space answer");
+      throw InputError("'Contact/Friction pressures (MPa)' with unlike materials of wheel and rail has no "
+                       "half-space answer");
     if (c.pressure_factor && c.slip_friction)
       throw InputError("'Contact/Friction pressures (MPa)' with " + law + " has no half-space answer");
     if (c.prescribe_force && c.traction_coefficient != 0. && std::abs(c.traction_coefficient) >= c.friction)

@@ -215,6 +215,8 @@ namespace tread
     guidance.check(wheelset.both_wheels);
     if (guidance.kind == Guidance::file)
       take_wheelset_motion();
+    if (!track.support_file.empty())
+      take_support_springs();
   }
 
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/csv_table.h>
 #include <tread/scene/scene.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -51,20 +53,73 @@ namespace tread
   }
 
 
+  void Scene::take_support_springs()
+  {
+    require(track.has_supports(), "'Track/Support file' needs supports: 'Track/Foundation' cannot be rigid");
+    using Springs = TrackParameters::Springs;
+    struct Column
+    {
+      const char *name;
+      double Springs::*value;
+      double           in_si;
+      double           least; ///< SI
+      bool             of_ballast;
+    };
+    const std::array<Column, 4> columns{
+      {{"pad_stiffness_MN_per_m", &Springs::pad_stiffness, 1e6, 1., false},
+       {"pad_damping_kN_s_per_m", &Springs::pad_damping, 1e3, 0., false},
+       {"ballast_stiffness_MN_per_m", &Springs::ballast_stiffness, 1e6, 0., true},
+       {"ballast_damping_kN_s_per_m", &Springs::ballast_damping, 1e3, 0., true}}};
+    const std::string file = located(track.support_file), begin = "'Track/Support file': '" + file + "' ";
+    const CsvTable    table(
+         file,
+         [&](const std::string &name) {
+        const bool is_known =
+          name == "support" ||
+          std::any_of(columns.begin(), columns.end(), [&](const Column &c) { return name == c.name; });
+        require(is_known, begin + "has a column '" + name +
+                               "'; it may have support, pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
+                                  "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m");
+        return true;
+      },
+         "'Track/Support file': cannot read '" + file + "'");
+    const std::vector<double> &numbers = table.column("support");
+    for (std::size_t row = 0; row < numbers.size(); ++row)
+      {
+        const std::string place  = begin + "row " + std::to_string(row + 1) + ": ";
+        const int         number = static_cast<int>(numbers[row]);
+        require(numbers[row] == number, place + "support " + text_of(numbers[row]) + " is no whole number");
+        require(support_springs.count(number) == 0,
+                place + "support " + std::to_string(number) + " occurs twice");
+        Springs own{track.pad_stiffness, track.ballast_stiffness, track.pad_damping, track.ballast_damping};
+        for (const Column &column : columns)
+          if (table.has(column.name))
+            {
+              require(!column.of_ballast || track.foundation == Foundation::two_layer,
+                      begin + "has " + column.name + ", but 'Track/Foundation' one-layer has no ballast");
+              own.*column.value = column.in_si * table.column(column.name)[row];
+              require(own.*column.value >= column.least,
+                      place + column.name + " " + text_of(own.*column.value / column.in_si) +
+                        " is too small; at least " + text_of(column.least / column.in_si));
+            }
+        support_springs[number] = own;
+      }
+  }
+
+
   TrackParameters Scene::track_parameters() const
   {
     TrackParameters p;
-    p.pad_stiffness     = track.pad_stiffness;
-    p.pad_damping       = track.pad_damping;
-    p.pad_length        = track.pad_length;
-    p.pad_width         = track.pad_width;
-    p.pad_middle        = base_middle()[1];
-    p.points_along      = track.points_along;
-    p.points_across     = track.points_across;
-    p.two_layers        = track.foundation == Foundation::two_layer;
-    p.sleeper_mass      = track.sleeper_mass;
-    p.ballast_stiffness = track.ballast_stiffness;
-    p.ballast_damping   = track.ballast_damping;
+    p.springs      = {track.pad_stiffness, track.ballast_stiffness, track.pad_damping, track.ballast_damping};
+    p.pad_length   = track.pad_length;
+    p.pad_width    = track.pad_width;
+    p.pad_middle   = base_middle()[1];
+    p.points_along = track.points_along;
+    p.points_across = track.points_across;
+    p.two_layers    = track.foundation == Foundation::two_layer;
+    p.sleeper_mass  = track.sleeper_mass;
+    for (const auto &[number, springs] : support_springs)
+      p.exceptions[number - first_support()] = springs;
     return p;
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/half_space_case.h>
 #include <tread/scene/wheelset_case.h>
 
 #include <cmath>
@@ -109,10 +110,16 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
-    require(contact.friction_places.empty() && contact.friction_pressures.empty() &&
-              friction_law()->is_constant(),
-            "'Contact/Friction law' must be Coulomb, 'Friction places (mm)' and 'Friction pressures (MPa)' "
-            "empty where 'Wheelset' has a position: its half-space answer knows one coefficient");
+    reference::Friction friction;
+    set_friction(friction, *this, path_begin());
+    const WheelRolling rolling = wheel_rolling(*this);
+    require(
+      friction.is_coulomb() || reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
+      "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)' empty where 'Wheelset' has "
+      "a position and wheel and rail are of unlike materials: half-space theory has no answer");
+    require(!friction.slip_friction || !friction.pressure_factor,
+            "'Contact/Friction law' must be Coulomb with 'Friction pressures (MPa)' where 'Wheelset' has a "
+            "position: half-space theory has no answer for both");
   }
 
 
@@ -162,9 +169,9 @@ namespace tread
     const auto   elastic = [](const MaterialSection &material) -> reference::Elastic {
       return {material.elastic().young_modulus, material.elastic().poisson_ratio};
     };
-    rolling.wheel                = elastic(scene.wheel.material);
-    rolling.rail                 = elastic(scene.rail.material);
-    rolling.friction             = scene.friction_law()->coefficient(0.);
+    rolling.wheel = elastic(scene.wheel.material);
+    rolling.rail  = elastic(scene.rail.material);
+    set_friction(rolling, scene, scene.path_begin());
     rolling.speed                = scene.motion.speed;
     rolling.angular_velocity     = scene.motion.angular_velocity
                                      ? *scene.motion.angular_velocity

@@ -91,12 +91,24 @@ namespace tread
     // forces do not tell how near to sliding a patch is.
     const bool by_creepage =
       all_slips || !scene.friction_law()->is_constant() || !scene.contact.friction_pressures.empty();
-    reference::RollingCase c           = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
-    c.prescribe_force                  = !by_creepage;
-    c.creepage                         = -answer.creepage;
+    reference::RollingCase c = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
+    c.prescribe_force        = !by_creepage;
+    c.creepage               = -answer.creepage;
     const reference::RollingEstimate half_space = reference::estimate_rolling(c);
     compare(summary, answer, half_space, c.prescribe_force);
     return patch_nodes(half_space.fields, scene.first_contact().y);
+  }
+
+
+  std::string Simulation::friction_varies_at_end(const double normal_force) const
+  {
+    const double half_length =
+      hertz(scene, normal_force > 0. ? normal_force : scene.static_load()).semi_axis_x;
+    return scene.contact.friction_varies(scene.path_end() - last_way - half_length,
+                                         scene.path_end() + half_length)
+             ? format("'Contact/Friction factors' change in the patch at the end or on its last %g mm",
+                      1e3 * last_way)
+             : "";
   }
 
 
@@ -108,13 +120,8 @@ namespace tread
       return "no comparison with steady rolling: the wheel crosses a defect";
     if (!(answer.force[2] > 0.))
       return "";
-    const double half_length = hertz(scene, answer.force[2]).semi_axis_x;
-    if (scene.contact.friction_varies(scene.path_end() - last_way - half_length,
-                                      scene.path_end() + half_length))
-      return format(
-        "no comparison with steady rolling: 'Contact/Friction factors' change in the patch at the "
-        "end or on its last %g mm",
-        1e3 * last_way);
+    if (const std::string varies = friction_varies_at_end(answer.force[2]); !varies.empty())
+      return "no comparison with steady rolling: " + varies;
     try
       {
         patch = compare_with_half_space(summary, answer);
@@ -414,7 +421,12 @@ namespace tread
     std::string            note;
     std::vector<PatchNode> reference_patch;
     if (scene.is_positioned())
-      reference_patch = placed().table_nodes();
+      {
+        reference_patch = placed().table_nodes();
+        if (const std::string varies = friction_varies_at_end(normal / scene.wheelset.n_wheels());
+            !varies.empty())
+          note = "the half-space beside is in steady rolling, but " + varies;
+      }
     else if (completed || scene.has_defect())
       note = compare_with_steady_rolling(summary, answer, reference_patch);
     if (!note.empty())

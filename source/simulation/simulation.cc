@@ -207,7 +207,9 @@ namespace tread
     last_steps += is_last;
     if (std::abs(position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell)
       {
-        if (scene.guidance.kind != Guidance::rigid && !motion_at_solution)
+        const bool differs_from_start =
+          scene.guidance.kind != Guidance::rigid || !scene.contact.friction_places.empty();
+        if (differs_from_start && scene.is_positioned() && !motion_at_solution)
           {
             motion_at_solution = wheels.front().hub.motion;
             place_at_solution();
@@ -242,7 +244,8 @@ namespace tread
     rolling.across_speed     = motion.velocity_y;
     rolling.yaw_rate         = motion.yaw_rate;
     rolling.roll_rate        = motion.roll_rate;
-    placed_at_solution       = std::make_shared<const PlacedWheel>(scene, position, rolling);
+    set_friction(rolling, scene, scene.path_end());
+    placed_at_solution = std::make_shared<const PlacedWheel>(scene, position, rolling);
     wheels.front().averages_of_patches.assign(placed_at_solution->patches().size(), PatchAverage());
   }
 

@@ -191,6 +191,9 @@ namespace tread
         if (parameters.text("Track/Foundation") != "two-layer")
           throw InputError("--bottom ballast: " + request.run + " has no ballast, only '" +
                            parameters.text("Track/Foundation") + "'");
+        if (!parameters.text("Track/Support file").empty())
+          throw InputError("--bottom ballast: " + request.run +
+                           " has 'Track/Support file', whose ballast is not looked up");
         p.ballast_stiffness = parameters.number("Track/Ballast stiffness (MN per m)", 1e6);
       }
     const SleeperShape shape = SleeperShape::ns90();

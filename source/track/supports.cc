@@ -81,19 +81,20 @@ namespace tread
   } // namespace
 
 
-  reference::SupportLayers TrackParameters::layers() const
+  reference::SupportLayers TrackParameters::layers(const unsigned int support) const
   {
+    const Springs           &own = springs_of(support);
     reference::SupportLayers l;
-    l.pad_stiffness = pad_stiffness;
-    l.pad_damping   = pad_damping;
+    l.pad_stiffness = own.pad_stiffness;
+    l.pad_damping   = own.pad_damping;
     // Radius of gyration of n equal points at the centres of n parts.
     const double n = points_along;
     l.pad_radius   = pad_length * std::sqrt((1. - 1. / (n * n)) / 12.);
     if (two_layers)
       {
         l.sleeper_mass      = sleeper_mass;
-        l.ballast_stiffness = ballast_stiffness;
-        l.ballast_damping   = ballast_damping;
+        l.ballast_stiffness = own.ballast_stiffness;
+        l.ballast_damping   = own.ballast_damping;
       }
     return l;
   }
@@ -118,7 +119,8 @@ namespace tread
     const Faces        foot = facing(rail_body, -1.);
     for (unsigned int s = 0; s < positions.size(); ++s)
       {
-        Faces top, bottom;
+        const TrackParameters::Springs &own = p.springs_of(s);
+        Faces                           top, bottom;
         if (!solid_sleepers.empty())
           {
             top    = facing(solid_sleepers[s].body, 1.);
@@ -135,19 +137,20 @@ namespace tread
                                 : solid_sleepers.empty() ? static_cast<int>(s)
                                                          : static_cast<int>(point_of(add_end(top, x, y, 1.)));
               springs.push_back(
-                {static_cast<int>(point_of(end)), below, p.pad_stiffness / n, p.pad_damping / n, s, pad});
+                {static_cast<int>(point_of(end)), below, own.pad_stiffness / n, own.pad_damping / n, s, pad});
             }
         if (!p.two_layers)
           continue;
         if (solid_sleepers.empty())
-          springs.push_back({static_cast<int>(s), -1, p.ballast_stiffness, p.ballast_damping, s, ballast});
+          springs.push_back(
+            {static_cast<int>(s), -1, own.ballast_stiffness, own.ballast_damping, s, ballast});
         else
           for (const double x : middles(positions[s] - 0.5 * solid_sleepers[s].width,
                                         positions[s] + 0.5 * solid_sleepers[s].width, p.points_along))
             for (const double y :
                  middles(solid_sleepers[s].y_begin, solid_sleepers[s].y_end, p.points_across))
               springs.push_back({static_cast<int>(point_of(add_end(bottom, x, y, -1.))), -1,
-                                 p.ballast_stiffness / n, p.ballast_damping / n, s, ballast});
+                                 own.ballast_stiffness / n, own.ballast_damping / n, s, ballast});
       }
     displacement.assign(point_of(ends.size()), 0.);
     velocity = displacement;
@@ -328,12 +331,13 @@ namespace tread
   void Supports::sleeper_row_sums(double &stiffness_over_mass, double &damping_over_mass) const
   {
     stiffness_over_mass = damping_over_mass = 0.;
-    if (n_sleepers > 0)
+    for (unsigned int s = 0; s < n_sleepers; ++s)
       {
-        stiffness_over_mass =
-          (2. * parameters.pad_stiffness + parameters.ballast_stiffness) / parameters.sleeper_mass;
+        const TrackParameters::Springs &own = parameters.springs_of(s);
+        stiffness_over_mass = std::max(stiffness_over_mass, (2. * own.pad_stiffness + own.ballast_stiffness) /
+                                                              parameters.sleeper_mass);
         damping_over_mass =
-          (2. * parameters.pad_damping + parameters.ballast_damping) / parameters.sleeper_mass;
+          std::max(damping_over_mass, (2. * own.pad_damping + own.ballast_damping) / parameters.sleeper_mass);
       }
   }
 

@@ -191,4 +191,23 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
   clamped_timoshenko_beam(check, rail60);
   pinned_pinned_frequencies(check, rail54, rail60);
   response_at_1_kHz(check, rail60);
+
+  // A support without ballast and sleeper mass carries nothing: the beam without it.
+  {
+    SupportLayers alike = layers(), empty = layers();
+    alike.pad_radius = empty.pad_radius = 0.;
+    empty.ballast_stiffness = empty.sleeper_mass = 0.;
+    std::vector<double>        places = positions(9);
+    std::vector<SupportLayers> each(9, alike);
+    each[4]                  = empty;
+    const BeamSection   rail = rail60.section(.4);
+    const SupportedBeam one(rail, each, places, -2.7, 2.7, .05);
+    places.erase(places.begin() + 4);
+    const SupportedBeam other(rail, alike, places, -2.7, 2.7, .05);
+    const auto          a = one.respond({{.1, wheel_load}}), b = other.respond({{.1, wheel_load}});
+    for (const double x : {-1., 0., .1, .7})
+      check.relative("an empty support, deflection at " + std::to_string(x), a.deflection(x).real(),
+                     b.deflection(x).real(), 1e-9);
+    check.below("an empty support carries", std::abs(a.ballast_force(4)), 1e-6);
+  }
 }

@@ -53,6 +53,20 @@ with tempfile.TemporaryDirectory() as folder:
                    slid["half_space_patches"][0]["lateral_creepage"], 2e-5)
     still = run(program, SCENE, path("still"), {**COARSE, "Motion/Rolled distance (mm)": 10}, 2)
     check.that("without motion the lateral force is another", abs(share(still, "lateral") - share(slid, "lateral")) > 0.1)
+
+    # Friction that falls with slip, or with pressure, or on a spot of the rail, beside the half-space's with the same; each is far from Coulomb's.
+    sliding = {**COARSE, "Motion/Lateral creepage": 0.005}
+    coulomb = run(program, SCENE, path("coulomb"), sliding, 1, ["--reference-only"])
+    for what, settings in (("falling", {"Contact/Friction law": "falling", "Contact/Kinetic friction coefficient": 0.1, "Contact/Falling slip speed (m per s)": 0.3,
+                                        "Contact/Friction memory (mm)": 0.03}),
+                           ("with pressure", {"Contact/Friction pressures (MPa)": "0, 700", "Contact/Friction pressure factors": "1, 0.3"}),
+                           ("on a spot", {"Contact/Friction places (mm)": "-18, -17", "Contact/Friction factors": "1, 0.5"})):
+        summary = run(program, SCENE, path("friction"), {**sliding, **settings}, 2)
+        computed, beside = summary["patches"][0], summary["half_space_patches"][0]
+        for direction in ("longitudinal", "lateral"):
+            check.absolute(f"friction {what}: {direction} over normal force", share(computed, direction), share(beside, direction), 4e-3)
+        check.that(f"friction {what}: not Coulomb's", abs(share(beside, "lateral")) < 0.85 * abs(share(coulomb["patches"][0], "lateral")))
+
     history = history_of(path("moved"))
     check.below("moved sideways: largest miss of the table, um",
                 1e6 * np.abs(history["lateral_shift_m"] - (1e-3 * SPEED * history["time_s"] - 1e-3 * DISTANCE)).max(), 1e-6)

@@ -54,7 +54,7 @@ namespace
     parameters.damping_steps          = 0.;
     // Pads feel the bar's bulging.
     TrackParameters undamped = points();
-    undamped.pad_damping = undamped.ballast_damping = 0.;
+    undamped.springs.pad_damping = undamped.springs.ballast_damping = 0.;
     tests::TrackRail rail(MPI_COMM_SELF, tests::bar(n_supports, 24), n_supports, undamped, parameters, {});
     if (absorbing_length > 0.)
       absorb(rail, absorbing_length);

@@ -189,8 +189,8 @@ namespace
 
     TrackParameters track;
     track.two_layers    = false;
-    track.pad_stiffness = u * distance;
-    track.pad_damping   = c * distance;
+    track.springs.pad_stiffness = u * distance;
+    track.springs.pad_damping   = c * distance;
     track.pad_length    = .02;
     track.pad_width     = .03;
     track.points_along  = 1;

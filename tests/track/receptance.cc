@@ -41,11 +41,11 @@ namespace
                                         {false, .3, "pinned-pinned peak", 860., 1000., 1.}};
     for (const double pad : {1300e6, 200e6})
       {
-        track.pad_stiffness    = pad;
-        track.pad_damping      = pad > 1e9 ? 45e3 : 15e3;
+        track.springs.pad_stiffness = pad;
+        track.springs.pad_damping   = pad > 1e9 ? 45e3 : 15e3;
         const std::string pads = pad > 1e9 ? "stiff pads" : "soft pads";
         // Points on the bar's base dent it.
-        const auto layers = tests::softened(track.layers(), tests::foot_compliance(tests::bar(3, 16), track));
+        const auto layers = tests::softened(track.layers(0), tests::foot_compliance(tests::bar(3, 16), track));
         for (const double x : {0., .3})
           {
             const std::string  name = "bar, " + pads + (x == 0. ? ", over a sleeper" : ", at mid-span");
@@ -88,7 +88,7 @@ namespace
       const auto       beam   = tests::by_beam(rail.beam(.0125), loads, lines);
       const double     foot   = tests::foot_compliance(tests::full_section(profile, 3, cell, row, 0.), areas);
       const auto       softened =
-        tests::by_beam(rail.beam(.0125, tests::softened(areas.layers(), foot)), loads, lines);
+        tests::by_beam(rail.beam(.0125, tests::softened(areas.layers(0), foot)), loads, lines);
       std::printf("%s: %zu cells, %llu steps, compliance of the foot %.3f nm/N\n", name.c_str(),
                   rail.mesh->cells.size(), static_cast<unsigned long long>(rail.dynamics->n_steps),
                   1e9 * foot);

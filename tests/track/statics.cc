@@ -113,7 +113,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   statics(check, "bar, at mid-span", bar, 11, track, {.3}, .01);
   statics(check, "bar, two wheels", bar, 11, track, {-.9, 1.2}, .01);
   track.two_layers    = false;
-  track.pad_stiffness = 43.5e6;
+  track.springs.pad_stiffness = 43.5e6;
   statics(check, "bar, one layer, mid-span", bar, 11, track, {.3}, .01);
   track           = TrackParameters();
   track.pad_width = .05;

@@ -11,10 +11,9 @@
 namespace tread
 {
   /// Steady rolling of one wheel of a wheelset in any position over its rail, in half-space theory. SI units.
-  struct WheelRolling
+  struct WheelRolling : reference::Friction
   {
     reference::Elastic wheel, rail;
-    double             friction         = 0.; ///< Coulomb's f, >= 0
     double             speed            = 1.; ///< of the wheelset along the track, m/s
     double             angular_velocity = 0.; ///< of the wheel about its axle, positive forward, rad/s
     double             lateral_speed    = 0.; ///< of the wheelset over the track, to the own side, m/s

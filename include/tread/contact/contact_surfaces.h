@@ -13,8 +13,8 @@ namespace tread
   /// what is computed from them does not depend on how the cells are distributed.
   ///
   /// Cells may change their size along the path. Faces with a node that hangs on an edge along it, or on one
-  /// of which only a part can touch, are left out: they rim the fine zone, and contact that reaches them is an
-  /// error of the scene.
+  /// of which only a part can touch, are left out: they rim the fine zone, and contact that reaches them is
+  /// an error of the scene.
   class ContactSurfaces
   {
   public:

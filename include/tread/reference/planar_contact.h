@@ -3,6 +3,7 @@
 #define tread_reference_planar_contact_h
 
 #include <tread/reference/elastic.h>
+#include <tread/reference/friction.h>
 #include <tread/reference/half_space.h>
 
 #include <array>
@@ -13,15 +14,14 @@ namespace tread::reference
 {
   /// Steady rolling of two bodies with any gap, solved in one plane: a patch of any shape in its own axes.
   /// Axes and signs as in rolling_case.h, the origin anywhere in the plane.
-  struct PlanarCase
+  struct PlanarCase : Friction
   {
     Grid grid; ///< rectangular elements over all places in contact
     std::function<double(double, double)>
            gap;               ///< of the undeformed surfaces, negative where they overlap [m]
     double normal_force = 0.; ///< [N]; 0: they stay where the gap has them
 
-    double friction = 0.; ///< Coulomb's f [-], >= 0
-    double speed    = 1.; ///< rolling speed [m/s]; scales slip and power only
+    double speed = 1.; ///< rolling speed [m/s]; scales slip and power only
 
     double longitudinal = 0.; ///< creepage xi: wheel less rail over speed [-]
     double lateral      = 0.; ///< eta [-]

@@ -3,10 +3,10 @@
 #define tread_reference_rolling_case_h
 
 #include <tread/reference/elastic.h>
+#include <tread/reference/friction.h>
 #include <tread/reference/influence.h>
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ namespace tread::reference
   /// the speed,
   ///   w_x = creepage - spin y - r(y),   w_y = lateral_creepage + spin x + r'(y) x,
   /// so that `creepage` is NEGATIVE for a driving wheel; r is what the tread adds to the rolling radius.
-  struct RollingCase
+  struct RollingCase : Friction
   {
     // The undeformed gap A x^2 + B y^2.
     double curvature_x = 0.; ///< A [1/m], > 0 (1/(2 R) for a wheel of radius R)
@@ -29,7 +29,6 @@ namespace tread::reference
     std::function<double(double, double)> gap;
 
     double normal_force = 0.; ///< Fn [N], > 0
-    double friction     = 0.; ///< Coulomb's friction coefficient f [-], >= 0; 0: no shear at all
     double speed        = 1.; ///< rolling speed v [m/s], > 0; scales slip and frictional power only
 
     Elastic wheel; ///< upper body
@@ -45,26 +44,6 @@ namespace tread::reference
     /// Rolling radius at y [m] over that at the origin, minus one; empty: 0. Of an upright cone spin y.
     std::function<double(double)> radius_change;
 
-    /// Friction that falls with the slip speed; null: `friction` at any speed.
-    struct SlipFriction
-    {
-      /// Coefficient at a slip speed [m/s] in the long run, never above `friction`, which is that without
-      /// slip.
-      std::function<double(double)> coefficient;
-      /// The coefficient mu that a particle has follows d mu/dt = -max(s, memory_speed)/memory_distance (mu -
-      /// coefficient(s)) from `friction` at the leading edge on (Vollebregt & Schuttelaars 2012). 0 m: at
-      /// once.
-      double memory_distance = 0.; ///< [m]
-      double memory_speed    = 0.; ///< [m/s]
-    };
-    std::shared_ptr<const SlipFriction> slip_friction;
-    /// Factor of `friction` at a pressure [Pa]; empty: 1. Not with slip_friction.
-    std::function<double(double)> pressure_factor;
-    /// Largest shear stress that friction carries at a pressure [Pa].
-    double friction_bound(const double pressure) const
-    {
-      return friction * (pressure_factor ? pressure_factor(pressure) : 1.) * pressure;
-    }
     /// Of a layer between the bodies: ElasticPair::layer [m/Pa].
     double layer = 0.;
 

@@ -44,13 +44,29 @@ namespace tread::reference
   class SupportedBeam
   {
   public:
-    /// @param supports positions, ascending, within [begin, end]; @param element_length upper bound [m]
+    /// @param layers one for each support; @param supports positions, ascending, within [begin, end]
+    /// @param element_length upper bound [m]
+    SupportedBeam(const BeamSection                &section,
+                  const std::vector<SupportLayers> &layers,
+                  const std::vector<double>        &supports,
+                  double                            begin,
+                  double                            end,
+                  double                            element_length);
+    /// All supports alike.
     SupportedBeam(const BeamSection         &section,
                   const SupportLayers       &layers,
                   const std::vector<double> &supports,
                   double                     begin,
                   double                     end,
-                  double                     element_length);
+                  double                     element_length)
+      : SupportedBeam(section,
+                      std::vector<SupportLayers>(supports.size(), layers),
+                      supports,
+                      begin,
+                      end,
+                      element_length)
+    {
+    }
 
     struct Load
     {
@@ -78,8 +94,8 @@ namespace tread::reference
     /// @param omega rad/s; 0: static; omega - i eta: of forces and displacements times exp(-eta t)
     Response respond(const std::vector<Load> &loads, std::complex<double> omega = 0.) const;
 
-    const SupportLayers       layers;
-    const std::vector<double> supports; ///< m
+    const std::vector<SupportLayers> layers;   ///< by support
+    const std::vector<double>        supports; ///< m
 
   private:
     /// Deflection and rotation at the share s of an element for its four nodal values (deflection and

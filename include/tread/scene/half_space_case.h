@@ -25,7 +25,7 @@ namespace tread
   reference::RollingCase half_space_case(const Scene &scene, unsigned int wheel = 0);
 
   /// Give a case the friction that the scene has at x (m) on the rail.
-  void set_friction(reference::RollingCase &c, const Scene &scene, const double x);
+  void set_friction(reference::Friction &c, const Scene &scene, const double x);
 
   /// reference::estimate_rolling() for a case of the scene. @param wheel whose traction is asked for
   /// @throws InputError, one line that names the parameters, where there is no answer

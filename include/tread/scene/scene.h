@@ -226,6 +226,8 @@ namespace tread
     void check_guidance() const;
     /// Read the table of 'Guidance', and the position at the start from it.
     void take_wheelset_motion();
+    /// Read 'Track/Support file'.
+    void take_support_springs();
     /// Quantities that follow from the positions, files and shapes named by the parameters.
     struct Shapes
     {
@@ -280,6 +282,7 @@ namespace tread
     std::shared_ptr<const Shapes>              shapes;
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
+    std::map<int, TrackParameters::Springs>    support_springs; ///< of 'Track/Support file', by the number
   };
 } // namespace tread
 

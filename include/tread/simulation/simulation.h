@@ -125,6 +125,9 @@ namespace tread
     /// or friction depends on slip, the forces say little about the creepage, and the solution is that for
     /// the creepage. @returns the half-space patch.
     std::vector<PatchNode> compare_with_half_space(Summary &summary, const ContactAnswer &answer) const;
+    /// In words, that friction changes where a patch under this force (N) ends, or on the way there; or
+    /// nothing.
+    std::string friction_varies_at_end(const double normal_force) const;
     /// The same where half-space theory knows steady rolling. @param patch of the half-space; @returns why
     /// nothing is compared, or nothing
     std::string compare_with_steady_rolling(Summary                &summary,

@@ -6,6 +6,7 @@
 #include <tread/mesh/mesh.h>
 #include <tread/reference/supported_beam.h>
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -15,19 +16,28 @@ namespace tread
   /// those of a whole support; its points share them.
   struct TrackParameters
   {
-    double       pad_stiffness = 1300e6;              ///< N/m
-    double       pad_damping   = 45e3;                ///< N s/m
+    struct Springs
+    {
+      double pad_stiffness = 1300e6, ballast_stiffness = 45e6; ///< N/m
+      double pad_damping = 45e3, ballast_damping = 32e3;       ///< N s/m
+    };
+    Springs                         springs;
+    std::map<unsigned int, Springs> exceptions; ///< supports that differ, by their place in the list
+    const Springs                  &springs_of(const unsigned int support) const
+    {
+      const auto own = exceptions.find(support);
+      return own == exceptions.end() ? springs : own->second;
+    }
+
     double       pad_length = 0.15, pad_width = 0.14; ///< along and across the rail, m
     double       pad_middle   = 0.;                   ///< y, m
     unsigned int points_along = 3, points_across = 4;
     /// With a second layer the pads rest on sleepers on ballast, otherwise on the ground.
-    bool   two_layers        = true;
-    double sleeper_mass      = 200.; ///< kg; of a rigid sleeper that moves in z only
-    double ballast_stiffness = 45e6; ///< N/m
-    double ballast_damping   = 32e3; ///< N s/m
+    bool   two_layers   = true;
+    double sleeper_mass = 200.; ///< kg; of a rigid sleeper that moves in z only
 
-    /// The same foundation for a beam; rigid sleepers do not rotate.
-    reference::SupportLayers layers() const;
+    /// The same foundation of a support for a beam; rigid sleepers do not rotate.
+    reference::SupportLayers layers(const unsigned int support) const;
   };
 
   /// A sleeper that is a body of the mesh: the area over which it rests on the ballast.
@@ -136,8 +146,8 @@ namespace tread
     /// freely. Collective.
     std::vector<unsigned int> guided_nodes(const unsigned int direction) const;
 
-    /// A spring with its damper, as it acts on the degrees of freedom: its elongation is the sum of the shares
-    /// times the vertical displacements of nodes of this rank and of rigid sleepers, over all ranks.
+    /// A spring with its damper, as it acts on the degrees of freedom: its elongation is the sum of the
+    /// shares times the vertical displacements of nodes of this rank and of rigid sleepers, over all ranks.
     struct Link
     {
       double                                       stiffness, damping; ///< N/m, N s/m

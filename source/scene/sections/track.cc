@@ -76,6 +76,12 @@ namespace tread
                 "Of a whole support (one rail's), vertical.", Double(tiny));
     section.add("Ballast damping (kN s per m)", ballast_damping, "Of a whole support (one rail's), vertical.",
                 Double(0.));
+    section.add(
+      "Support file", support_file,
+      "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "
+      "of names: support, its number, and any of pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
+      "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m, in place of the parameters of these "
+      "names.");
   }
 
 

@@ -14,7 +14,7 @@ namespace tread
     std::string         friction_law         = "Coulomb"; ///< its name in the list of laws
     double              tolerance            = 1e-7;      ///< of the sweeps, share of the largest impulse
     unsigned int        max_sweeps           = 200;
-    std::vector<double> friction_places, friction_factors; ///< along the rail, m and -
+    std::vector<double> friction_places, friction_factors;    ///< along the rail, m and -
     std::vector<double> friction_pressures, pressure_factors; ///< Pa and -
 
     /// Of the friction coefficient at x (m), linear between the places.

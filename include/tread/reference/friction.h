@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_reference_friction_h
+#define tread_reference_friction_h
+
+#include <functional>
+#include <memory>
+
+namespace tread::reference
+{
+  /// Friction between two half-spaces: Coulomb's, or with a coefficient that depends on slip or pressure.
+  struct Friction
+  {
+    double friction = 0.; ///< Coulomb's friction coefficient f [-], >= 0; 0: no shear at all
+
+    /// Friction that falls with the slip speed; null: `friction` at any speed.
+    struct SlipFriction
+    {
+      /// Coefficient at a slip speed [m/s] in the long run, never above `friction`, which is that without
+      /// slip.
+      std::function<double(double)> coefficient;
+      /// The coefficient mu that a particle has follows d mu/dt = -max(s, memory_speed)/memory_distance (mu -
+      /// coefficient(s)) from `friction` at the leading edge on (Vollebregt & Schuttelaars 2012). 0 m: at
+      /// once.
+      double memory_distance = 0.; ///< [m]
+      double memory_speed    = 0.; ///< [m/s]
+    };
+    std::shared_ptr<const SlipFriction> slip_friction;
+
+    /// Factor of `friction` at a pressure [Pa]; empty: 1. Not with slip_friction.
+    std::function<double(double)> pressure_factor;
+
+    bool is_coulomb() const
+    {
+      return !slip_friction && !pressure_factor;
+    }
+    /// Largest shear stress that friction carries at a pressure [Pa], without slip.
+    double friction_bound(const double pressure) const
+    {
+      return friction * (pressure_factor ? pressure_factor(pressure) : 1.) * pressure;
+    }
+  };
+} // namespace tread::reference
+
+#endif
