@@ -53,7 +53,7 @@ namespace tread::reference
     if (std::isinf(ballast_stiffness))
       return 1.;
     const Complex ballast = ballast_stiffness + imaginary_unit * omega * ballast_damping;
-    return ballast / (ballast - omega * omega * sleeper_mass);
+    return ballast == 0. ? 0. : ballast / (ballast - omega * omega * sleeper_mass); // none: a hanging sleeper
   }
 
 

