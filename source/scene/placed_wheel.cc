@@ -388,23 +388,25 @@ namespace tread
   }
 
 
+  Body PlacedWheel::of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const
+  {
+    Body body = make(sides.front());
+    if (sides.size() > 1)
+      body = join(body, make(sides.back()));
+    body.name = name;
+    return body;
+  }
+
+
   Body PlacedWheel::make_rail(const Scene &scene) const
   {
-    Body body = rail_of(scene, sides.front());
-    if (sides.size() > 1)
-      body = join(body, rail_of(scene, sides.back()));
-    body.name = "rail";
-    return body;
+    return of_sides("rail", [&](const Side &side) { return rail_of(scene, side); });
   }
 
 
   Body PlacedWheel::make_wheel(const Scene &scene) const
   {
-    Body body = wheel_of(scene, sides.front());
-    if (sides.size() > 1)
-      body = join(body, wheel_of(scene, sides.back()));
-    body.name = "wheel";
-    return body;
+    return of_sides("wheel", [&](const Side &side) { return wheel_of(scene, side); });
   }
 
 

@@ -226,30 +226,6 @@ namespace tread
   }
 
 
-  const PlacedWheel &Simulation::placed() const
-  {
-    return placed_at_solution ? *placed_at_solution : scene.placed_wheel();
-  }
-
-
-  void Simulation::place_at_solution()
-  {
-    const WheelHub::Motion &motion   = *motion_at_solution;
-    WheelsetPosition        position = scene.wheelset.position();
-    position.shift += motion.y;
-    position.yaw             = motion.yaw;
-    position.roll            = motion.roll;
-    WheelRolling rolling     = wheel_rolling(scene);
-    rolling.angular_velocity = motion.angular_velocity;
-    rolling.across_speed     = motion.velocity_y;
-    rolling.yaw_rate         = motion.yaw_rate;
-    rolling.roll_rate        = motion.roll_rate;
-    set_friction(rolling, scene, scene.path_end());
-    placed_at_solution = std::make_shared<const PlacedWheel>(scene, position, rolling);
-    wheels.front().averages_of_patches.assign(placed_at_solution->patches().size(), PatchAverage());
-  }
-
-
   void Simulation::look_for_peaks()
   {
     if (!rail_peaks)
@@ -305,39 +281,6 @@ namespace tread
     folder.append(row);
     interval_start_time = dynamics.time;
     interval_steps      = 0;
-  }
-
-
-  std::vector<std::vector<ContactNodeState>> Simulation::contact_states() const
-  {
-    std::vector<std::vector<ContactNodeState>> of_wheels(wheels.size());
-    for (const ContactNodeState &state : contact.active_nodes())
-      for (const RollingWheel &wheel : wheels)
-        if (state.master_body == wheel.body)
-          of_wheels[wheel.number].push_back(
-            scene.is_positioned() ? placed().in_contact_axes(state, wheel.hub.motion.x) : state);
-    return of_wheels;
-  }
-
-
-  std::vector<std::vector<PatchNode>> Simulation::patches_now() const
-  {
-    std::vector<std::vector<PatchNode>> patches;
-    const auto                          states = contact_states();
-    for (const RollingWheel &wheel : wheels)
-      patches.push_back(patch_nodes(states[wheel.number], wheel.hub.motion.x, dynamics.time_step));
-    return patches;
-  }
-
-
-  std::vector<std::vector<PatchNode>> Simulation::solution_patches() const
-  {
-    if (!solution_taken)
-      return patches_now();
-    std::vector<std::vector<PatchNode>> patches;
-    for (const RollingWheel &wheel : wheels)
-      patches.push_back(wheel.solution_patch);
-    return patches;
   }
 
 

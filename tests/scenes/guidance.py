@@ -65,7 +65,7 @@ with tempfile.TemporaryDirectory() as folder:
         computed, beside = summary["patches"][0], summary["half_space_patches"][0]
         for direction in ("longitudinal", "lateral"):
             check.absolute(f"friction {what}: {direction} over normal force", share(computed, direction), share(beside, direction), 4e-3)
-        check.that(f"friction {what}: not Coulomb's", abs(share(beside, "lateral")) < 0.85 * abs(share(coulomb["patches"][0], "lateral")))
+        check.that(f"friction {what}: not Coulomb's", abs(share(beside, "lateral")) < 0.9 * abs(share(coulomb["patches"][0], "lateral")))
 
     history = history_of(path("moved"))
     check.below("moved sideways: largest miss of the table, um",

@@ -108,8 +108,10 @@ namespace tread
     static WheelContact      together(const std::vector<Side> &sides);
     /// From the track axes of a side to those of the mesh.
     std::function<dealii::Point<3>(const Vector3d &)> from_track(const bool is_mirrored) const;
-    Body                                              rail_of(const Scene &scene, const Side &side) const;
-    Body                                              wheel_of(const Scene &scene, const Side &side) const;
+    /// A body from its piece at each side.
+    Body of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const;
+    Body rail_of(const Scene &scene, const Side &side) const;
+    Body wheel_of(const Scene &scene, const Side &side) const;
 
     std::vector<Side> sides;
     double            load; ///< on a wheel, N

@@ -83,21 +83,19 @@ namespace tread
 
   void ContactSection::check() const
   {
-    require(friction_places.size() == friction_factors.size(),
-            "'Contact/Friction places (mm)' has " + std::to_string(friction_places.size()) +
-              " entries and 'Contact/Friction factors' " + std::to_string(friction_factors.size()) +
-              ": each place has a factor");
-    for (std::size_t k = 1; k < friction_places.size(); ++k)
-      require(friction_places[k - 1] < friction_places[k],
-              "'Contact/Friction places (mm)': " + text_in_mm(friction_places[k - 1]) + " must be below " +
-                text_in_mm(friction_places[k]) + ", which follows it");
-    require(friction_pressures.size() == pressure_factors.size(),
-            "'Contact/Friction pressures (MPa)' has " + std::to_string(friction_pressures.size()) +
-              " entries and 'Contact/Friction pressure factors' " + std::to_string(pressure_factors.size()) +
-              ": each pressure has a factor");
-    for (std::size_t k = 1; k < friction_pressures.size(); ++k)
-      require(friction_pressures[k - 1] < friction_pressures[k],
-              "'Contact/Friction pressures (MPa)': " + text_of(1e-6 * friction_pressures[k - 1]) +
-                " must be below " + text_of(1e-6 * friction_pressures[k]) + ", which follows it");
+    const auto check_table = [](const std::vector<double> &places, const std::string &name, const double unit,
+                                const std::vector<double> &factors, const std::string &of_factors,
+                                const std::string &each) {
+      require(places.size() == factors.size(),
+              "'Contact/" + name + "' has " + std::to_string(places.size()) + " entries and 'Contact/" +
+                of_factors + "' " + std::to_string(factors.size()) + ": each " + each + " has a factor");
+      for (std::size_t k = 1; k < places.size(); ++k)
+        require(places[k - 1] < places[k], "'Contact/" + name + "': " + text_of(places[k - 1] / unit) +
+                                             " must be below " + text_of(places[k] / unit) +
+                                             ", which follows it");
+    };
+    check_table(friction_places, "Friction places (mm)", 1e-3, friction_factors, "Friction factors", "place");
+    check_table(friction_pressures, "Friction pressures (MPa)", 1e6, pressure_factors,
+                "Friction pressure factors", "pressure");
   }
 } // namespace tread
