@@ -65,11 +65,12 @@ namespace tread
       double           least; ///< SI
       bool             of_ballast;
     };
-    const std::array<Column, 4> columns{
+    const std::array<Column, 5> columns{
       {{"pad_stiffness_MN_per_m", &Springs::pad_stiffness, 1e6, 1., false},
        {"pad_damping_kN_s_per_m", &Springs::pad_damping, 1e3, 0., false},
        {"ballast_stiffness_MN_per_m", &Springs::ballast_stiffness, 1e6, 0., true},
-       {"ballast_damping_kN_s_per_m", &Springs::ballast_damping, 1e3, 0., true}}};
+       {"ballast_damping_kN_s_per_m", &Springs::ballast_damping, 1e3, 0., true},
+       {"ballast_gap_mm", &Springs::ballast_gap, 1e-3, 0., true}}};
     const std::string file = located(track.support_file), begin = "'Track/Support file': '" + file + "' ";
     const CsvTable    table(
          file,
@@ -79,7 +80,7 @@ namespace tread
           std::any_of(columns.begin(), columns.end(), [&](const Column &c) { return name == c.name; });
         require(is_known, begin + "has a column '" + name +
                                "'; it may have support, pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
-                                  "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m");
+                                  "ballast_stiffness_MN_per_m, ballast_damping_kN_s_per_m and ballast_gap_mm");
         return true;
       },
          "'Track/Support file': cannot read '" + file + "'");
@@ -111,6 +112,7 @@ namespace tread
   {
     TrackParameters p;
     p.springs      = {track.pad_stiffness, track.ballast_stiffness, track.pad_damping, track.ballast_damping};
+    p.pads_pull    = track.pads_pull;
     p.pad_length   = track.pad_length;
     p.pad_width    = track.pad_width;
     p.pad_middle   = base_middle()[1];

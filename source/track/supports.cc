@@ -136,21 +136,22 @@ namespace tread
               const int below = !p.two_layers            ? -1
                                 : solid_sleepers.empty() ? static_cast<int>(s)
                                                          : static_cast<int>(point_of(add_end(top, x, y, 1.)));
-              springs.push_back(
-                {static_cast<int>(point_of(end)), below, own.pad_stiffness / n, own.pad_damping / n, s, pad});
+              springs.push_back({static_cast<int>(point_of(end)), below, own.pad_stiffness / n,
+                                 own.pad_damping / n, s, pad, p.pads_pull, 0.});
             }
         if (!p.two_layers)
           continue;
         if (solid_sleepers.empty())
-          springs.push_back(
-            {static_cast<int>(s), -1, own.ballast_stiffness, own.ballast_damping, s, ballast});
+          springs.push_back({static_cast<int>(s), -1, own.ballast_stiffness, own.ballast_damping, s, ballast,
+                             own.ballast_gap == 0., own.ballast_gap});
         else
           for (const double x : middles(positions[s] - 0.5 * solid_sleepers[s].width,
                                         positions[s] + 0.5 * solid_sleepers[s].width, p.points_along))
             for (const double y :
                  middles(solid_sleepers[s].y_begin, solid_sleepers[s].y_end, p.points_across))
               springs.push_back({static_cast<int>(point_of(add_end(bottom, x, y, -1.))), -1,
-                                 own.ballast_stiffness / n, own.ballast_damping / n, s, ballast});
+                                 own.ballast_stiffness / n, own.ballast_damping / n, s, ballast,
+                                 own.ballast_gap == 0., own.ballast_gap});
       }
     displacement.assign(point_of(ends.size()), 0.);
     velocity = displacement;
@@ -259,17 +260,46 @@ namespace tread
     const std::vector<double> u = of_nodes(x, true);
     std::copy(u.begin(), u.end(), displacement.begin() + n_sleepers);
     std::fill(velocity.begin(), velocity.end(), 0.);
-    std::vector<double> stiffness(n_sleepers, 0.), load(n_sleepers, -parameters.sleeper_mass * gravity);
-    for (const Spring &spring : springs)
-      for (const int point : {spring.a, spring.b})
-        if (point >= 0 && point < static_cast<int>(n_sleepers))
+    place_sleepers();
+  }
+
+
+  void Supports::place_sleepers()
+  {
+    // Springs that push, and those that pull; the others are left out, until none changes.
+    std::vector<char>      acts(springs.size(), true);
+    bool                   changes = n_sleepers > 0;
+    constexpr unsigned int most    = 50; // turns
+    for (unsigned int turn = 0; turn < most && changes; ++turn)
+      {
+        std::vector<double> stiffness(n_sleepers, 0.), load(n_sleepers, -parameters.sleeper_mass * gravity);
+        for (unsigned int i = 0; i < springs.size(); ++i)
+          if (acts[i])
+            for (const int point : {springs[i].a, springs[i].b})
+              if (point >= 0 && point < static_cast<int>(n_sleepers))
+                {
+                  const Spring &spring = springs[i];
+                  const int     other  = spring.a + spring.b - point;
+                  const double  sign   = point == spring.a ? -1. : 1.;
+                  stiffness[point] += spring.stiffness;
+                  load[point] +=
+                    spring.stiffness * ((other < 0 ? 0. : displacement[other]) + sign * spring.gap);
+                }
+        for (unsigned int s = 0; s < n_sleepers; ++s)
+          if (stiffness[s] > 0.)
+            displacement[s] = load[s] / stiffness[s];
+        changes = false;
+        for (unsigned int i = 0; i < springs.size(); ++i)
           {
-            const int other = spring.a + spring.b - point;
-            stiffness[point] += spring.stiffness;
-            load[point] += other < 0 ? 0. : spring.stiffness * displacement[other];
+            const Spring &spring = springs[i];
+            // A sleeper that nothing holds comes to rest on its ballast.
+            const bool falls =
+              spring.layer == ballast && spring.a < static_cast<int>(n_sleepers) && stiffness[spring.a] == 0.;
+            const bool acted = acts[i];
+            acts[i]          = falls || spring.pulls || tension(spring) < 0.;
+            changes          = changes || acts[i] != acted;
           }
-    for (unsigned int s = 0; s < n_sleepers; ++s)
-      displacement[s] = load[s] / stiffness[s];
+      }
   }
 
 
@@ -288,9 +318,12 @@ namespace tread
     for (unsigned int i = 0; i < springs.size(); ++i)
       {
         const Spring &spring = springs[i];
+        const double  held   = tension(spring);
         damper_force[i]      = spring.damping * difference(velocity, spring);
-        const double f       = spring.stiffness * difference(displacement, spring) + damper_force[i];
-        spring_force[i]      = f;
+        if (!spring.pulls)
+          damper_force[i] = held < 0. ? std::min(damper_force[i], -held) : 0.;
+        const double f  = held + damper_force[i];
+        spring_force[i] = f;
         give(spring.a, -f, force);
         give(spring.b, f, force);
         if (spring.a < static_cast<int>(n_sleepers))
@@ -305,7 +338,7 @@ namespace tread
   {
     for (const Spring &spring : springs)
       {
-        const double f = spring.stiffness * difference(displacement, spring);
+        const double f = tension(spring);
         give(spring.a, -f, force);
         give(spring.b, f, force);
       }
@@ -428,7 +461,8 @@ namespace tread
   {
     double energy = 0.;
     for (const Spring &spring : springs)
-      energy += 0.5 * spring.stiffness * std::pow(difference(displacement, spring), 2);
+      if (spring.stiffness > 0.)
+        energy += 0.5 * std::pow(tension(spring), 2) / spring.stiffness;
     return energy;
   }
 
@@ -440,7 +474,7 @@ namespace tread
       energy += 0.5 * parameters.sleeper_mass * velocity[s] * velocity[s];
     for (const Spring &spring : springs)
       {
-        const double f = spring.stiffness * difference(displacement, spring);
+        const double f = tension(spring);
         if (spring.a < static_cast<int>(n_sleepers))
           energy -= 0.5 * time_step * f * velocity[spring.a];
         if (spring.b >= 0 && spring.b < static_cast<int>(n_sleepers))

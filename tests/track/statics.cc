@@ -99,6 +99,65 @@ namespace
           }
       }
   }
+
+  /// Supports that let go: a sleeper above its ballast, and pads that a rail leaves.
+  void supports_that_let_go(tests::Check &check, TrackParameters track)
+  {
+    constexpr unsigned int n = 11, middle = n / 2;
+    DynamicsParameters     parameters;
+    parameters.gravity = 0.;
+    const auto at_rest = [&](const TrackParameters &of_track) {
+      auto rail = std::make_unique<tests::TrackRail>(MPI_COMM_WORLD, tests::bar(n, 20), n, of_track,
+                                                     parameters, std::vector<double>{});
+      rail->load(rail->sections(0.), load);
+      rail->dynamics->relax(1e-6, 100000, {});
+      return rail;
+    };
+    const auto sum_of_pads = [&](const tests::TrackRail &rail) {
+      double sum = 0.;
+      for (unsigned int s = 0; s < n; ++s)
+        sum += rail.supports->force(s, Supports::pad);
+      return sum;
+    };
+
+    TrackParameters hanging                   = track;
+    hanging.exceptions[middle]                = track.springs;
+    hanging.exceptions[middle].ballast_gap    = 5e-3;
+    const auto                            far = at_rest(hanging);
+    std::vector<reference::SupportLayers> layers(n, track.layers(0));
+    layers[middle].ballast_stiffness = 0.;
+    const reference::SupportedBeam beam(far->section, layers, far->positions, -far->end, far->end, .01);
+    const auto                     response = beam.respond({{0., load}});
+    check.below("wide gap: force in the ballast, N", far->supports->force(middle, Supports::ballast), 1e-9);
+    check.relative("wide gap: deflection of a beam without this support, mm",
+                   1e3 * far->displacement(far->sections(0.)), 1e3 * response.deflection(0.).real(), 0.01);
+
+    constexpr double gap                   = 0.4e-3;
+    hanging.exceptions[middle].ballast_gap = gap;
+    const auto   near                      = at_rest(hanging);
+    const double force                     = near->supports->force(middle, Supports::ballast),
+                 ballast                   = track.springs.ballast_stiffness;
+    check.relative("narrow gap: force in the ballast, kN", 1e-3 * force,
+                   -1e-3 * ballast * (near->supports->rail_displacement(middle) + gap) /
+                     (1. + ballast / track.springs.pad_stiffness),
+                   1e-3);
+    check.that("narrow gap: less than without", force > 1e3 && force < 0.4 * load);
+    check.relative("narrow gap: forces of all pads, kN", 1e-3 * sum_of_pads(*near), 1e-3 * load, 1e-4);
+
+    const auto pulled = at_rest(track);
+    track.pads_pull   = false;
+    const auto let_go = at_rest(track);
+    double     least = load, least_that_pulls = load;
+    for (unsigned int s = 0; s < n; ++s)
+      {
+        least            = std::min(least, let_go->supports->force(s, Supports::pad));
+        least_that_pulls = std::min(least_that_pulls, pulled->supports->force(s, Supports::pad));
+      }
+    check.that("pads that pull do so somewhere", least_that_pulls < -0.005 * load);
+    check.that("pads that do not pull", least >= 0.);
+    check.relative("pads that do not pull: forces of all, kN", 1e-3 * sum_of_pads(*let_go), 1e-3 * load,
+                   1e-4);
+  }
 } // namespace
 
 
@@ -112,7 +171,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   statics(check, "bar, over a sleeper", bar, 11, track, {0.}, .01);
   statics(check, "bar, at mid-span", bar, 11, track, {.3}, .01);
   statics(check, "bar, two wheels", bar, 11, track, {-.9, 1.2}, .01);
-  track.two_layers    = false;
+  supports_that_let_go(check, track);
+  track.two_layers            = false;
   track.springs.pad_stiffness = 43.5e6;
   statics(check, "bar, one layer, mid-span", bar, 11, track, {.3}, .01);
   track           = TrackParameters();

@@ -20,9 +20,11 @@ namespace tread
     {
       double pad_stiffness = 1300e6, ballast_stiffness = 45e6; ///< N/m
       double pad_damping = 45e3, ballast_damping = 32e3;       ///< N s/m
+      double ballast_gap = 0.; ///< below the unloaded sleeper, m; above 0 the ballast does not pull
     };
     Springs                         springs;
-    std::map<unsigned int, Springs> exceptions; ///< supports that differ, by their place in the list
+    std::map<unsigned int, Springs> exceptions;       ///< supports that differ, by their place in the list
+    bool                            pads_pull = true; ///< a rail that rises is held down
     const Springs                  &springs_of(const unsigned int support) const
     {
       const auto own = exceptions.find(support);
@@ -54,7 +56,7 @@ namespace tread
   ///
   /// Displacement and velocity of all points are known to all ranks, which update them identically; forces
   /// reach the nodes through the rank that holds the face. Like all damping in central differences, dampers
-  /// act with the velocities of half a step back.
+  /// act with the velocities of half a step back. Springs that do not pull let go where they would.
   class Supports
   {
   public:
@@ -156,7 +158,7 @@ namespace tread
       std::vector<std::pair<unsigned int, double>> nodes;    ///< of this rank, with their shares
       std::vector<std::pair<unsigned int, double>> sleepers; ///< rigid ones by support, with their shares
     };
-    /// All of them, in the same order on all ranks.
+    /// All of them, in the same order on all ranks, as if none let go.
     std::vector<Link> links() const;
     unsigned int      n_rigid_sleepers() const
     {
@@ -183,7 +185,15 @@ namespace tread
       double       stiffness, damping;
       unsigned int support;
       Layer        layer;
+      bool         pulls; ///< otherwise both parts separate instead, and dampers let go with the spring
+      double       gap;   ///< between the parts when nothing is displaced, m; of springs that do not pull
     };
+    /// Tension of a spring without its damper, N.
+    double tension(const Spring &spring) const
+    {
+      const double stretch = difference(displacement, spring) + spring.gap;
+      return spring.pulls || stretch < 0. ? spring.stiffness * stretch : 0.;
+    }
 
     using Faces = std::vector<const Mesh::Face *>;
     /// Boundary faces of a body of this rank whose outer normal points up (side 1) or down (-1).
@@ -198,6 +208,7 @@ namespace tread
     {
       return values[spring.a] - (spring.b < 0 ? 0. : values[spring.b]);
     }
+    void                place_sleepers(); ///< rigid ones, where forces at rest balance
     void                give(const int point, const double value, Vector3 *force) const;
     std::vector<double> of_nodes(const Vector3 *field, const bool displacement) const;
 

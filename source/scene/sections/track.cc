@@ -45,6 +45,8 @@ namespace tread
                 Double(-20000., 20000.));
     section.add("Pad stiffness (MN per m)", pad_stiffness, "Of a whole support, vertical.", Double(tiny));
     section.add("Pad damping (kN s per m)", pad_damping, "Of a whole support, vertical.", Double(0.));
+    section.add("Pads pull", pads_pull,
+                "Whether pads with their fastenings hold a rail that rises. false: it leaves them.");
     section.add("Pad length (mm)", pad_length, "Along the rail. Longer pads hold the rail's slope as well.",
                 Double(1., 2000.));
     section.add("Pad width (mm)", pad_width,
@@ -80,8 +82,8 @@ namespace tread
       "Support file", support_file,
       "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "
       "of names: support, its number, and any of pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
-      "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m, in place of the parameters of these "
-      "names.");
+      "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m, in place of the parameters of these names, "
+      "and ballast_gap_mm, of a sleeper that hangs as far above its ballast.");
   }
 
 
