@@ -101,12 +101,29 @@ namespace tread
   {
     if (!shapes->defect)
       return;
-    const Defect &made = *shapes->defect;
-    const double  end  = made.begin + made.length;
-    require(made.begin >= rail_begin() && end <= rail_end(),
-            "the defect, from 'Defect/Position (mm)' " + text_in_mm(defect.position) + " to " +
-              text_in_mm(end) + " mm, lies outside the rail, which is from " + text_in_mm(rail_begin()) +
-              " to " + text_in_mm(rail_end()) + " mm");
+    const Defect       &made = *shapes->defect;
+    std::vector<double> begins(made.repeated_at);
+    begins.push_back(made.begin);
+    std::sort(begins.begin(), begins.end());
+    for (std::size_t k = 0; k < begins.size(); ++k)
+      {
+        const double      begin = begins[k], end = begin + made.length;
+        const std::string which =
+          begin == made.begin ? "'Defect/Position (mm)' " : "'Defect/Repeated at (mm)' ";
+        require(begin >= rail_begin() && end <= rail_end(),
+                "the defect, from " + which + text_in_mm(begin) + " to " + text_in_mm(end) +
+                  " mm, lies outside the rail, which is from " + text_in_mm(rail_begin()) + " to " +
+                  text_in_mm(rail_end()) + " mm");
+        require(k == 0 || begin >= begins[k - 1] + made.length - round_off,
+                "'Defect/Repeated at (mm)': the defects from " + text_in_mm(begins[k - 1]) + " and " +
+                  text_in_mm(begin) + " mm overlap, being " + text_in_mm(made.length) + " mm long");
+        const double fine_begin = made.begin + mesh.fine_from, fine_end = made.begin + mesh.fine_to;
+        require(mesh.fine_from == mesh.fine_to || mesh.path_cell <= mesh.finest_cell || begin == made.begin ||
+                  (begin >= fine_begin && end <= fine_end),
+                "'Defect/Repeated at (mm)' " + text_in_mm(begin) +
+                  " lies outside the cubes of 'Mesh/Fine from (mm)' to 'Fine to (mm)', from " +
+                  text_in_mm(fine_begin) + " to " + text_in_mm(fine_end) + " mm");
+      }
     const char *of_width = defect.width > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
     for (const auto &[name, size] :
          {std::pair("'Defect/Length (mm)'", made.length), std::pair(of_width, made.width)})

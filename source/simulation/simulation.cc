@@ -401,7 +401,10 @@ namespace tread
     if (const Defect *defect = scene.made_defect())
       progress.say(format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * defect->begin,
                           1e3 * (defect->begin + defect->length), 1e3 * defect->depth,
-                          defect->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : ""));
+                          defect->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : "") +
+                   (defect->repeated_at.empty()
+                      ? ""
+                      : format("; %u more like it", static_cast<unsigned int>(defect->repeated_at.size()))));
     if (const double gain = dynamics.ideal_gain_of_levels(); gain > 1.)
       progress.say(
         format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));

@@ -111,6 +111,23 @@ namespace
 
   void check_defects(tests::Check &check)
   {
+    {
+      // Three alike: each where it was put, and nothing between them.
+      Defect one;
+      one.shape  = dip(0., 0.1);
+      one.begin  = -10e-3;
+      one.length = 12e-3;
+      Defect three(one), alone(one);
+      three.repeated_at = {5e-3, 40e-3};
+      for (const double begin : {-10e-3, 5e-3, 40e-3})
+        {
+          alone.begin = begin;
+          for (const double u : {0.1, 0.5, 0.93})
+            check.relative("three dips: height, um", 1e6 * three.height(begin + u * one.length, 1e-3),
+                           1e6 * alone.height(begin + u * one.length, 1e-3), 1e-12);
+        }
+      check.absolute("three dips: height between them, um", 1e6 * three.height(25e-3, 0.), 0., 0.);
+    }
     Defect hollow;
     hollow.shape  = dip(0., 0.);
     hollow.begin  = 5e-3;

@@ -281,6 +281,17 @@ with tempfile.TemporaryDirectory() as folder:
         fails("a map with a step at its border", arguments_of("tutorial/dip.prm", [
             f"{key}={value}" for key, value in {**mapped, "Defect/Profile file": path("step.csv")}.items()], path("step")), ["Defect/Profile file", "a step"])
 
+        # Several alike.
+        run(program, "tutorial/dip.prm", path("two"), {**base, **dip, "Defect/Length (mm)": 12, "Defect/Repeated at (mm)": "-36", "Mesh/Fine to (mm)": 60})
+        two = np.array(table(path("two"), "history.csv")["normal_force_N"])
+        x = 1e3 * np.array(table(path("two"), "history.csv")["position_m"])
+        off = np.abs(two - forces[2][:len(two)])
+        check.that("two dips: the second one matters as well", off[(x > -50) & (x < -38)].max() > 0.05 * load and off[x > -34].max() > 0.05 * load)
+        for name, settings, words in (("dips that overlap", {"Defect/Repeated at (mm)": "-40"}, ["Defect/Repeated at (mm)", "overlap"]),
+                                      ("a dip beyond the rail", {"Defect/Repeated at (mm)": "900"}, ["Defect/Repeated at (mm)", "outside the rail"]),
+                                      ("a dip beside the cubes", {"Defect/Repeated at (mm)": "20"}, ["Defect/Repeated at (mm)", "Mesh/Fine from (mm)"])):
+            check.refused(name, program, "tutorial/dip.prm", path("bad"), {**base, **dip, **settings}, words)
+
     elif what == "plastic":
         # Two bodies that flow with next to no hardening: cells under contact are crushed.
         crushed = execute(arguments_of(SCENE, SHORT + ["Mesh/Fine half width (mm)=14"] + [

@@ -5,6 +5,7 @@
 #include <tread/geometry/measured_line.h>
 
 #include <functional>
+#include <vector>
 
 namespace tread
 {
@@ -12,11 +13,12 @@ namespace tread
   /// Lengths in m.
   struct Defect
   {
-    double begin    = 0.;   ///< x of its leading edge
-    double length   = 0.02; ///< along x
-    double width    = 0.02; ///< lateral; infinite: the whole head alike
-    double y_middle = 0.;
-    double depth    = 1e-4; ///< of its deepest point
+    double              begin    = 0.;   ///< x of its leading edge
+    double              length   = 0.02; ///< along x
+    double              width    = 0.02; ///< lateral; infinite: the whole head alike
+    double              y_middle = 0.;
+    double              depth    = 1e-4; ///< of its deepest point
+    std::vector<double> repeated_at;     ///< x of the leading edges of others like it
 
     /// Depth over the largest depth, from u = 0 at the leading edge to 1 at the trailing edge and from v = -1
     /// to 1 across; zero outside.
@@ -27,7 +29,11 @@ namespace tread
 
     double height(const double x, const double y) const
     {
-      return -depth * shape((x - begin) / length, 2. * (y - y_middle) / width);
+      const double v   = 2. * (y - y_middle) / width;
+      double       sum = shape((x - begin) / length, v);
+      for (const double other : repeated_at)
+        sum += shape((x - other) / length, v);
+      return -depth * sum;
     }
   };
 

@@ -149,6 +149,10 @@ namespace tread
       dealii::Patterns::Anything());
     section.choose("Lateral law", lateral_law, "Of a profile.");
     section.add("Reversed", reversed, "A profile or a map is rolled over from its other end.");
+    section.add("Repeated at (mm)", repeated_at,
+                "x of the leading edges of further defects like this one, separated by commas, at least its "
+                "length from each other. Defects that are unlike fit into one map.",
+                Double(-1e5, 1e5), 1000);
   }
 
 
@@ -162,7 +166,8 @@ namespace tread
       defect->length = length;
     if (depth > 0.)
       defect->depth = depth;
-    defect->begin = position;
+    defect->begin       = position;
+    defect->repeated_at = repeated_at;
     defect->y_middle += lateral_position;
     return defect;
   }

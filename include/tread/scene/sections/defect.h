@@ -37,14 +37,15 @@ namespace tread
   /// Section `Defect`. Lengths in m.
   struct DefectSection
   {
-    std::string shape    = defect_shapes().front().name;
-    double      position = 0.; ///< x of the leading edge
-    double      length = 0., width = 0., depth = 0.;
-    double      lateral_position = 0.;
-    double      leading_rounding = 0., trailing_rounding = 0.;
-    std::string profile_file;
-    LateralLaw  lateral_law = LateralLaw::parabola;
-    bool        reversed    = false;
+    std::string         shape    = defect_shapes().front().name;
+    double              position = 0.; ///< x of the leading edge
+    double              length = 0., width = 0., depth = 0.;
+    double              lateral_position = 0.;
+    double              leading_rounding = 0., trailing_rounding = 0.;
+    std::string         profile_file;
+    LateralLaw          lateral_law = LateralLaw::parabola;
+    bool                reversed    = false;
+    std::vector<double> repeated_at; ///< x of further leading edges
 
     void declare(dealii::ParameterHandler &handler);
     /// Null: none. @param file where the profile file was found. @throws InputError
