@@ -508,9 +508,9 @@ namespace tread
         if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
           impulse[j] = guess;
       }
-    pair_friction.time_step          = time_step;
-    const CoulombSolverResult result = solve_coulomb(problem, *friction, parameters.solver, strips, offset,
-                                                     velocity, impulse, slips, given_ratio, pair_friction);
+    const CoulombSolverResult result =
+      solve_coulomb(problem, *friction, parameters.solver, strips, offset, velocity, impulse, slips,
+                    given_ratio, pair_friction, time_step);
 
     if (result.change > parameters.solver.tolerance)
       ++unconverged_steps;

@@ -15,7 +15,8 @@ namespace tread
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
                                     const std::vector<Vector3>    &given,
-                                    const PairFriction            &pairs)
+                                    const PairFriction            &pairs,
+                                    const double                   time_step)
   {
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       if (impulse[j][0] != 0. || impulse[j][1] != 0. || impulse[j][2] != 0.)
@@ -51,7 +52,7 @@ namespace tread
               tangential = old - old_normal * constraint.normal - (1. / constraint.compliance) * slip;
               double factor = pairs.factor.empty() ? 1. : pairs.factor[j];
               if (pairs.of_pressure)
-                factor *= pairs.of_pressure(new_normal / (constraint.area * pairs.time_step));
+                factor *= pairs.of_pressure(new_normal / (constraint.area * time_step));
               const double at_rest = pairs.coefficient.empty() ? static_coefficient : pairs.coefficient[j];
               const double bound = factor * at_rest * new_normal; // of adhesion
               const double size2 = dot(tangential, tangential);

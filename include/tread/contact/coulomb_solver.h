@@ -28,9 +28,8 @@ namespace tread
   {
     std::vector<double> coefficient; ///< in this step, of a law with a memory; empty: that of the law
     std::vector<double> factor;      ///< of the law's coefficient, by the place; empty: 1
-    /// Another factor, by the pressure (Pa), which is the normal impulse over area and step; empty: 1.
+    /// Another factor, by the pressure (Pa), which is the normal impulse over area and time step; empty: 1.
     std::function<double(double)> of_pressure;
-    double                        time_step = 0.; ///< s, used with of_pressure
   };
 
   /// Block Gauss-Seidel on the impulses (Moreau 1988; Jean 1999): each block is solved exactly,
@@ -47,6 +46,7 @@ namespace tread
   /// the nodes of the strip has to be there.
   /// @param slips one a constraint: whether those of the strip with an impulse slip now; others adhere.
   /// @param pairs what friction has of its own at each constraint.
+  /// @param time_step s, of pairs.of_pressure
   /// @param given one a constraint: P_t over P_n where it is not for the friction law to find; or empty.
   CoulombSolverResult solve_coulomb(const ContactProblem          &problem,
                                     const FrictionLaw             &friction,
@@ -56,8 +56,9 @@ namespace tread
                                     std::vector<Vector3>          &velocity,
                                     std::vector<Vector3>          &impulse,
                                     std::vector<char>             &slips,
-                                    const std::vector<Vector3>    &given = {},
-                                    const PairFriction            &pairs = {});
+                                    const std::vector<Vector3>    &given     = {},
+                                    const PairFriction            &pairs     = {},
+                                    const double                   time_step = 0.);
 } // namespace tread
 
 #endif
