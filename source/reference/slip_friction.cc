@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 namespace tread::reference
@@ -55,8 +54,9 @@ namespace tread::reference
     if (friction.pressure_factor)
       {
         problem.friction_share.clear();
-        std::transform(pressure.begin(), pressure.end(), std::back_inserter(problem.friction_share),
-                       friction.pressure_factor);
+        constexpr double least = 1e-4; // the solver divides by the bound
+        for (const double p : pressure)
+          problem.friction_share.push_back(std::max(least, friction.pressure_factor(p)));
         return solve_tangential(grid, pair, pressure, problem);
       }
     constexpr double       tolerance  = 1e-5;

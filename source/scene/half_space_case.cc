@@ -70,7 +70,7 @@ namespace tread
     if (!law->is_constant())
       c.slip_friction = std::make_shared<const reference::Friction::SlipFriction>(
         reference::Friction::SlipFriction{[=](const double s) { return factor * law->coefficient(s); },
-                                             law->memory().distance, law->memory().speed});
+                                          law->memory().distance, law->memory().speed});
   }
 
 
@@ -99,6 +99,11 @@ namespace tread
       }
     catch (const std::exception &error)
       {
+        if (c.prescribe_force && c.pressure_factor)
+          throw InputError(traction +
+                           " is beyond what 'Contact/Friction pressure factors' carry, or too near to "
+                           "it: lower it (" +
+                           error.what() + ")");
         if (c.prescribe_force && c.slip_friction)
           throw InputError(traction + " is beyond what " + law +
                            " carries while it slips, or too near to it: lower it (" + error.what() + ")");

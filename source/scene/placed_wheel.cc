@@ -41,11 +41,11 @@ namespace tread
       }
     catch (const std::exception &error)
       {
-        throw InputError(
-          format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and a roll of "
-                 "%g mrad: ",
-                 1e3 * position.shift, 1e3 * position.yaw, 1e3 * position.roll) +
-          error.what());
+        throw InputError(format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and ",
+                                1e3 * position.shift, 1e3 * position.yaw) +
+                         (scene.wheelset.both_wheels ? "a roll that is found: "
+                                                     : format("a roll of %g mrad: ", 1e3 * position.roll)) +
+                         error.what());
       }
   }
 

@@ -85,6 +85,7 @@ namespace tread
       },
          "'Track/Support file': cannot read '" + file + "'");
     const std::vector<double> &numbers = table.column("support");
+    require(!numbers.empty() && table.names().size() > 1, begin + "has no rows, or no column beside support");
     for (std::size_t row = 0; row < numbers.size(); ++row)
       {
         const std::string place  = begin + "row " + std::to_string(row + 1) + ": ";

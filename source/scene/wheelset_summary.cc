@@ -236,8 +236,8 @@ namespace tread
     summary.set("title", scene.general.title);
     summary.set("method", method);
     summary.set("completed", completed);
-    summary.set("lateral_shift_m", scene.wheelset.position().shift);
-    summary.set("yaw_rad", scene.wheelset.yaw);
+    summary.set("lateral_shift_m", contact.position.shift);
+    summary.set("yaw_rad", contact.position.yaw);
     summary.set("roll_rad", contact.position.roll);
     summary.set("angular_velocity_rad_per_s", wheel_rolling(scene).angular_velocity);
     summary.show("wheelset_height_m", "wheelset over its radius, mm", 1e3, contact.position.height);

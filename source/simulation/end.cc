@@ -120,6 +120,10 @@ namespace tread
       return "no comparison with steady rolling: the wheel crosses a defect";
     if (!(answer.force[2] > 0.))
       return "";
+    if (!scene.contact.friction_pressures.empty() && !scene.friction_law()->is_constant())
+      return "no comparison with steady rolling: half-space theory has no answer for 'Contact/Friction "
+             "pressures (MPa)' with 'Contact/Friction law' " +
+             scene.contact.friction_law;
     if (const std::string varies = friction_varies_at_end(answer.force[2]); !varies.empty())
       return "no comparison with steady rolling: " + varies;
     try

@@ -3,6 +3,7 @@
 #include <tread/base/version.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
+#include <tread/scene/half_space_case.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/tools/wheelset_reference.h>
@@ -16,8 +17,10 @@ namespace tread
 {
   void run_wheelset_reference(const Scene &scene, const std::string &path, const MPI_Comm comm)
   {
-    Progress                 progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    const PlacedWheel       &placed   = scene.placed_wheel();
+    Progress     progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    WheelRolling rolling = wheel_rolling(scene);
+    set_friction(rolling, scene, scene.path_end()); // as other scenes have it
+    const PlacedWheel        placed(scene, scene.wheelset.position(), rolling);
     const WheelContact      &contact  = placed.contact;
     const double             rail_y   = placed.surfaces.rail_origin_y();
     std::vector<std::string> warnings = limits_of_half_space(contact.patches);

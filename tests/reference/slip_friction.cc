@@ -64,6 +64,10 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                                 c.friction_bound(rolling.pressure[e]));
     check.absolute("falls with pressure, rolling: shear beyond the bound", worst / rolling.hertz_pressure, 0.,
                    1e-9);
+    c.pressure_factor            = [](const double p) { return p < 800e6 ? 1. : 0.; };
+    const RollingResult slippery = solve_rolling(c);
+    check.that("no friction under high pressure: an answer",
+               -slippery.traction_coefficient > 0.02 && -slippery.traction_coefficient < 0.2);
     check.that("falls with pressure, rolling: less traction than 0.2584",
                -rolling.traction_coefficient < 0.25 && -rolling.traction_coefficient > 0.15);
   }

@@ -122,7 +122,7 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("no inertia", {"Guidance/Yaw inertia (kg m2)": 0}, "Guidance/Yaw inertia (kg m2)", "Both wheels")
     must_fail("no position", {"Wheelset/Lateral shift (mm)": "none"}, "Wheelset/Lateral shift (mm)")
     must_fail("more than the wheel's circumference", {"Motion/Rolled distance (mm)": 1200}, "Rolled distance", "circumference")
-    must_fail("a wheelset between the rails", {"Wheelset/Lateral shift (mm)": 80}, "no half-space answer")
+    must_fail("a wheelset between the rails", {"Wheelset/Lateral shift (mm)": 80}, "no half-space answer", "roll that is found")
     with open(path("roll.csv"), "w", encoding="utf-8") as file:
         file.write("time_s,roll_mrad\n" + "".join(f"{0.01 * k},0.1\n" for k in range(9)))
     must_fail("a roll over time", {"Guidance/Kind": "file", "Guidance/File": path("roll.csv")}, "roll_mrad", "Both wheels")
