@@ -52,7 +52,9 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
   {
     RollingCase  c    = locomotive(0.05, 0.33);
     const double p_1  = 3e9;
-    c.pressure_factor = [p_1](const double p) { return 1. - p / p_1; };
+    c.pressure_factor = [p_1](const double p) {
+      return 1. - p / p_1;
+    };
     const RollingResult sliding = solve_rolling(c);
     check.relative("falls with pressure, sliding", -sliding.traction_coefficient,
                    0.33 * (1. - 0.75 * sliding.hertz_pressure / p_1), 1e-3);
@@ -64,10 +66,13 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                                 c.friction_bound(rolling.pressure[e]));
     check.absolute("falls with pressure, rolling: shear beyond the bound", worst / rolling.hertz_pressure, 0.,
                    1e-9);
-    c.pressure_factor            = [](const double p) { return p < 800e6 ? 1. : 0.; };
+    c.pressure_factor = [p_2 = 0.6 * rolling.hertz_pressure](const double p) {
+      return p < p_2 ? 1. : 0.;
+    };
     const RollingResult slippery = solve_rolling(c);
-    check.that("no friction under high pressure: an answer",
-               -slippery.traction_coefficient > 0.02 && -slippery.traction_coefficient < 0.2);
+    // Hertz: (1 - 0.8^2)^(3/2) of the force lies outside, and nearly all of it slides.
+    check.relative("no friction under high pressure: traction", -slippery.traction_coefficient,
+                   0.33 * std::pow(0.36, 1.5), 0.05);
     check.that("falls with pressure, rolling: less traction than 0.2584",
                -rolling.traction_coefficient < 0.25 && -rolling.traction_coefficient > 0.15);
   }
