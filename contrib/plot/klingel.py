@@ -4,7 +4,7 @@
 
     klingel.py [--profiles] [--settings NAME=VALUE ...] [--output FOLDER] [--picture klingel.png]
 
-Runs prm/curves/klingel.prm, some minutes on two cores, fits a sine to the lateral shift over the distance rolled, prints its wavelength and
+Runs prm/curves/klingel.prm, two minutes on two cores, fits a sine to the lateral shift over the distance rolled, prints its wavelength and
 draws shift, yaw and forces. With --profiles it only writes the profiles of prm/curves/profiles anew.
 """
 
