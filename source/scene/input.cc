@@ -211,10 +211,10 @@ namespace tread
     if (time_stepping.levels > 1 && solid.mass_damping == 0.)
       time_stepping.courant_number = std::min(time_stepping.courant_number, largest_with_levels);
     folder = std::filesystem::path(file).parent_path();
-    wheelset.check();
     guidance.check(wheelset.both_wheels);
     if (guidance.kind == Guidance::file)
       take_wheelset_motion();
+    wheelset.check();
     if (!track.support_file.empty())
       take_support_springs();
   }
@@ -243,7 +243,6 @@ namespace tread
   {
     take(file, settings);
     shapes = make_path();
-    wheelset.check();
     rail.check();
     wheel.check();
   }

@@ -89,7 +89,6 @@ namespace tread
 
   void Scene::check_wheelset() const
   {
-    wheelset.check();
     check_guidance();
     motion.check();
     rail.check();
@@ -110,14 +109,12 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
-    reference::Friction friction;
-    set_friction(friction, *this, path_begin());
     const WheelRolling rolling = wheel_rolling(*this);
     require(
-      friction.is_coulomb() || reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
+      rolling.is_coulomb() || reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
       "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)' empty where 'Wheelset' has "
       "a position and wheel and rail are of unlike materials: half-space theory has no answer");
-    require(!friction.slip_friction || !friction.pressure_factor,
+    require(!rolling.slip_friction || !rolling.pressure_factor,
             "'Contact/Friction law' must be Coulomb with 'Friction pressures (MPa)' where 'Wheelset' has a "
             "position: half-space theory has no answer for both");
   }
