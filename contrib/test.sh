@@ -9,4 +9,5 @@ jobs=${TREAD_JOBS:-$(env -u OMP_NUM_THREADS nproc)}
 
 configure_release build
 cmake --build build -j "$jobs"
-ctest --test-dir build --output-on-failure --no-tests=error -j "$jobs" "$@"
+# All that tests print is kept in build/Testing/Temporary/LastTest.log.
+ctest --test-dir build --output-on-failure --test-output-size-passed 10000000 --no-tests=error -j "$jobs" "$@"
