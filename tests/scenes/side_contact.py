@@ -25,7 +25,7 @@ LOAD = (900. + 13400.) * 9.81
 with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
     # A full section rolls over a little under the load beside its web, which shifts the patch; a head on a rigid foundation does not.
-    for profile, shape in (("54E1", "full section"), ("60E1", "full section"), ("54E1", "head")):
+    for profile, shape in (("54E1", "full section"), ("60E1", "head")):
         name = f"S1002 on {profile} 1:40, {shape}: "
         rail = [f"Rail/Profile={profile}", f"Rail/Shape={shape}"]
         width = [] if shape == "head" else WIDE
@@ -46,12 +46,12 @@ with tempfile.TemporaryDirectory() as folder:
                 check.absolute(name + f"{side} end of the patch, half-space's, mm", end(patch["y_mm"]), end(half_space["y_mm"]), 1.8)
 
     # Friction's lateral force is what is there more than without friction, where the inclined surfaces push.
-    for tread in ("S1002", "cone 1:20"):
+    for tread, tractions in (("S1002", (0., 0.3)), ("cone 1:20", (0.3,))):
         settings = [f"Wheel/Tread profile={tread}", "Wheel/Lateral position (mm)=-2", "Rail/Inclination=1:40", "Mesh/Finest cell (mm)=1.3",
                     "Mesh/Fine half width (mm)=15", "Output/Write volume=false"]
         smooth = run(program, "smooth-rolling.prm", path("no friction"),
-                     settings + ["Contact/Friction coefficient=0", "Motion/Traction coefficient=0"], 2)
-        for traction in (0., 0.3):
+                     settings + ["Contact/Friction coefficient=0", "Motion/Traction coefficient=0", "Motion/Rolled distance (mm)=15"], 2)
+        for traction in tractions:
             name = f"{tread}, traction coefficient {traction}: "
             driven = settings + [f"Motion/Traction coefficient={traction}"]
             summary = run(program, "smooth-rolling.prm", path("driven"), driven, 2)
