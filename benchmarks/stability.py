@@ -143,6 +143,17 @@ CASES = [
          scene="tutorial/dip.prm", settings={"Defect/Depth (mm)": 0.5, "Defect/Length (mm)": 20, "Motion/Speed (km per h)": 200,
                                              "Output/Write volume": "false"},
          check=lambda summary, folder: edge_forces(folder)),
+    Case("two sweeps", "contact is not solved to its tolerance", "a warning", settings={"Contact/Largest number of sweeps": 2}, warns="tolerance"),
+    Case("no stiffness damping", "micro-slip chatters", "a warning", settings={
+        "Solid/Stiffness damping (time steps)": 0, "Time stepping/Levels": 1}, warns="no stiffness damping"),
+    Case("pads of steel", "1e5 MN/m, a thousand times stiff ones", "a warning that they shorten the step", scene="tutorial/track.prm", settings={
+        "Track/Pad stiffness (MN per m)": 1e5, "Motion/Rolled distance (mm)": 10, "Output/Write volume": "false"}, warns="far from those of a track"),
+    Case("stop at a strain", "0.3 % where the patch has more", "stops and names the cell", settings={"Watchdogs/Stop at strain": 0.003},
+         stops="the cell at .* of the (wheel|rail) has a strain of"),
+    Case("stop at a speed", "3 m/s, which the back of the sector has", "stops and names the place", settings={"Watchdogs/Stop at node speed (m per s)": 3},
+         stops="unstable: nodes move faster than 3 m/s .* of the wheel"),
+    Case("stop at a residual", "1e-6 where a good run has 1e-3", "stops and says how much", settings={"Watchdogs/Stop at energy residual": 1e-6},
+         stops="J of energy are not accounted for at"),
     Case("Courant number 1.02", "a step above the critical one", "is refused or stops", settings={"Time stepping/Courant number": 1.02}, stops="Courant"),
 ]
 

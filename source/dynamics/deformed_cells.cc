@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What large deformation does to the cells: turned inside out, or too fast for the time step.
 #include <tread/base/format.h>
+#include <tread/base/went_wrong.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace tread
 {
@@ -47,10 +47,9 @@ namespace tread
     /// Largest factor by which the principal stretches of F can raise the frequency of a cell. Stiffness
     /// grows with the square of the largest stretch if stress refers to undeformed areas (St. Venant and
     /// Kirchhoff's law), and with the inverse square of the smallest one if it refers to deformed areas.
-    double largest_change_of_stretch(const Tensor<2, 3> &F)
+    /// @param C = F^T F; @param deviation norm of C - 1.
+    double largest_change_of_stretch(const dealii::SymmetricTensor<2, 3> &C, const double deviation)
     {
-      const dealii::SymmetricTensor<2, 3> C         = dealii::symmetrize(dealii::transpose(F) * F);
-      const double                        deviation = (C - dealii::unit_symmetric_tensor<3>()).norm();
       if (deviation < small_deviation)
         return 1. / std::sqrt(1. - deviation);
       const auto squares = dealii::eigenvalues(C); // the largest first
@@ -59,25 +58,32 @@ namespace tread
   } // namespace
 
 
-  void ExplicitDynamics::throw_inverted(const unsigned int cell, const bool is_worst) const
+  std::string ExplicitDynamics::place_of_worst(const bool              is_worst,
+                                               const dealii::Point<3> &place,
+                                               const unsigned int      body) const
   {
-    // The lowest rank that has such a cell says where.
     using dealii::Utilities::MPI::min;
     const int   this_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
     const int   rank      = min(is_worst ? this_rank : std::numeric_limits<int>::max(), mesh.comm);
     std::string where;
     if (rank == this_rank)
+      where = format("at x = %.2f, y = %.2f, z = %.2f mm of the %s", 1e3 * place[0], 1e3 * place[1],
+                     1e3 * place[2], mesh.body_names[body].c_str());
+    return dealii::Utilities::MPI::broadcast(mesh.comm, where, rank);
+  }
+
+
+  std::string ExplicitDynamics::place_of_worst_cell(const bool is_worst, const unsigned int cell) const
+  {
+    dealii::Point<3> centre;
+    unsigned int     body = 0;
+    if (is_worst)
       {
-        dealii::Point<3> centre;
         for (const unsigned int i : mesh.cells[cell].nodes)
           centre += mesh.nodes[i] / 8.;
-        where = format("at x = %.2f, y = %.2f, z = %.2f mm of the %s", 1e3 * centre[0], 1e3 * centre[1],
-                       1e3 * centre[2], mesh.body_names[mesh.cells[cell].body].c_str());
+        body = mesh.cells[cell].body;
       }
-    throw std::runtime_error("the cell " + dealii::Utilities::MPI::broadcast(mesh.comm, where, rank) +
-                             " has been turned inside out after " + std::to_string(n_steps) +
-                             " steps: its strain is too large for this mesh; use larger cells there, or "
-                             "less load or hardening that carries it");
+    return place_of_worst(is_worst, centre, body);
   }
 
 
@@ -85,8 +91,8 @@ namespace tread
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::min;
-    double       least_volume = std::numeric_limits<double>::max(), stretch = 1., fastest = 0.;
-    unsigned int worst = 0;
+    double       least_volume = std::numeric_limits<double>::max(), stretch = 1., fastest = 0., strain = 0.;
+    unsigned int worst = 0, most_strained = 0;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         const auto        &nodes = mesh.cells[c].nodes;
@@ -102,14 +108,28 @@ namespace tread
           }
         if (volume > 0.)
           {
-            const double change = largest_change_of_stretch(F);
-            stretch             = std::max(stretch, change);
+            const dealii::SymmetricTensor<2, 3> C         = dealii::symmetrize(dealii::transpose(F) * F);
+            const double                        deviation = (C - dealii::unit_symmetric_tensor<3>()).norm(),
+                         change                           = largest_change_of_stretch(C, deviation);
+            if (0.5 * deviation > strain)
+              {
+                strain        = 0.5 * deviation;
+                most_strained = c;
+              }
+            stretch = std::max(stretch, change);
             fastest =
               std::max(fastest, change * std::ldexp(solid.cell_frequencies()[c], solid.cell_levels()[c]));
           }
       }
     if (const double least = min(least_volume, mesh.comm); least <= 0.)
-      throw_inverted(worst, least_volume == least);
+      throw WentWrong("the cell " + place_of_worst_cell(least_volume == least, worst) +
+                      " has been turned inside out after " + std::to_string(n_steps) +
+                      " steps: its strain is too large for this mesh; use larger cells there, or "
+                      "less load or hardening that carries it");
+    if (const double largest = max(strain, mesh.comm); largest > parameters.largest_strain)
+      throw WentWrong("the cell " + place_of_worst_cell(strain == largest, most_strained) +
+                      format(" has a strain of %.3g after %llu steps, above 'Watchdogs/Stop at strain' %g",
+                             largest, (unsigned long long)n_steps, parameters.largest_strain));
 
     // No motion of the mesh can have become faster by more than its most changed cell, nor be faster than the
     // fastest cell alone: while that is slow enough nothing needs to be known exactly.
@@ -119,7 +139,7 @@ namespace tread
     const double courant =
       parameters.courant_number * highest_of_levels(positions(), history) / highest_of_step;
     if (courant > 1.)
-      throw std::runtime_error(
+      throw WentWrong(
         format("the cells have deformed so much after %llu steps that the time step is no longer stable: "
                "Courant number %.3f; start anew with 'Time stepping/Courant number' at most %.2f",
                (unsigned long long)n_steps, courant,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/base/went_wrong.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,18 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace tread
 {
   namespace
   {
-    /// A node that moves faster is part of an instability, m/s. A wheel's rim moves at up to twice the speed
-    /// of the train, 170 m/s at 300 km/h, and a pressure wave of 1000 m/s would carry a stress of rho c v =
-    /// 46 GPa, a hundred times the strength of steel. An unstable motion grows exponentially, so that half or
-    /// double the limit finds it a few steps earlier or later.
-    constexpr double fastest_possible = 1000.;
-
     /// Half of the distance over which the deflection under the moving load is differentiated, m: short
     /// against the bending of a rail between two sleepers, and long enough that the difference of two
     /// deflections has more than ten digits.
@@ -246,22 +240,23 @@ namespace tread
 
   void ExplicitDynamics::check_stability() const
   {
-    double fastest = 0.;
-    for (const Vector3 &velocity : v)
-      {
-        const double speed2 = dot(velocity, velocity);
-        fastest             = speed2 <= fastest ? fastest : speed2; // NaN is kept
-        if (!(speed2 == speed2))
-          {
-            fastest = std::numeric_limits<double>::max();
-            break;
-          }
-      }
-    fastest = std::sqrt(dealii::Utilities::MPI::max(fastest, mesh.comm));
-    if (fastest > fastest_possible)
-      throw std::runtime_error(format(
-        "unstable: nodes move faster than %g m/s after %llu steps; lower 'Time stepping/Courant number' "
-        "(%f, at most 1)",
-        fastest_possible, (unsigned long long)n_steps, parameters.courant_number));
+    double       fastest = 0.; // squared
+    unsigned int worst   = 0;
+    for (unsigned int i = 0; i < v.size(); ++i)
+      if (const double speed2 = dot(v[i], v[i]); !(speed2 <= fastest)) // NaN is found as well
+        {
+          fastest = speed2 == speed2 ? speed2 : std::numeric_limits<double>::max();
+          worst   = i;
+        }
+    const double largest = dealii::Utilities::MPI::max(fastest, mesh.comm);
+    if (largest <= parameters.largest_speed * parameters.largest_speed)
+      return;
+    const bool             is_here = fastest == largest && !v.empty();
+    const dealii::Point<3> place   = is_here ? mesh.nodes[worst] : dealii::Point<3>();
+    throw WentWrong(
+      format("unstable: nodes move faster than %g m/s after %llu steps, most of all that which was ",
+             parameters.largest_speed, (unsigned long long)n_steps) +
+      place_of_worst(is_here, place, is_here ? mesh.node_bodies[worst] : 0) +
+      format("; lower 'Time stepping/Courant number' (%f, at most 1)", parameters.courant_number));
   }
 } // namespace tread

@@ -82,6 +82,12 @@ namespace tread
   }
 
 
+  double ExplicitDynamics::slowed_by_supports() const
+  {
+    return 2. / (highest_of_step * std::sqrt(1. + 2. * parameters.damping_steps) * critical_time_step());
+  }
+
+
   double ExplicitDynamics::highest_of_levels(const NodalField &x, const PlasticHistory &memory) const
   {
     double highest = 0.;

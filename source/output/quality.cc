@@ -63,27 +63,27 @@ namespace tread
     const auto   if_counts = [&](const double work, const double share, const double least) {
       return std::abs(work) > least * internal ? share : 0.;
     };
-    warn(if_counts(e.residual(), e.of_dissipated(e.residual()), negligible), large_residual,
+    warn(if_counts(e.residual(), e.of_dissipated(e.residual()), negligible), limits.residual,
          "energy of the run is not accounted for, as a share of what was dissipated",
          "do not trust frictional power and creepage to better than that; try a smaller Courant number");
-    warn(if_counts(e.contact, e.of_dissipated(e.contact), negligible), large_contact_loss,
+    warn(if_counts(e.contact, e.of_dissipated(e.contact), negligible), limits.contact_loss,
          "contact takes or gives energy other than by friction",
          "usual where nodes strike, otherwise the cells are too large for the patch");
     const double of_cells   = e.damping - e.dampers;
     const double of_damping = if_counts(of_cells, e.of_friction_and_plasticity(of_cells), negligible_damping);
     // Without friction and plasticity there is nothing to compare with.
-    warn(if_counts(e.friction + e.plastic, of_damping, negligible), large_damping,
+    warn(if_counts(e.friction + e.plastic, of_damping, negligible), limits.damping,
          "numerical damping takes a large share beside friction and plasticity",
          "lower 'Solid/Mass damping (1 per s)' or 'Solid/Stiffness damping (time steps)'");
-    warn(e.hourglass_of_internal(), large_hourglass, "hourglass modes hold much of the internal energy",
+    warn(e.hourglass_of_internal(), limits.hourglass, "hourglass modes hold much of the internal energy",
          "cells there are too large; compare 'Solid/Element' fully-integrated or another 'Solid/Hourglass "
          "coefficient'");
     warn(
-      if_counts(e.friction, slip_chatter.value_or(0.), negligible), large_chatter,
+      if_counts(e.friction, slip_chatter.value_or(0.), negligible), limits.chatter,
       "micro-slip of single steps chatters about its mean",
       "take slip and state of patch.csv from patch_averaged.csv; 'Solid/Stiffness damping (time steps)' 0.1 "
       "removes chatter of the cells");
-    warn(contact_unconverged, large_unconverged, "contact did not reach its tolerance in many steps",
+    warn(contact_unconverged, limits.unconverged, "contact did not reach its tolerance in many steps",
          "raise 'Contact/Largest number of sweeps' or 'Contact/Tolerance'");
     return list;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -91,7 +92,7 @@ namespace tread
 
     struct Entry
     {
-      std::string path, section, name, value, pattern;
+      std::string path, section, name, value, normal, pattern;
     };
 
     /// All declared entries, by walking the handler's own description.
@@ -112,7 +113,7 @@ namespace tread
               name += mangled[i];
           if (child.get_optional<std::string>("value"))
             entries.push_back({section.empty() ? name : section + "/" + name, section, name,
-                               child.get<std::string>("value"),
+                               child.get<std::string>("value"), child.get<std::string>("default_value", ""),
                                child.get<std::string>("pattern_description", "")});
           else if (!child.empty())
             list_entries(child, section.empty() ? name : section + "/" + name, entries);
@@ -289,6 +290,21 @@ namespace tread
           return;
         }
     throw InputError("no parameter '" + path + "'; " + did_you_mean(handler, path));
+  }
+
+
+  std::vector<std::string> Scene::changed_parameters() const
+  {
+    const auto same = [](const std::string &a, const std::string &b) {
+      char        *end_a, *end_b;
+      const double number_a = std::strtod(a.c_str(), &end_a), number_b = std::strtod(b.c_str(), &end_b);
+      return a == b || (!a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && number_a == number_b);
+    };
+    std::vector<std::string> paths;
+    for (const Entry &entry : all_entries(handler))
+      if (!same(entry.value, entry.normal))
+        paths.push_back(entry.path);
+    return paths;
   }
 
 

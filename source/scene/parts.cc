@@ -197,6 +197,8 @@ namespace tread
     DynamicsParameters p;
     p.courant_number = scene.time_stepping.courant_number;
     p.damping_steps  = scene.solid.stiffness_damping;
+    p.largest_strain = scene.watchdogs.stop_at_strain;
+    p.largest_speed  = scene.watchdogs.stop_at_node_speed;
     p.mass_damping   = scene.solid.mass_damping;
     p.density_scale  = scene.general.density_scale;
     p.gravity        = scene.vehicle.gravity;

@@ -23,5 +23,6 @@ namespace tread
     start.declare(handler);
     output.declare(handler);
     peak_stress.declare(handler);
+    watchdogs.declare(handler);
   }
 } // namespace tread

@@ -367,8 +367,21 @@ namespace tread
   }
 
 
+  std::string Simulation::slow_step() const
+  {
+    constexpr double much   = 3.;
+    const double     slower = dynamics.slowed_by_supports();
+    return slower > much ? format("the cells would allow a time step %.3g times as long: springs, dampers or "
+                                  "masses in section 'Track' are far from those of a track",
+                                  slower)
+                         : "";
+  }
+
+
   void Simulation::add_doubts(std::vector<std::string> &warnings) const
   {
+    if (const std::string slow = slow_step(); !slow.empty())
+      warnings.push_back(slow);
     // What the torque aims at comes when the wheel has gathered the creepage for it.
     constexpr double far_from_aim = 0.05; // of it
     if (scene.motion.drive == Drive::torque && !scene.has_impacts())
@@ -437,8 +450,10 @@ namespace tread
       summary.set("note", note);
 
     summary.set("assumptions", scene.assumptions(starts_with_tractions));
+    summary.set("unused_parameters", scene.unused_parameters());
     Quality quality;
     quality.energy = energy;
+    quality.limits = scene.watchdogs.warn;
     if (averaged)
       quality.slip_chatter = wheel.average.slip_chatter();
     quality.contact_unconverged =

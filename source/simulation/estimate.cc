@@ -79,6 +79,8 @@ namespace tread
     };
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
+        for (const std::string &unused : scene.unused_parameters())
+          std::printf("WARNING: %s\n", unused.c_str());
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
         std::printf("unknowns             %12llu\n",
                     3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));

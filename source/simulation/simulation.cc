@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/base/version.h>
+#include <tread/base/went_wrong.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/checkpoint.h>
@@ -279,8 +280,24 @@ namespace tread
       strip->sample(dynamics, position());
     impacts.add(row, dynamics.time - interval_start_time, scene.recorded_supports());
     folder.append(row);
+    watch(row.energy);
     interval_start_time = dynamics.time;
     interval_steps      = 0;
+  }
+
+
+  void Simulation::watch(const EnergyLedger &energy) const
+  {
+    const double limit = scene.watchdogs.stop_at_residual,
+                 scale = std::max(energy.dissipated(), energy.stored_strain + energy.stored_hourglass);
+    if (!(std::abs(energy.residual()) <= limit * scale)) // so is NaN
+      throw WentWrong(format(
+        "%.4g J of energy are not accounted for at %.2f mm, after %llu steps, beside %.4g J dissipated "
+        "and %.4g J stored as strain ('Watchdogs/Stop at energy residual' %g): the step is unstable, "
+        "or what the scene asks for is beyond its mesh; lower 'Time stepping/Courant number' or use one "
+        "level",
+        energy.residual(), 1e3 * position(), (unsigned long long)dynamics.n_steps, energy.dissipated(),
+        energy.stored_strain + energy.stored_hourglass, limit));
   }
 
 
@@ -360,7 +377,25 @@ namespace tread
     if (next_wheel_due && !begin_next_passage(progress))
       return false;
 
-    const End end = roll(folder, checkpoint, progress);
+    End end = End::complete;
+    try
+      {
+        end = roll(folder, checkpoint, progress);
+        if (end == End::complete || end == End::left_surface)
+          {
+            if (interval_steps > 0)
+              end_interval(folder);
+            if (scene.motion.passages > 1 && end == End::complete)
+              end_passage(folder);
+          }
+      }
+    catch (const WentWrong &wrong)
+      {
+        if (!scene.output.write_volume)
+          throw;
+        write_volume(folder);
+        throw WentWrong(wrong.what() + std::string("; volume.pvd ends with the bodies as they were then"));
+      }
     if (end == End::between_passages)
       return false;
     wall_seconds = seconds_before + progress.seconds();
@@ -374,13 +409,6 @@ namespace tread
         {
           no_checkpoint = std::current_exception(); // what was computed is kept all the same
         }
-    else
-      {
-        if (interval_steps > 0)
-          end_interval(folder);
-        if (scene.motion.passages > 1 && end == End::complete)
-          end_passage(folder);
-      }
     finish(folder, end);
     check_rim();
     if (no_checkpoint)
@@ -398,6 +426,8 @@ namespace tread
                         dealii::Utilities::MPI::n_mpi_processes(comm), n_lanes));
     for (const std::string &assumption : scene.assumptions())
       progress.say("assumed: " + assumption);
+    for (const std::string &unused : scene.unused_parameters())
+      progress.say("WARNING: " + unused);
     if (const Defect *defect = scene.made_defect())
       progress.say(format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * defect->begin,
                           1e3 * (defect->begin + defect->length), 1e3 * defect->depth,
@@ -416,6 +446,8 @@ namespace tread
     std::uint64_t n_steps = dynamics.n_steps + remaining_steps();
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - dynamics.n_steps), 1e3 * (end_position - position())));
+    if (const std::string slow = slow_step(); !slow.empty())
+      progress.say("WARNING: " + slow);
     // mpirun gives its ranks a second to end after Ctrl-C.
     EverySoManySteps look_at_signals{10, dynamics.n_steps}, check{100, dynamics.n_steps + 100},
       look_at_cells{200, dynamics.n_steps + 200};

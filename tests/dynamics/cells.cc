@@ -8,6 +8,8 @@
 #include "boxes.h"
 #include "check.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 
@@ -70,6 +72,25 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check.that("inside out: which body", inside_out.find("of the block") != std::string::npos);
   check.that("inside out: one line", inside_out.find('\n') == std::string::npos);
   check.that("inside out: where", inside_out.find("x = 35.00, y = 15.00, z = 15.00 mm") != std::string::npos);
+
+  // Simple shear of the cells between x = 30 and 40 mm: C - 1 has g, g and g^2, E half of them.
+  const auto sheared = [](const double g) {
+    return [=](const Point<3> &p) {
+      return Point<3>(p[0], p[1] + g * std::clamp(p[0] - .03, 0., .01), p[2]);
+    };
+  };
+  const auto strain = [](const double g) {
+    return 0.5 * g * std::sqrt(2. + g * g);
+  };
+  double g = 0.1;
+  while (strain(g) < DynamicsParameters().largest_strain)
+    g += 0.001;
+  const std::string strained = complaint(sheared(g), .5, growth);
+  check.that("strained too much: said, with the parameter",
+             strained.find("'Watchdogs/Stop at strain' 0.5") != std::string::npos);
+  check.that("strained too much: where", strained.find("x = 35.00") != std::string::npos &&
+                                           strained.find("of the block") != std::string::npos);
+  check.that("strained a little less: not", complaint(sheared(g - 0.002), .5, growth).empty());
 
   // Alike in all directions by 8 %: the law's tangent changes the highest frequency by some per cent, in a
   // direction that is its own.

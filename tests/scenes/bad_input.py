@@ -240,6 +240,16 @@ with tempfile.TemporaryDirectory() as folder:
         must_fail(f"folder cannot be written, {ranks} rank(s)", [scene, "--output", os.path.join(blocked, "results")] + coarse,
                   ["Output/Directory"], ranks)
 
+    # What another parameter leaves without effect is named; what is set to what it is anyhow is not.
+    unused = {"Defect/Depth (mm)=3": "Defect/Shape", "Track/Pad stiffness (MN per m)=100": "Track/Foundation", "Wheel/Bore radius (mm)=90": "Wheel/Shape",
+              "Rail/Tangent modulus (GPa)=10": "Rail/Yield stress (MPa)", "Contact/Friction memory (mm)=1": "Contact/Friction law",
+              "Wheelset/Yaw (mrad)=2": "Wheelset/Lateral shift (mm)", "Rail/Absorbing length (m)=1": "Track/Foundation"}
+    settings = [text for setting in [*unused, "Guidance/File=", "Motion/Hold distance (mm)=15.0"] for text in ("-s", setting)]
+    said = [line for line in execute([scene, "--dry-run"] + coarse + settings, program=program).stdout.splitlines() if "WARNING" in line]
+    for setting, needed in unused.items():
+        check.that(f"{setting} without effect: needs {needed}", any(f"'{setting.split('=')[0]}' has no effect" in line and f"'{needed}'" in line for line in said))
+    check.that("and nothing else", len(said) == len(unused))
+
     printed = execute(["--print-parameters", "-s", "Motion/Speed (km per h)=123"], program=program)
     check.that("--print-parameters without a scene shows what was set", "set Speed (km per h) " in printed.stdout and "= 123" in printed.stdout)
 

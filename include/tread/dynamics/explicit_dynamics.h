@@ -30,6 +30,13 @@ namespace tread
     double mass_damping  = 0.;
     double density_scale = 1.;
     double gravity       = 9.81; ///< m/s^2, along -z
+    /// A cell with more strain (Green-Lagrange, Frobenius' norm) stops a run.
+    double largest_strain = 0.5;
+    /// A node that moves faster is part of an instability, m/s. A wheel's rim moves at up to twice the speed
+    /// of the train, 170 m/s at 300 km/h, and a pressure wave of 1000 m/s would carry a stress of rho c v =
+    /// 46 GPa, a hundred times the strength of steel. An unstable motion grows exponentially, so that half or
+    /// double the limit finds it a few steps earlier or later.
+    double largest_speed = 1e3;
     /// Interval, in steps, at which the energy dissipated by stiffness damping and bulk viscosity is sampled,
     /// with two more force evaluations. It is assumed to vary linearly in between; with 1 it is counted
     /// exactly. The number is a prime, because a vibration whose period divides it would always be sampled in
@@ -101,12 +108,15 @@ namespace tread
     /// level and requires that all supports are set.
     double critical_time_step() const;
 
+    /// Time step that the cells alone allow over the critical one, which springs and dampers shorten.
+    double slowed_by_supports() const;
+
     /// Determine the critical time step for the cells as they are deformed at present; start() uses it. Cells
     /// that are yielding at present count with their softer tangent. Collective; about 30 force evaluations
     /// per level.
     void renew_critical_time_step();
 
-    /// @throws std::runtime_error with one line if a cell has been turned inside out, or if the cells have
+    /// @throws WentWrong if a cell has been turned inside out or strained too much, or if the cells have
     /// deformed so much that the time step is no longer stable. Collective; costs about one force evaluation,
     /// or 30 per level if a bound from the cells' stretches is not sufficient.
     void check_cells();
@@ -158,8 +168,7 @@ namespace tread
     /// External forces are not part of it. Collective.
     void serialize(Archive &archive);
 
-    /// @throws std::runtime_error with a clear line if nodes move faster than is possible in steel.
-    /// Collective.
+    /// @throws WentWrong if nodes move faster than is possible in steel. Collective.
     void check_stability() const;
 
     /// Position of a node, m.
@@ -206,8 +215,13 @@ namespace tread
   private:
     class Relaxation; ///< of relax()
 
-    /// @param cell of this rank with the least volume; @param is_worst: of all ranks. Collective.
-    [[noreturn]] void throw_inverted(const unsigned int cell, const bool is_worst) const;
+    /// "at x = ..., y = ..., z = ... mm of the rail": place (m) and body of what is worst. The lowest of the
+    /// ranks on which `is_worst` is set says where. Collective.
+    std::string place_of_worst(const bool              is_worst,
+                               const dealii::Point<3> &place,
+                               const unsigned int      body) const;
+    /// The same of a cell's centre before it was deformed.
+    std::string place_of_worst_cell(const bool is_worst, const unsigned int cell) const;
 
     /// Set the time step, the inverse masses and the pairs in contact.
     void                set_inertia();

@@ -11,36 +11,40 @@
 
 namespace tread
 {
+  /// A warning is given beyond these values.
+  struct QualityLimits
+  {
+    /// Energy residual over the dissipated energy. Frictional power and creepage are compared within one to
+    /// two per cent, and energy that is not accounted for may be missing from friction.
+    double residual = 0.02;
+    /// Contact loss over the dissipated energy, for the same reason.
+    double contact_loss = 0.02;
+    /// Damping of the cells over friction and plasticity. This damping is numerical: from a tenth on it
+    /// affects the answer. The dampers of a track are not counted.
+    double damping = 0.1;
+    /// Hourglass energy over the internal energy: the customary 5 % for one-point cells (Flanagan &
+    /// Belytschko 1981 control the modes, they do not resolve them).
+    double hourglass = 0.05;
+    /// Slip chatter. The curvature of slip between two cells contributes a few per cent, chatter about ten.
+    double chatter = 0.1;
+    /// Share of steps whose contact did not converge. Rare ones are corrected by the steps after them.
+    double unconverged = 0.01;
+  };
+
   /// The measures by which a user judges a run.
   struct Quality
   {
     EnergyLedger          energy;
     std::optional<double> slip_chatter;             ///< none: nothing was averaged
     double                contact_unconverged = 0.; ///< share of the steps
+    QualityLimits         limits;
 
-    // A warning is given beyond the following values.
-
-    /// Energy residual over the dissipated energy. Frictional power and creepage are compared within one to
-    /// two per cent, and energy that is not accounted for may be missing from friction.
-    static constexpr double large_residual = 0.02;
-    /// Contact loss over the dissipated energy, for the same reason.
-    static constexpr double large_contact_loss = 0.02;
     /// Share of the internal energy below which residual and contact loss cause no warning, however little is
     /// dissipated.
     static constexpr double negligible = 1e-3;
     /// The same for damping: impacts excite vibrations, and where nothing slips little else dissipates
     /// energy.
     static constexpr double negligible_damping = 1e-2;
-    /// Damping of the cells over friction and plasticity. This damping is numerical: from a tenth on it
-    /// affects the answer. The dampers of a track are not counted.
-    static constexpr double large_damping = 0.1;
-    /// Hourglass energy over the internal energy: the customary 5 % for one-point cells (Flanagan &
-    /// Belytschko 1981 control the modes, they do not resolve them).
-    static constexpr double large_hourglass = 0.05;
-    /// Slip chatter. The curvature of slip between two cells contributes a few per cent, chatter about ten.
-    static constexpr double large_chatter = 0.1;
-    /// Share of steps whose contact did not converge. Rare ones are corrected by the steps after them.
-    static constexpr double large_unconverged = 0.01;
 
     void add_to(Summary &summary) const;
 

@@ -19,6 +19,7 @@
 #include <tread/scene/sections/time_stepping.h>
 #include <tread/scene/sections/track.h>
 #include <tread/scene/sections/vehicle.h>
+#include <tread/scene/sections/watchdogs.h>
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
 #include <tread/scene/wheelset_motion.h>
@@ -53,6 +54,7 @@ namespace tread
     StartSection         start;
     OutputSection        output;
     PeakStressSection    peak_stress;
+    WatchdogSection      watchdogs;
 
     /// Read a parameter file (none: all defaults) with those that its lines "include NAME" name, relative to
     /// its folder, then "Section/Name=value" settings in their order, and
@@ -64,6 +66,11 @@ namespace tread
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
+
+    /// Parameters (Section/Name) that are not what they are without being set.
+    std::vector<std::string> changed_parameters() const;
+    /// Those among them that another parameter leaves without effect, one line each, with what they need.
+    std::vector<std::string> unused_parameters() const;
 
     struct Parameter
     {

@@ -65,6 +65,8 @@ namespace tread
     void                                    add_to_interval();
     void                                    look_for_peaks();
     void                                    end_interval(RunFolder &folder);
+    /// @throws WentWrong if too much energy is not accounted for.
+    void watch(const EnergyLedger &energy) const;
     /// The patch of each wheel. Collective.
     std::vector<std::vector<PatchNode>> patches_now() const;
     /// The patches at the solution instant, or at present if it has not been reached. Collective.
@@ -153,6 +155,8 @@ namespace tread
     std::string add_further_wheels(Summary                                   &summary,
                                    const std::vector<std::vector<PatchNode>> &patches) const;
     void        add_cost(Summary &summary) const;
+    /// A line if springs, dampers and masses make the time step much shorter than the cells do; else none.
+    std::string slow_step() const;
     /// Add why the answer is perhaps not that of steady rolling.
     void add_doubts(std::vector<std::string> &warnings) const;
     /// @returns lines about the largest stresses for the screen.

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Parameters that a scene sets and that another one of its parameters leaves without effect.
+#include <tread/scene/scene.h>
+
+#include <algorithm>
+
+namespace tread
+{
+  namespace
+  {
+    /// Parameters that count only where the scene has something.
+    struct Group
+    {
+      std::string              section;
+      std::vector<std::string> names;  ///< empty: all of the section, but for `main`
+      std::string              main;   ///< what decides, in the same section or as Section/Name
+      bool                     counts; ///< in this scene
+      std::string              needed; ///< of the deciding parameter
+    };
+
+    bool concerns(const Group &group, const std::string &path)
+    {
+      const std::size_t slash = group.section.size();
+      if (path.compare(0, slash + 1, group.section + "/") != 0)
+        return false;
+      const std::string name = path.substr(slash + 1);
+      if (group.names.empty())
+        return name != group.main;
+      return std::find(group.names.begin(), group.names.end(), name) != group.names.end();
+    }
+
+    std::vector<Group> groups_of_steel(const std::string &body, const MaterialSection &steel)
+    {
+      const bool yields = steel.yield_stress > 0. || !steel.plastic_zones.empty();
+      return {{body,
+               {"Tangent modulus (GPa)", "Hardening", "Plastic depth (mm)", "Plastic half width (mm)"},
+               "Yield stress (MPa)",
+               yields,
+               "above 0"},
+              {body,
+               {"Backstress moduli (GPa)", "Backstress recoveries"},
+               "Hardening",
+               yields && steel.hardening == Hardening::armstrong_frederick,
+               "Armstrong-Frederick, with a yield stress"}};
+    }
+  } // namespace
+
+
+  std::vector<std::string> Scene::unused_parameters() const
+  {
+    const bool         defect_of_file = defect.shape == "profile" || defect.shape == "map";
+    std::vector<Group> groups{
+      {"Wheel",
+       {"Rim inner radius (mm)", "Rim width (mm)", "Web thickness (mm)", "Hub outer radius (mm)",
+        "Hub length (mm)", "Bore radius (mm)"},
+       "Shape",
+       wheel.is_full(),
+       "full"},
+      {"Wheel",
+       {"Sector thickness (mm)", "Sector width (mm)", "Sector margin (mm)"},
+       "Shape",
+       !wheel.is_full() || is_positioned(),
+       "sector"},
+      {"Wheelset", {}, "Lateral shift (mm)", is_positioned(), "a number"},
+      {"Guidance", {"File"}, "Kind", guidance.kind == Guidance::file, "file"},
+      {"Guidance",
+       {"Lateral stiffness (MN per m)", "Lateral damping (kN s per m)", "Lateral force (kN)",
+        "Yaw stiffness (MN m per rad)", "Yaw damping (kN m s per rad)", "Yaw moment (kN m)",
+        "Yaw inertia (kg m2)"},
+       "Kind",
+       guidance.kind == Guidance::springs,
+       "springs"},
+      {"Rail",
+       {"Crown radius (mm)", "Block width (mm)", "Block height (mm)"},
+       "Shape",
+       rail.is_block(),
+       "block"},
+      {"Rail",
+       {"Profile", "Measured head", "Inclination"},
+       "Shape",
+       !rail.is_block(),
+       "head or full section"},
+      {"Rail",
+       {"Ends", "Absorbing length (m)"},
+       "Track/Foundation",
+       track.has_supports(),
+       "one-layer or two-layer"},
+      {"Defect", {}, "Shape", defect.shape != "none", "dip, profile or map"},
+      {"Defect",
+       {"Rounded leading edge (mm)", "Rounded trailing edge (mm)"},
+       "Shape",
+       defect.shape == "dip" || defect.shape == "none",
+       "dip"},
+      {"Defect",
+       {"Profile file", "Reversed"},
+       "Shape",
+       defect_of_file || defect.shape == "none",
+       "profile or map"},
+      {"Defect", {"Lateral law"}, "Shape", defect.shape == "profile" || defect.shape == "none", "profile"},
+      {"Contact",
+       {"Kinetic friction coefficient", "Falling slip speed (m per s)", "Friction memory (mm)",
+        "Least speed of memory (m per s)"},
+       "Friction law",
+       !friction_law()->is_constant(),
+       "one that falls"},
+      {"Track", {}, "Foundation", track.has_supports(), "one-layer or two-layer"},
+      {"Track",
+       {"Sleepers", "Sleeper mass (kg)", "Ballast stiffness (MN per m)", "Ballast damping (kN s per m)"},
+       "Foundation",
+       track.foundation != Foundation::one_layer,
+       "two-layer"},
+      {"Track",
+       {"Sleeper length (m)", "Sleeper width (mm)", "Rail distance (mm)", "Sleeper Young's modulus (GPa)",
+        "Sleeper Poisson's ratio", "Sleeper density (kg per m3)"},
+       "Sleepers",
+       track.has_solid_sleepers() || !track.has_supports(),
+       "solid, on two layers"},
+      {"Motion", {"Hold distance (mm)"}, "Drive", motion.drive == Drive::torque, "torque"},
+      {"Peak stress", {}, "Region", peak_stress.is_wanted(), "a region"},
+      {"Output", {"Supports"}, "Track/Foundation", track.has_supports(), "one-layer or two-layer"},
+      {"Output", {"Volume interval (mm)"}, "Write volume", output.write_volume, "true"},
+    };
+    for (const auto &[body, steel] :
+         {std::make_pair("Wheel", &wheel.material), std::make_pair("Rail", &rail.material)})
+      for (Group &group : groups_of_steel(body, *steel))
+        groups.push_back(std::move(group));
+
+    std::vector<std::string> unused;
+    for (const std::string &path : changed_parameters())
+      for (const Group &group : groups)
+        if (!group.counts && concerns(group, path))
+          {
+            const bool elsewhere = group.main.find('/') != std::string::npos;
+            unused.push_back("'" + path + "' has no effect: it needs '" +
+                             (elsewhere ? "" : group.section + "/") + group.main + "' " + group.needed);
+            break;
+          }
+    return unused;
+  }
+} // namespace tread
