@@ -35,7 +35,7 @@ namespace tread::reference
         return (s > 0. && t < 0.) ? std::copysign(friction / radius * std::sqrt(s), creepage) : 0.;
       }
     // full slip: rigid slip less the strain of the whole ellipse, f x/R
-    return creepage + std::copysign(friction / radius * x, -creepage);
+    return creepage - std::copysign(friction / radius, creepage) * x;
   }
 
   Carter carter(const double radius,

@@ -20,33 +20,35 @@ using dealii::Point;
 
 namespace
 {
-  constexpr double length = 0.06, coarse = 5e-3, fine = 2.5e-3;
+  constexpr double length = 0.06, half_width = 0.015, coarse = 5e-3, fine = 2.5e-3;
 
-  /// Stretch along x: u_x = rise X^2/2 (1 - slope Z) from the front or the rear end, X the distance from it.
+  /// Stretch along x: u_x = rise X^2/2 (1 - slope Z) (1 + tilt Y) from the front or the rear end, X the
+  /// distance from it.
   struct Field
   {
     double rise;
     bool   from_rear;
 
-    static constexpr double slope = 40.;
+    static constexpr double slope = 40., tilt = 2.;
 
     double displacement(const Point<3> &p) const
     {
       const double s = from_rear ? length - p[0] : p[0];
-      return (from_rear ? -1. : 1.) * 0.5 * rise * s * s * (1. - slope * p[2]);
+      return (from_rear ? -1. : 1.) * 0.5 * rise * s * s * (1. - slope * p[2]) * (1. + tilt * p[1]);
     }
 
     /// Of the cell with this centre and edge. Means of the trilinear field's gradient, then Cauchy's stress
     /// of Hencky's law.
-    double von_mises(const double x, const double z, const double edge) const
+    double von_mises(const double x, const double y, const double z, const double edge) const
     {
       const double s = from_rear ? length - x : x;
       const double a = s - 0.5 * edge, b = s + 0.5 * edge;
       const double sign = from_rear ? -1. : 1.;
 
       dealii::Tensor<2, 3> F, E;
-      F[0][0] = 1. + rise * s * (1. - slope * z);
-      F[0][2] = -sign * 0.5 * rise * slope * 0.5 * (a * a + b * b);
+      F[0][0] = 1. + rise * s * (1. - slope * z) * (1. + tilt * y);
+      F[0][1] = sign * 0.5 * rise * (1. - slope * z) * tilt * 0.5 * (a * a + b * b);
+      F[0][2] = -sign * 0.5 * rise * slope * (1. + tilt * y) * 0.5 * (a * a + b * b);
       F[1][1] = F[2][2] = 1.;
       E                 = 0.5 * (transpose(F) * F);
       for (unsigned int i = 0; i < 3; ++i)
@@ -100,32 +102,41 @@ namespace
 
     check.that("a column for each cell at the surface along the path", columns.size() == 24);
     double place = 0., surface = 0., largest = 0., resumption = 0.;
-    bool   times = true, depths = true;
+    bool   times = true, depths = true, across = true;
     for (unsigned int i = 0; i < columns.size(); ++i)
       {
         const StripColumn &column = columns[i];
         const double       x = (i + 0.5) * fine, x_below = (i / 2 + 0.5) * coarse;
         place                 = std::max(place, std::abs(column.x / x - 1.));
-        double     at_surface = 0., most = 0., depth = 0., time = 0.;
+        double     at_surface = 0., most = 0., depth = 0., time = 0., y_most = 0., y_at_surface = 0.;
         const auto look = [&](const double centre, const double z, const double edge) {
-          const double values[2] = {first.von_mises(centre, z, edge), second.von_mises(centre, z, edge)};
+          // Largest at the side to which the field rises.
+          const double y         = half_width - 0.5 * edge;
+          const double values[2] = {first.von_mises(centre, y, z, edge),
+                                    second.von_mises(centre, y, z, edge)};
           for (unsigned int k = 0; k < 2; ++k)
             {
               if (z == -0.5 * fine)
-                at_surface = std::max(at_surface, values[k]);
+                {
+                  at_surface   = std::max(at_surface, values[k]);
+                  y_at_surface = y;
+                }
               if (values[k] > most)
                 {
-                  most  = values[k];
-                  depth = -z;
-                  time  = k + 1.;
+                  y_most = y;
+                  most   = values[k];
+                  depth  = -z;
+                  time   = k + 1.;
                 }
             }
         };
         look(x, -0.5 * fine, fine);
         look(x, -1.5 * fine, fine);
         look(x_below, -1.5 * coarse, coarse);
-        surface    = std::max(surface, std::abs(column.at_surface.stress / at_surface - 1.));
-        largest    = std::max(largest, std::abs(column.largest.stress / most - 1.));
+        surface = std::max(surface, std::abs(column.at_surface.stress / at_surface - 1.));
+        largest = std::max(largest, std::abs(column.largest.stress / most - 1.));
+        across =
+          across && std::abs(column.y - y_most) < 1e-9 && std::abs(column.y_at_surface - y_at_surface) < 1e-9;
         times      = times && column.largest.time == time && column.largest.wheel_x == 10. * time;
         depths     = depths && std::abs(column.depth - depth) < 1e-9;
         resumption = std::max(resumption, std::abs(again[i].largest.stress / column.largest.stress - 1.));
@@ -136,6 +147,7 @@ namespace
     check.below("largest at any depth, share", largest, 1e-9);
     check.that("its time and the wheel's place", times);
     check.that("its depth", depths);
+    check.that("its place across the rail, and that of the largest at the surface", across);
     check.below("restored and gone on, share", resumption, 1e-15);
   }
 
@@ -156,8 +168,10 @@ namespace
                    1e-6);
     const double edges[3] = {fine, coarse, fine};
     for (unsigned int i = 0; i < 3; ++i)
-      check.relative("von Mises stress of cell " + std::to_string(i + 1), records[i].von_mises,
-                     field.von_mises(probes.centres()[i][0], probes.centres()[i][2], edges[i]), 1e-9);
+      check.relative(
+        "von Mises stress of cell " + std::to_string(i + 1), records[i].von_mises,
+        field.von_mises(probes.centres()[i][0], probes.centres()[i][1], probes.centres()[i][2], edges[i]),
+        1e-9);
     const std::string said = tests::complaint<std::out_of_range>([&] {
       CellProbes(dynamics.mesh, 0, {Point<3>(31e-3, 0., -1e-3), Point<3>(31e-3, 0., 1e-3)});
     });
@@ -198,10 +212,12 @@ namespace
     // The first field is the larger one, at the region's end; cells lie with their centres in it.
     const double x_fine = 0.04 - 0.5 * fine, x_coarse = 0.04 - 0.5 * coarse;
     check.that("peaks: three layers, two of them fine", answer.layers.size() == 3);
-    const double depths[3]   = {0.5 * fine, 1.5 * fine, 1.5 * coarse};
-    const double expected[3] = {first.von_mises(x_fine, -depths[0], fine),
-                                first.von_mises(x_fine, -depths[1], fine),
-                                first.von_mises(x_coarse, -depths[2], coarse)};
+    const double depths[3] = {0.5 * fine, 1.5 * fine, 1.5 * coarse};
+    // The farthest centres within 4 mm of the middle, to the side to which the field rises.
+    const double y_fine = 1.5 * fine, y_coarse = 0.5 * coarse;
+    const double expected[3] = {first.von_mises(x_fine, y_fine, -depths[0], fine),
+                                first.von_mises(x_fine, y_fine, -depths[1], fine),
+                                first.von_mises(x_coarse, y_coarse, -depths[2], coarse)};
     for (unsigned int k = 0; k < std::min<std::size_t>(3, answer.layers.size()); ++k)
       {
         const Peak       &peak = answer.layers[k].peak;
@@ -216,7 +232,7 @@ namespace
       }
     // Stresses are linear in z but for products of the strain, 0.4 %, with its change over a cell, 10 %.
     check.relative("peaks: extrapolated to the surface", answer.surface.peak.value,
-                   first.von_mises(x_fine, 0., fine), 1e-3);
+                   first.von_mises(x_fine, y_fine, 0., fine), 1e-3);
     check.that("peaks: not that of the first layer", answer.surface.peak.value < 0.99 * expected[0] ||
                                                        answer.surface.peak.value > 1.01 * expected[0]);
   }
@@ -245,6 +261,18 @@ namespace
     // To second order in strains of 0.3 %.
     check.relative("face: stress from stretch, pressure and shear",
                    von_mises_at_face(reference, current, steel, p, q), expected, 3e-5);
+    // The same principal strains, turned by 0.5 in the face.
+    const double c = std::cos(0.5), s = std::sin(0.5), along = std::exp(e1), across = std::exp(e2);
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        const double x = reference[a][0], y = reference[a][1];
+        current[a] = Vector3{(c * c * along + s * s * across) * x + c * s * (along - across) * y,
+                             c * s * (along - across) * x + (s * s * along + c * c * across) * y, 0., 0.};
+      }
+    check.relative("face: the same in other directions", von_mises_at_face(reference, current, steel, p, 0.),
+                   von_mises({{lambda * (e1 + e2 + e3) + 2. * mu * e1, lambda * (e1 + e2 + e3) + 2. * mu * e2,
+                               -p, 0., 0., 0.}}),
+                   3e-5);
     check.relative("face: nothing but shear", von_mises_at_face(reference, reference, steel, 0., q),
                    std::sqrt(3.) * q, 1e-12);
   }
@@ -252,11 +280,12 @@ namespace
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
-  Body body = tests::make_box("block", Point<3>(0., -0.015, -0.02), Point<3>(length, 0.015, 0.), {{12, 6, 4}},
-                              {{tests::Side::left, Boundary::end},
-                               {tests::Side::right, Boundary::end},
-                               {tests::Side::bottom, Boundary::support},
-                               {tests::Side::top, Boundary::contact}});
+  Body body =
+    tests::make_box("block", Point<3>(0., -half_width, -0.02), Point<3>(length, half_width, 0.), {{12, 6, 4}},
+                    {{tests::Side::left, Boundary::end},
+                     {tests::Side::right, Boundary::end},
+                     {tests::Side::bottom, Boundary::support},
+                     {tests::Side::top, Boundary::contact}});
   body.wanted_cell_size = [](const Point<3> &p) {
     return p[2] > -0.9 * coarse ? fine : std::numeric_limits<double>::max();
   };

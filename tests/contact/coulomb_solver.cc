@@ -184,6 +184,7 @@ namespace
   {
     std::vector<Vector3> velocity, impulse;
     unsigned int         sweeps;
+    double               change; ///< of the last sweep, share of the largest impulse
   };
 
   /// By one rank, from these impulses.
@@ -191,10 +192,11 @@ namespace
   {
     Strips            whole(r.problem);
     std::vector<char> slips;
-    Solution          s{r.velocity, start, 0};
-    s.sweeps =
-      solve_coulomb(r.problem, friction, solver_parameters(), whole, r.offset, s.velocity, s.impulse, slips)
-        .sweeps;
+    Solution          s{r.velocity, start, 0, 0.};
+    const auto        result =
+      solve_coulomb(r.problem, friction, solver_parameters(), whole, r.offset, s.velocity, s.impulse, slips);
+    s.sweeps = result.sweeps;
+    s.change = result.change;
     return s;
   }
 
@@ -203,6 +205,7 @@ namespace
   {
     Violation    worst;
     unsigned int cold = 0, warm = 0, most = 0;               ///< sweeps: sums, largest number of a cold start
+    double       change         = 0.;                        ///< of the last sweep, the largest
     double       impulses_apart = 0., velocities_apart = 0.; ///< shared among the ranks or not; share, m/s
     unsigned int fewest = n_constraints;                     ///< constraints that a rank has
   };
@@ -287,6 +290,8 @@ namespace
     check.that(name + "all states occur",
                worst.n_open > 0 && (mu == 0. || worst.n_stick > 0) && worst.n_slip > 0);
     check.that(name + "sweeps end by the tolerance", found.most <= solver_parameters().max_sweeps);
+    check.below(name + "change of the last sweep over the tolerance",
+                found.change / solver_parameters().tolerance, 1.);
     check.that(name + "a warm start takes fewer sweeps", found.warm < found.cold);
   }
 
@@ -300,7 +305,8 @@ namespace
         const Solution      solution = solve(r, friction, std::vector<Vector3>(n_constraints, Vector3{}));
         found.worst.include(violation(r, solution.impulse, friction));
         found.cold += solution.sweeps;
-        found.most = std::max(found.most, solution.sweeps);
+        found.most   = std::max(found.most, solution.sweeps);
+        found.change = std::max(found.change, solution.change);
         compare_with_shared(r, friction, solution, found);
         found.worst.penetration =
           std::max(found.worst.penetration, velocities_hold_impulses(r, solution) ? 0. : 1.);

@@ -175,15 +175,15 @@ namespace
       return energy;
     }
 
-    /// @param push force on the block along the plane, N
-    void step(const double push)
+    /// @param push, lift forces on the block along the plane and upwards, N
+    void step(const double push, const double lift = 0.)
     {
       if (contact.refresh_due())
         contact.refresh(x.data(), v.data(), time_step);
       NodalField          force(mesh.nodes.size(), Vector3{});
       std::vector<double> nothing;
       for (const unsigned int i : nodes)
-        force[i] = Vector3{push / 4., 0., -gravity / inverse_mass[i], 0.};
+        force[i] = Vector3{push / 4., 0., lift / 4. - gravity / inverse_mass[i], 0.};
       contact.predict(v.data(), force.data(), time_step, nothing);
       contact.solve(time_step, force.data());
       for (const unsigned int i : nodes)
@@ -319,6 +319,69 @@ namespace
     check.that("pushed above the static bound: slips from rest", all_are(block, false) && block.speed() > 0.);
   }
 
+  /// A law with memory: the coefficient follows that of the slip speed over a way of slip, recovers at rest
+  /// with the least speed, and is that of a node which has not slid when it touches again.
+  void check_memory(Check &check)
+  {
+    constexpr double         way = 2e-3, least_speed = 0.05, dt = Block::time_step;
+    dealii::ParameterHandler section;
+    declare_friction_laws(section);
+    section.set("Kinetic friction coefficient", kinetic_coefficient);
+    section.set("Falling slip speed (m per s)", slip_speed);
+    section.set("Friction memory (mm)", 1e3 * way);
+    section.set("Least speed of memory (m per s)", least_speed);
+    const auto law = make_friction_law("falling", static_coefficient, section);
+    Block      block(*law);
+    block.set_speed(1.);
+    double     speed = 1., now = static_coefficient, apart = 0.;
+    const auto age = [&]() {
+      const double in_the_long_run = coefficient(speed);
+      now = in_the_long_run + (now - in_the_long_run) * std::exp(-std::max(speed, least_speed) * dt / way);
+    };
+    for (unsigned int n = 0; n < 200; ++n)
+      {
+        block.step(0.);
+        speed -= gravity * now * dt;
+        age();
+        apart = std::max(apart, std::abs(block.speed() - speed));
+      }
+    check.below("memory: speed of a block that slides, m/s", apart, 1e-10);
+    check.that("memory: friction has fallen", now < 0.3);
+
+    // It flies for some steps: the pairs begin anew.
+    for (unsigned int n = 0; n < 5; ++n)
+      block.step(0., 2. * Block::mass * gravity);
+    unsigned int n_flown = 0;
+    for (; block.contact.active_nodes().empty() && n_flown < 1000; ++n_flown)
+      block.step(0.);
+    double ratio = 0.;
+    for (const ContactNodeState &state : block.contact.active_nodes())
+      {
+        const double  normal     = dot(state.impulse, state.normal);
+        const Vector3 tangential = state.impulse - normal * state.normal;
+        ratio                    = std::max(ratio, std::sqrt(dot(tangential, tangential)) / normal);
+      }
+    check.that("memory: the block has flown", n_flown > 3);
+    check.relative("memory: coefficient of pairs that close again", ratio, static_coefficient, 1e-9);
+
+    // Fallen again, it is stopped, and recovers while it stands.
+    for (unsigned int n = 0; n < 200; ++n)
+      block.step(0.3 * Block::mass * gravity);
+    const double before_push = block.speed();
+    block.step(0.);
+    now = (before_push - block.speed()) / (gravity * dt);
+    check.that("memory: friction has fallen once more", now < 0.35);
+    speed = block.speed();
+    age();
+    block.set_speed(0.);
+    speed = 0.;
+    for (unsigned int n = 0; n < 200; ++n, age())
+      block.step(0.);
+    block.step(0.6 * Block::mass * gravity);
+    check.relative("memory: coefficient after 20 ms of rest", 0.6 - block.speed() / (gravity * dt), now, 1e-6);
+    check.that("memory: it has recovered in part", now > 0.36 && now < 0.98 * static_coefficient);
+  }
+
   /// What a scene relies on, of every law that is registered.
   void check_registry(Check &check)
   {
@@ -371,5 +434,6 @@ void run_test(Check &check, const tests::Arguments &)
 {
   check_one_node(check);
   check_block(check);
+  check_memory(check);
   check_registry(check);
 }

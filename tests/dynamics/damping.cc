@@ -10,6 +10,9 @@
 #include "boxes.h"
 #include "check.h"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace tread;
 using dealii::Point;
 
@@ -61,6 +64,48 @@ namespace
     return {-std::log(1. - lost / energy) / dynamics.time, ledger.damping / lost,
             ledger.residual() / ledger.damping};
   }
+
+  /// Bulk viscosity of a cube whose edges change at the same rate, from the forces on its corners: that of
+  /// von Neumann & Richtmyer (1950) and Landshoff (1955), b1 rho c h tr + b2 rho h^2 tr^2 in compression.
+  void check_bulk_viscosity(tests::Check &check)
+  {
+    constexpr double      linear = 0.06, quadratic = 1.2;
+    const ElasticMaterial steel;
+    const Mesh            mesh(MPI_COMM_SELF,
+                               {tests::make_box("cube", Point<3>(), Point<3>(edge, edge, edge), {{1, 1, 1}})});
+    for (const double density_scale : {1., 4.})
+      for (const double trace : {3e4, -3e4}) // 1/s: both parts are of the same order
+        {
+          SolidParameters parameters;
+          parameters.linear_bulk_viscosity    = linear;
+          parameters.quadratic_bulk_viscosity = quadratic;
+          parameters.density_scale            = density_scale;
+          const Solid solid(mesh, {steel}, parameters);
+          NodalField  x(mesh.nodes.size()), v(mesh.nodes.size()), force(mesh.nodes.size(), Vector3{});
+          for (unsigned int i = 0; i < x.size(); ++i)
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                x[i][d] = mesh.nodes[i][d];
+                v[i][d] = trace / 3. * mesh.nodes[i][d];
+              }
+          solid.add_internal_forces(x.data(), v.data(), force.data());
+          const double density = density_scale * steel.density;
+          const double tension = linear * density * steel.pressure_wave_speed() * edge * trace -
+                                 (trace < 0. ? quadratic * density * edge * edge * trace * trace : 0.);
+          double worst = 0.;
+          for (unsigned int i = 0; i < x.size(); ++i)
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                // A quarter of each face's force, inwards for a tension.
+                const double expected =
+                  (mesh.nodes[i][d] > 0.5 * edge ? -0.25 : 0.25) * edge * edge * tension;
+                worst = std::max(worst, std::abs(force[i][d] / expected - 1.));
+              }
+          check.below("bulk viscosity, density times " + std::to_string(int(density_scale)) +
+                        (trace < 0. ? ", compressed: share" : ", expanded: share"),
+                      worst, 1e-12);
+        }
+  }
 } // namespace
 
 
@@ -86,4 +131,5 @@ void run_test(tests::Check &check, const tests::Arguments &)
   // At the Courant number of runs, where each step counts.
   const Decay fast = decay(.9, .1, 0., beta);
   check.below("Courant number 0.9: residual over the damping", fast.residual, 1e-5);
+  check_bulk_viscosity(check);
 }

@@ -262,6 +262,29 @@ namespace
       check.absolute("S1002 from .prw at " + std::to_string(y) + " mm, um", 1e6 * tread(1e-3 * y),
                      1e6 * s1002_offset(1e-3 * y), 2.);
 
+    // A head whose top lies 7 mm to the field side, mirrored and shifted in the file.
+    const auto worn = [](const double y_mm) {
+      return (y_mm - 7.) * (y_mm - 7.) / 600.;
+    };
+    std::string moved = "mirror.y = 1\nshift.y = 4.0\nshift.z = -2.5\npoint.begin\n";
+    for (int y = 30; y >= -30; --y)
+      moved += std::to_string(4 - y) + " " + std::to_string(worn(y) + 2.5) + "\n";
+    std::ofstream("geometry_surfaces.prr") << moved + "point.end\n";
+    const MeasuredLine head = read_rail_head("geometry_surfaces.prr", 25e-3);
+    std::remove("geometry_surfaces.prr");
+    for (const double y : {-13.3, 7., 21.2})
+      check.absolute("mirrored and shifted .prr at " + std::to_string(y) + " mm, um", 1e6 * head(1e-3 * y),
+                     -1e3 * worn(y), 0.5);
+
+    // A hollow tread without a flange: nothing says that it should be turned.
+    std::string hollow;
+    for (int y = -30; y <= 40; ++y)
+      hollow += std::to_string(y) + " " + std::to_string(1e-3 * y * y) + "\n";
+    std::ofstream("geometry_surfaces.txt") << hollow;
+    const MeasuredLine without_flange = read_wheel_tread("geometry_surfaces.txt", 25e-3);
+    std::remove("geometry_surfaces.txt");
+    check.absolute("hollow tread without a flange at 20 mm, um", 1e6 * without_flange(20e-3), 400., 0.5);
+
     // Invalid files: the error names the file and the line.
     const auto says = [&](const std::string &what, const std::string &said,
                           const std::vector<std::string> &words) {

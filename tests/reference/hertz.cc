@@ -37,6 +37,10 @@ namespace
     check.relative("G of steel on steel [GPa]", steel.shear * 1e-9, 80.769231, 1e-8);
     check.below("K of like bodies [-]", steel.coupling, 1e-15);
     // aluminium on steel: E* must be that of the two-body formula
+    // Over 1 - nu the coupling is Dundurs' second parameter: (1 - 2 nu)/(2 (1 - nu)) on a rigid body.
+    const ElasticPair on_rigid = combine(Elastic{210e9, 0.3}, Elastic{210e21, 0.3});
+    check.relative("on a rigid body: coupling over 1 - nu", on_rigid.coupling / (1. - on_rigid.poisson),
+                   0.2 / 0.7, 1e-9);
     const ElasticPair pair = combine(Elastic{70e9, 0.33}, Elastic{210e9, 0.3});
     check.relative("E* of unlike bodies [GPa]", pair.hertz_modulus() * 1e-9,
                    1e-9 / ((1. - 0.33 * 0.33) / 70e9 + (1. - 0.09) / 210e9), 1e-14);

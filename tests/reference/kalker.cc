@@ -115,6 +115,23 @@ namespace
     // midpoint sums of square-root ends: error about n^(-3/2)
     check.relative("Carter: integral of the shear is Q", sum, c.force_per_length, 1e-6);
     check.relative("Carter: frictional power is -Q xi v", power, -c.force_per_length * c.creepage, 1e-6);
+    // Where adhesion just ends, partial and full slip are the same; power is that of the rigid slip.
+    const double limit  = 0.3 * c.half_width / 0.5;
+    const Carter nearly = carter(0.5, modulus, force, 0.3, -(1. - 1e-9) * limit),
+                 just   = carter(0.5, modulus, force, 0.3, -limit),
+                 beyond = carter(0.5, modulus, force, 0.3, -3. * limit);
+    for (const double place : {-0.9, -0.4, 0., 0.5, 0.9})
+      check.absolute("Carter: slip where adhesion ends, over the creepage, at x/a = " + std::to_string(place),
+                     just.relative_slip(place * c.half_width) / limit,
+                     nearly.relative_slip(place * c.half_width) / limit, 1e-4);
+    double power_of_full_slip = 0.;
+    for (int i = 0; i < n; ++i)
+      {
+        const double x = c.half_width * (2. * (i + 0.5) / n - 1.);
+        power_of_full_slip -= beyond.shear(x) * beyond.relative_slip(x) * 2. * c.half_width / n;
+      }
+    check.relative("Carter: frictional power of full slip is -Q xi v", power_of_full_slip,
+                   -beyond.force_per_length * beyond.creepage, 1e-6);
     check.relative("Carter: full slip", carter(0.5, modulus, force, 0.3, 1e-2).traction_ratio, -1., 1e-12);
   }
 

@@ -40,6 +40,9 @@ with tempfile.TemporaryDirectory() as folder:
 half_space = {name: entry["half-space"]["value"] for name, entry in summary["reference"].items() if "half-space" in entry}
 check.relative("normal force, N", summary["normal_force_N"], scale * 127100., 0.003)
 check.below("maximum pressure, relative difference", m["max_pressure_relative_difference"], pressure)
+for axis in ("x", "y"):
+    name = f"pressure_semi_axis_{axis}_m"
+    check.relative(f"semi-axis along {axis} by moments of the pressure, mm", 1e3 * summary[name], 1e3 * summary["reference"][name]["Hertz"]["value"], 0.01)
 check.below("pressure, RMS over the maximum", m["pressure_rms_over_max"], pressure_rms)
 check.below("shear stress, RMS over the maximum", m["shear_rms_over_max"], shear_rms)
 # Nodes adhere or slip as a whole: one instant knows the share to a point; the mean over rolling one cell does better.

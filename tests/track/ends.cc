@@ -107,14 +107,14 @@ namespace
     double              time_step;
   };
 
-  /// With levels of time steps.
-  History run(const MPI_Comm comm)
+  /// @param levels of time steps above the smallest one
+  History run(const MPI_Comm comm, const unsigned int levels = 2)
   {
     tests::RailForTrack bar = tests::bar(5, 12);
     tests::refine_near(bar.body, dealii::Point<3>(-1.4, 0.02, -bar.height), 0.05, 0.016);
     TrackParameters track = points();
     track.points_across   = 2;
-    tests::TrackRail rail(comm, bar, 5, track, weightless(), {}, false, 2);
+    tests::TrackRail rail(comm, bar, 5, track, weightless(), {}, false, levels);
     absorb(rail, .9);
     const auto struck = rail.sections(.3);
     rail.dynamics->start();
@@ -146,6 +146,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
       return;
     }
   check.below("energy residual/gross work", together.ledger.residual_share(), 1e-3);
+  const History of_one_step = run(MPI_COMM_SELF, 0);
+  check.relative("time step of levels (us)", 1e6 * together.time_step, 1e6 * of_one_step.time_step, 1e-12);
+  check.relative("levels of time steps: damping (J)", together.ledger.damping, of_one_step.ledger.damping,
+                 1e-3);
+  check.below("levels of time steps: displacements",
+              tests::difference(together.displacements, of_one_step.displacements), 1e-3);
 
   // Bar waves have c_s/c_0 = 1/sqrt(2 (1 + nu)).
   const double kept = std::exp(-2. * AbsorbingEnds::strength / 3. / std::sqrt(2.6));
