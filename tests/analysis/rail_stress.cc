@@ -110,8 +110,8 @@ namespace
         place                 = std::max(place, std::abs(column.x / x - 1.));
         double     at_surface = 0., most = 0., depth = 0., time = 0., y_most = 0., y_at_surface = 0.;
         const auto look = [&](const double centre, const double z, const double edge) {
-          // Largest at the side to which the field rises.
-          const double y         = half_width - 0.5 * edge;
+          // Largest at the side to which the field rises: the farthest centres within 6 mm.
+          const double y         = edge == fine ? 1.5 * fine : 0.5 * coarse;
           const double values[2] = {first.von_mises(centre, y, z, edge),
                                     second.von_mises(centre, y, z, edge)};
           for (unsigned int k = 0; k < 2; ++k)

@@ -243,7 +243,7 @@ with tempfile.TemporaryDirectory() as folder:
     # What another parameter leaves without effect is named; what is set to what it is anyhow is not.
     unused = {"Defect/Depth (mm)=3": "Defect/Shape", "Track/Pad stiffness (MN per m)=100": "Track/Foundation", "Wheel/Bore radius (mm)=90": "Wheel/Shape",
               "Rail/Tangent modulus (GPa)=10": "Rail/Yield stress (MPa)", "Contact/Friction memory (mm)=1": "Contact/Friction law",
-              "Wheelset/Yaw (mrad)=2": "Wheelset/Lateral shift (mm)", "Rail/Absorbing length (m)=1": "Track/Foundation"}
+              "Wheelset/Track gauge (mm)=1400": "Wheelset/Lateral shift (mm)", "Rail/Absorbing length (m)=1": "Track/Foundation"}
     settings = [text for setting in [*unused, "Guidance/File=", "Motion/Hold distance (mm)=15.0"] for text in ("-s", setting)]
     said = [line for line in execute([scene, "--dry-run"] + coarse + settings, program=program).stdout.splitlines() if "WARNING" in line]
     for setting, needed in unused.items():
