@@ -204,7 +204,8 @@ namespace tread::reference
     if (rolling_case.prescribe_force)
       result.longitudinal_force.uncertainty = 0.;
     set(result.area, f.area, g.area);
-    set(result.adhesion_share, f.adhesion_share, g.adhesion_share, true);
+    // Read between elements it may exceed the whole patch.
+    set(result.adhesion_share, std::min(f.adhesion_share, 1.), std::min(g.adhesion_share, 1.), true);
     set(result.max_shear, f.max_shear, g.max_shear, true);
     set(result.max_slip, f.max_slip, g.max_slip, true);
     set(result.frictional_power, fine.power_balance, coarse.power_balance);
