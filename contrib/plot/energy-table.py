@@ -88,7 +88,7 @@ def main():
     measured = {row[0] for row in rows}
     rows += [row for row in rows_of("verification.md", "energy") if row[0] not in measured]
     table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES] + ["commit"], sorted(rows))
-    table += (f"\n\nBold: a run warns of it. {machine()}; `contrib/plot/energy-table.py --run"
+    table += (f"\n\nBold: above the threshold of a warning, which a run gives where the energy counts beside what the cells store. {machine()}; `contrib/plot/energy-table.py --run"
               + (f" --rolled {arguments.rolled:g}" if arguments.rolled else "") + "`, each row with the commit it was made with.")
     if arguments.only_print:
         print(table)

@@ -57,7 +57,8 @@ namespace tread
     const EnergyLedger      &e = energy;
     const auto warn = [&](const double share, const double large, const char *what, const char *advice) {
       if (std::abs(share) > large)
-        list.push_back(format("%s (%.2g %%, above %g %%): %s", what, 100. * share, 100. * large, advice));
+        list.push_back(format("%s (%.*f %%, above %g %%): %s", what, std::abs(share) < 0.1 ? 1 : 0,
+                              100. * share, 100. * large, advice));
     };
     const double internal  = e.stored_strain + e.stored_hourglass;
     const auto   if_counts = [&](const double work, const double share, const double least) {

@@ -374,6 +374,10 @@ namespace tread
       list.push_back("mass damping of " + text_of(mass_damping) +
                      " per s: motion of the cells on top of the rigid bodies' fades by half in " +
                      text_of(std::round(1e5 * 2. * std::log(2.) / mass_damping) / 100.) + " ms");
+    if (guidance.kind != Guidance::rigid && (scale > 1. || mass_damping > 0.))
+      list.push_back(
+        "a wheelset that moves across its track has the inertia of the scaled, or damped, cells: "
+        "for motion that is slow beside its vibration on the contact only");
     if (motion.drive == Drive::torque && (scale > 1. || mass_damping > 0.))
       list.push_back(
         "the way from the torque's onset to steady rolling is that of the scaled or damped cells, "
@@ -399,6 +403,12 @@ namespace tread
         format("the sector is %.1f mean semi-axes of the patch thick: below %g its rigid back raises the "
                "pressure",
                wheel.sector_thickness / axes, thick));
+    constexpr double soft_hourglass = 0.5, stiff_hourglass = 2.; // doc/verification.md, section 2.4
+    if (element_named(solid.element).has_hourglass_modes &&
+        (solid.hourglass_coefficient < soft_hourglass || solid.hourglass_coefficient > stiff_hourglass))
+      list.push_back(format("'Solid/Hourglass coefficient' %g, of which %g to %g is examined: pressure, "
+                            "creepage and slip are off by some per cent",
+                            solid.hourglass_coefficient, soft_hourglass, stiff_hourglass));
     if (solid.stiffness_damping == 0.)
       list.push_back("no stiffness damping: micro-slip may chatter at the frequency of the cells");
     return list;

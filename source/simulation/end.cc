@@ -395,6 +395,16 @@ namespace tread
                      "longer 'Motion/Rolled distance (mm)' lets the wheel gather its creepage",
                      aim, found));
         }
+    // Settling of steel that yields leaves up to 2 %.
+    constexpr double far_from_load = 0.03; // of it
+    if (const double normal_force = last_force_on(wheels.front())[2];
+        !scene.has_impacts() && normal_force > 0.)
+      if (const double load = (scene.is_positioned() ? scene.wheelset.n_wheels() : 1) * scene.static_load();
+          std::abs(normal_force - load) > far_from_load * load)
+        warnings.push_back(
+          format("the contact carries %.2f kN of a load of %.2f kN: the wheel is not in equilibrium; a lower "
+                 "'Start/Tolerance', a longer way, or steel that hardens more",
+                 1e-3 * normal_force, 1e-3 * load));
     const bool varies =
       scene.contact.friction_varies(scene.path_end() - 2. * last_way, scene.path_end() + last_way);
     if (const double share = ripple.share(); share > large_ripple && !scene.has_impacts() && !varies)

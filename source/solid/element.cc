@@ -15,6 +15,7 @@ namespace tread
               E::description,
               E::can_yield,
               E::has_bulk_viscosity,
+              E::has_hourglass_modes,
               E::largest_poisson_ratio,
               [](const SolidParameters &parameters) -> std::shared_ptr<const Element> {
                 return std::make_shared<E>(parameters);

@@ -215,6 +215,7 @@ namespace tread
     for (const auto &[name, value] :
          {std::pair<const char *, const reference::Estimate &>{"creepage", estimate.creepage},
           {"traction_coefficient", estimate.traction_coefficient},
+          {"lateral_force_N", estimate.lateral_force},
           {"max_pressure_Pa", estimate.max_pressure},
           {"adhesion_share", estimate.adhesion_share},
           {"max_shear_Pa", estimate.max_shear},

@@ -89,6 +89,7 @@ namespace tread
     std::string name, description;
     /// Cells that yield are one-point cells; bulk viscosity is a pressure of cells with one strain.
     bool can_yield, has_bulk_viscosity;
+    bool has_hourglass_modes; ///< which a coefficient stiffens
     /// Up to which it does not lock: beyond it cells are too stiff to keep their volume and bend.
     double largest_poisson_ratio;
     std::shared_ptr<const Element> (*make)(const SolidParameters &parameters);

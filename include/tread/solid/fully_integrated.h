@@ -12,7 +12,7 @@ namespace tread
   public:
     static constexpr const char *name        = "fully-integrated";
     static constexpr const char *description = "the cross-check";
-    static constexpr bool        can_yield = false, has_bulk_viscosity = false;
+    static constexpr bool        can_yield = false, has_bulk_viscosity = false, has_hourglass_modes = false;
     static constexpr double      largest_poisson_ratio = 0.45; ///< at 0.49 pressure is a third too high
 
     explicit FullyIntegrated(const SolidParameters &parameters)

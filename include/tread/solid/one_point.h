@@ -13,7 +13,7 @@ namespace tread
   public:
     static constexpr const char *name        = "one-point";
     static constexpr const char *description = "uniform strain with hourglass stiffness, fast";
-    static constexpr bool        can_yield = true, has_bulk_viscosity = true;
+    static constexpr bool        can_yield = true, has_bulk_viscosity = true, has_hourglass_modes = true;
     static constexpr double      largest_poisson_ratio = 0.5;
 
     explicit OnePoint(const SolidParameters &parameters)

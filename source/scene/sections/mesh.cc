@@ -11,7 +11,7 @@ namespace tread
 
     section.add("Finest cell (mm)", finest_cell,
                 "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
-                "pressure's error shrinks like its square.",
+                "pressure's error shrinks in proportion to it, or a little faster.",
                 Double(0.02, 20.));
     section.add(
       "Fine half width (mm)", fine_half_width,

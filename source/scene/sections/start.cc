@@ -26,7 +26,7 @@ namespace tread
       "Tractions", tractions, "",
       "On a track the start takes some times as many iterations, and lateral tractions build up.");
     section.add("Tolerance", tolerance, "Of the force balance at the start, share of the largest force.",
-                Double(1e-12, 0.1));
+                Double(1e-12, 0.01));
     section.add("Largest number of iterations", max_iterations, "Of the dynamic relaxation.",
                 Integer(1, 100000000));
   }
