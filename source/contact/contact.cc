@@ -98,7 +98,7 @@ namespace tread
   void Contact::gather_strips(Values &values) const
   {
     // The strips follow each other as the ranks do.
-    if (!values.empty())
+    if (!values.empty() && !parameters.reproducible)
       values = gathered(Values(values.begin() + strips.begin, values.begin() + strips.end), comm);
   }
 
@@ -294,8 +294,11 @@ namespace tread
     imposed.assign(problem.constraints.size(), Vector3{});
     slips.assign(problem.constraints.size(), false);
     const unsigned int n_ranks = involved_of_rank.size();
-    strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
-                                                  : Strips(problem, impulse, involved.size(), comm);
+    if (parameters.reproducible)
+      strips = Strips(problem);
+    else
+      strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
+                                                    : Strips(problem, impulse, involved.size(), comm);
 
     // Nodes that the sweeps of this rank's strip move, and others whose positions it needs.
     std::vector<char> swept(involved.size(), false), needed(involved.size(), false);
@@ -385,12 +388,16 @@ namespace tread
                  corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
                  travelled, allowed_travel, unconverged_steps, pair_friction.coefficient,
                  pair_friction.factor);
-    archive.shares(work.friction, work.normal, work.adhesion, work.on_nodes, work.imposed);
+    archive.shares(work.friction, work.normal, work.adhesion, work.imposed);
+    work.on_nodes.serialize(archive);
     std::vector<unsigned int> begin_of_strip = strips.begins();
     archive.same(begin_of_strip);
     if (archive.restores())
       make_room(begin_of_strip);
-    archive.own(slips); // on other ranks they are found by the next step
+    if (parameters.reproducible)
+      archive.same(slips);
+    else
+      archive.own(slips); // on other ranks they are found by the next step
   }
 
 
@@ -553,8 +560,8 @@ namespace tread
           {
             // The work is that of the force actually applied to the node, not of the impulse intended.
             const Vector3 given = time_step * (force[of_node.local] - before);
-            work.on_nodes -= 0.5 * dot(given, velocity_before[of_node.node] + predicted[of_node.node] +
-                                                of_node.inverse_mass * given);
+            work.on_nodes.add(-0.5 * dot(given, velocity_before[of_node.node] + predicted[of_node.node] +
+                                                  of_node.inverse_mass * given));
           }
       }
     add_work_of_pairs();
@@ -588,8 +595,16 @@ namespace tread
   }
 
 
+  bool Contact::counts_pairs() const
+  {
+    return !parameters.reproducible || dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+  }
+
+
   void Contact::add_work_of_pairs()
   {
+    if (!counts_pairs())
+      return;
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];

@@ -98,7 +98,7 @@ namespace tread
         state.adhesion    = !slips[j];
         states.push_back(state);
       }
-    return gathered(states, comm);
+    return parameters.reproducible ? states : gathered(states, comm);
   }
 
 

@@ -289,41 +289,90 @@ namespace tread
         return sums[number[node]];
       }
 
-      /// Add up what the ranks have, in their order. Collective.
-      void add_ranks(const MPI_Comm comm)
+      /// Add to that of the same node.
+      void add(const NodeSum &part)
       {
-        std::vector<double> own;
-        for (const NodeSum &sum : sums)
-          {
-            own.insert(own.end(), {double(sum.node), sum.normal[0], sum.normal[1], sum.normal[2], sum.area,
-                                   sum.covered, sum.whole, double(sum.entries.size())});
-            for (const MortarEntry &entry : sum.entries)
-              own.insert(own.end(), {double(entry.node), entry.coefficient});
-          }
-        sums.clear();
-        std::fill(number.begin(), number.end(), -1);
-        const std::vector<double> all = gathered(own, comm);
-        for (const double *value = all.data(); value < all.data() + all.size();)
-          {
-            NodeSum &sum = of(value[0]);
-            sum.normal += Vector3{value[1], value[2], value[3], 0.};
-            sum.area += value[4];
-            sum.covered += value[5];
-            sum.whole += value[6];
-            const unsigned int n_entries = value[7];
-            value += 8;
-            const bool is_first = sum.entries.empty();
-            for (unsigned int i = 0; i < n_entries; ++i, value += 2)
-              if (const unsigned int node = value[0]; is_first)
-                sum.entries.push_back({node, value[1]});
-              else
-                sum.add(node, value[1]);
-          }
+        NodeSum &sum = of(part.node);
+        sum.normal += part.normal;
+        sum.add(part, 1.);
       }
 
     private:
       std::vector<NodeSum> sums;
       std::vector<int>     number; ///< in sums, -1: none
+    };
+
+
+    /// What single slave faces contribute to the sums of their nodes. It is added in the order of the faces,
+    /// whichever ranks integrate them, so that sums are the same on any number of ranks.
+    class FaceSums
+    {
+    public:
+      /// Those of the next face of this rank, whose number must be larger than those before, for its nodes.
+      std::array<NodeSum, 4> &begin_face(const unsigned int face, const std::array<unsigned int, 4> &nodes)
+      {
+        faces.push_back({face, {}});
+        for (unsigned int k = 0; k < 4; ++k)
+          faces.back().of_node[k].node = nodes[k];
+        return faces.back().of_node;
+      }
+
+      /// Add what all ranks have. Collective.
+      void add_to(NodeSums &sums, const MPI_Comm comm) const
+      {
+        if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
+          {
+            for (const OfFace &face : faces)
+              for (const NodeSum &part : face.of_node)
+                sums.add(part);
+            return;
+          }
+        std::vector<double> own;
+        for (const OfFace &face : faces)
+          {
+            own.push_back(face.number);
+            for (const NodeSum &part : face.of_node)
+              {
+                own.insert(own.end(), {double(part.node), part.normal[0], part.normal[1], part.normal[2],
+                                       part.area, part.covered, part.whole, double(part.entries.size())});
+                for (const MortarEntry &entry : part.entries)
+                  own.insert(own.end(), {double(entry.node), entry.coefficient});
+              }
+          }
+        const std::vector<double>                            all = gathered(own, comm);
+        std::vector<std::pair<unsigned int, const double *>> begins;
+        for (const double *value = all.data(); value < all.data() + all.size();)
+          {
+            begins.emplace_back(value[0], value + 1);
+            ++value;
+            for (unsigned int k = 0; k < 4; ++k)
+              value += 8 + 2 * static_cast<std::size_t>(value[7]);
+          }
+        std::sort(begins.begin(), begins.end());
+        NodeSum part;
+        for (auto [face, value] : begins)
+          for (unsigned int k = 0; k < 4; ++k)
+            {
+              part.node    = value[0];
+              part.normal  = Vector3{value[1], value[2], value[3], 0.};
+              part.area    = value[4];
+              part.covered = value[5];
+              part.whole   = value[6];
+              part.entries.clear();
+              for (unsigned int i = 0; i < value[7]; ++i)
+                part.entries.push_back({static_cast<unsigned int>(value[8 + 2 * i]), value[9 + 2 * i]});
+              sums.add(part);
+              value += 8 + 2 * part.entries.size();
+            }
+      }
+
+    private:
+      struct OfFace
+      {
+        unsigned int           number;
+        std::array<NodeSum, 4> of_node;
+      };
+      std::vector<OfFace> faces;
     };
 
 
@@ -369,7 +418,7 @@ namespace tread
                    const std::vector<Piece>          &pieces,
                    const Matrix4                     &weighting,
                    const std::array<unsigned int, 4> &n,
-                   NodeSum *const (&sum_of)[4])
+                   std::array<NodeSum, 4>            &sum_of)
     {
       // Integrals of N_j, N_j N_k and N_j N_l^master; the weights follow by their coefficients.
       AtPoints slave_slave_at[4][4] = {}, covered_at[4] = {};
@@ -408,7 +457,7 @@ namespace tread
                 double M = 0.;
                 for (unsigned int l = 0; l < 4; ++l)
                   M += weighting[j][l] * slave_master[l][k];
-                sum_of[j]->add(piece.master->nodes[3 - k], M);
+                sum_of[j].add(piece.master->nodes[3 - k], M);
               }
         }
       double slave_slave[4][4], covered[4];
@@ -420,14 +469,14 @@ namespace tread
         }
       for (unsigned int j = 0; j < 4; ++j)
         {
-          sum_of[j]->covered += covered[j];
+          sum_of[j].covered += covered[j];
           for (unsigned int k = 0; k < 4; ++k)
             {
               double D = 0.;
               for (unsigned int l = 0; l < 4; ++l)
                 D += weighting[j][l] * slave_slave[l][k];
-              sum_of[j]->area += weighting[j][k] * covered[k];
-              sum_of[j]->add(n[k], -D);
+              sum_of[j].area += weighting[j][k] * covered[k];
+              sum_of[j].add(n[k], -D);
             }
         }
     }
@@ -443,7 +492,7 @@ namespace tread
         for (const unsigned int parent : h.parents)
           integrated[h.node] |= found.near_node[parent];
 
-      NodeSums           sums(surfaces.nodes.size());
+      FaceSums           of_faces;
       std::vector<Piece> pieces;
       for (const SlaveFace &slave : found.slave_faces)
         {
@@ -457,11 +506,11 @@ namespace tread
           Matrix4               weighting;
           std::array<double, 4> integral;
           corners.dual_functions(weighting, integral);
+          std::array<NodeSum, 4> &sum_of = of_faces.begin_face(slave.face - surfaces.faces.data(), n);
           for (unsigned int k = 0; k < 4; ++k)
             {
-              NodeSum &sum = sums.of(n[k]);
-              sum.normal += slave.area_vector;
-              sum.whole += integral[k];
+              sum_of[k].normal = slave.area_vector;
+              sum_of[k].whole  = integral[k];
             }
           // Dual functions are negative in places. Over a whole face that cancels for linear gaps; over a
           // part of it a gap that is open everywhere could come out negative: there the shape functions are
@@ -471,11 +520,10 @@ namespace tread
             for (unsigned int j = 0; j < 4; ++j)
               for (unsigned int k = 0; k < 4; ++k)
                 weighting[j][k] = j == k ? 1. : 0.;
-          NodeSum *const sum_of[4] = {&sums.of(n[0]), &sums.of(n[1]), &sums.of(n[2]), &sums.of(n[3])};
           integrate(corners, pieces, weighting, n, sum_of);
         }
-      if (dealii::Utilities::MPI::n_mpi_processes(surfaces.comm) > 1)
-        sums.add_ranks(surfaces.comm);
+      NodeSums sums(surfaces.nodes.size());
+      of_faces.add_to(sums, surfaces.comm);
       return sums;
     }
 

@@ -36,13 +36,20 @@ namespace tread
         solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
       }
     const NodalField &elastic = solid.needs_velocity() ? without : forces;
-    double            power   = 0.;
     for (unsigned int i = 0; i < v.size(); ++i)
-      {
-        damping[i] -= elastic[i];
-        power -= dot(v[i], damping[i]);
-      }
-    return power;
+      damping[i] -= elastic[i];
+    mesh.condense_hanging_nodes(damping.data()); // whose velocities may wait for other levels
+    mesh.shared_nodes.sum(damping.data());
+    return -power_of(damping);
+  }
+
+
+  double ExplicitDynamics::power_of(const NodalField &forces) const
+  {
+    return reproducible_sum(
+      v.size(),
+      [&](const std::size_t i) { return mesh.shared_nodes.is_owned(i) ? dot(v[i], forces[i]) : 0.; },
+      mesh.comm);
   }
 
 
@@ -59,7 +66,6 @@ namespace tread
   {
     DampingSample sample;
     sample.power = damping_forces(cell_forces(), sample.force);
-    mesh.condense_hanging_nodes(sample.force.data()); // whose velocities may wait for other levels
     return sample;
   }
 
@@ -68,12 +74,10 @@ namespace tread
   {
     // In central differences a force works in a step with the mean of the velocities before and after it. The
     // step has already been counted.
-    double after = 0.;
-    for (unsigned int i = 0; i < v.size(); ++i)
-      after -= dot(v[i], sample.force[i]);
-    const double power = 0.5 * (sample.power + after);
+    const double power = 0.5 * (sample.power - power_of(sample.force));
     --n_steps;
-    totals.damping += damping_since_sample(power);
+    if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+      totals.damping.add(damping_since_sample(power));
     last_damping_step  = n_steps++;
     last_damping_power = power;
     damping_is_sampled = true;
@@ -87,14 +91,16 @@ namespace tread
     mesh.condense_hanging_nodes(forces.data());
     if (supports)
       supports->add_spring_forces(forces.data());
-    double energy = 0.;
+    mesh.shared_nodes.sum(forces.data());
+    ReproducibleSum<double> of_nodes;
     for (unsigned int i = 0; i < v.size(); ++i)
-      {
-        energy += 0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]);
-        if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
-          energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
-      }
-    energy = dealii::Utilities::MPI::sum(energy, mesh.comm);
+      if (mesh.shared_nodes.is_owned(i))
+        {
+          of_nodes.add(0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]));
+          if (inverse_mass[i] > 0.)
+            of_nodes.add(0.5 / inverse_mass[i] * dot(v[i], v[i]));
+        }
+    double energy = of_nodes.value(mesh.comm);
     if (supports)
       energy += supports->sleeper_kinetic_energy(time_step);
     for (const Wheel &wheel : wheels)
@@ -105,33 +111,31 @@ namespace tread
 
   StrainEnergy ExplicitDynamics::strain_energy() const
   {
-    StrainEnergy energy = solid.strain_energy(positions().data(), history);
-    energy.strain       = dealii::Utilities::MPI::sum(energy.strain, mesh.comm);
-    energy.hourglass    = dealii::Utilities::MPI::sum(energy.hourglass, mesh.comm);
-    return energy;
+    const StrainEnergySums sums = solid.strain_energy_sums(positions().data(), history);
+    return {sums.strain.value(mesh.comm), sums.hourglass.value(mesh.comm)};
   }
 
 
   double ExplicitDynamics::body_potential() const
   {
     // Evaluated at the instant of the velocities, half a step back, up to which work is counted.
-    double potential = 0.;
+    ReproducibleSum<double> of_nodes;
     for (unsigned int i = 0; i < v.size(); ++i)
       if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
           const double  back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
           const Vector3 before = position(i) - back * v[i];
-          potential += true_mass[i] * parameters.gravity * before[2];
+          of_nodes.add(true_mass[i] * parameters.gravity * before[2]);
           if (const int number = wheel_of(i); number >= 0)
             {
               const Wheel    &wheel = wheels[number];
               const WheelHub &hub   = *wheel.hub;
               const Vector3   arm   = hub.off_axle(before - hub.middle() + back * hub.velocity());
-              potential +=
-                0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * dot(arm, arm);
+              of_nodes.add(0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] *
+                           dot(arm, arm));
             }
         }
-    potential = dealii::Utilities::MPI::sum(potential, mesh.comm);
+    const double potential = of_nodes.value(mesh.comm);
     return supports ? potential + supports->weight_potential(time_step) : potential;
   }
 
@@ -150,17 +154,16 @@ namespace tread
 
   EnergyLedger ExplicitDynamics::ledger() const
   {
-    using dealii::Utilities::MPI::sum;
     const NodalField forces = cell_forces();
     NodalField       unused;
-    EnergyLedger     now = totals;
-    now.damping  = sum(totals.damping + damping_since_sample(damping_forces(forces, unused)), mesh.comm);
-    now.plastic  = sum(totals.plastic, mesh.comm);
-    now.friction = sum(totals.friction, mesh.comm);
-    now.contact  = sum(totals.contact, mesh.comm);
-    now.contact_on_nodes = sum(totals.contact_on_nodes, mesh.comm);
-    now.external_work    = sum(totals.external_work, mesh.comm);
-    now.gross_work       = sum(totals.gross_work, mesh.comm);
+    EnergyLedger     now;
+    now.damping  = totals.damping.value(mesh.comm) + damping_since_sample(damping_forces(forces, unused));
+    now.plastic  = totals.plastic.value(mesh.comm);
+    now.friction = totals.friction.value(mesh.comm);
+    now.contact  = totals.contact.value(mesh.comm);
+    now.contact_on_nodes = totals.contact_on_nodes.value(mesh.comm);
+    now.external_work    = totals.external_work.value(mesh.comm);
+    now.gross_work       = totals.gross_work.value(mesh.comm);
     const double fall    = start_potential - body_potential();
     now.external_work += fall;
     now.gross_work += std::abs(fall);

@@ -17,7 +17,13 @@ namespace tread
     /// against the bending of a rail between two sleepers, and long enough that the difference of two
     /// deflections has more than ten digits.
     constexpr double half_way = 1e-3;
-  } // namespace
+
+    // Quanta of reproducible sums, each with room for sums of 2^53 quanta.
+    constexpr double on_hubs   = 0x1p-28; ///< N and N m, up to 3e7: 200 times the load of a wheel
+    constexpr double moments   = 0x1p-36; ///< kg m and kg m^2, up to 1e5: a hundred wheels
+    constexpr double loss      = 0x1p-50; ///< J in a step, up to 8; a run dissipates some J in 1e5 steps
+    constexpr double stiffness = 0x1p-12; ///< N/m, up to 2e12: a cell of steel of 10 m
+  }                                       // namespace
 
 
   ExplicitDynamics::ExplicitDynamics(const Mesh               &mesh,
@@ -36,17 +42,25 @@ namespace tread
     , carried(mesh.nodes.size(), false)
     , wheel_of_body(mesh.body_names.size(), -1)
   {
+    if (solid.reproducible())
+      quanta = {solid.force_quantum(), Quantum(on_hubs), Quantum(moments), Quantum(loss), Quantum(stiffness)};
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       x_damped[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     NodalField mass(mesh.nodes.size(), Vector3{});
     const auto cell_masses = solid.cell_masses(mesh);
+    // In two parts, each of which sums exactly: cells of all sizes weigh up to 1e7 kg and have digits to
+    // 1e-21 kg.
+    const Quantum large(0x1p-24), small(0x1p-68);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       for (unsigned int a = 0; a < 8; ++a)
-        mass[mesh.cells[c].nodes[a]][0] += cell_masses[c][a];
+        {
+          const double part = large.round(cell_masses[c][a]);
+          mass[mesh.cells[c].nodes[a]] += Vector3{part, small.round(cell_masses[c][a] - part), 0., 0.};
+        }
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());
     for (unsigned int i = 0; i < mass.size(); ++i)
-      true_mass[i] = mass[i][0];
+      true_mass[i] = mass[i][0] + mass[i][1];
     // A hanging node is condensed on each rank that holds cells at it, so its sum is zero everywhere.
     set_node_levels();
   }
@@ -90,18 +104,20 @@ namespace tread
     rank_sums.resize(n_sums_of_hubs() + (supports ? supports->n_points() : 0));
     set_node_levels(); // the hub moves in every step
 
-    std::vector<double> sums(5, 0.);
+    std::array<ReproducibleSum<double>, 5> sums;
     for (unsigned int i = 0; i < v.size(); ++i)
       if (wheel_of(i) == number && !carried[i] && mesh.shared_nodes.is_owned(i))
         {
           const Vector3 arm = position(i) - wheel_hub.middle(), off_axle = wheel_hub.off_axle(arm);
-          sums[0] += true_mass[i];
-          sums[1] += true_mass[i] * dot(off_axle, off_axle);
+          sums[0].add(true_mass[i]);
+          sums[1].add(true_mass[i] * dot(off_axle, off_axle));
           for (unsigned int d = 0; d < 3; ++d)
-            sums[2 + d] += true_mass[i] * arm[d];
+            sums[2 + d].add(true_mass[i] * arm[d]);
         }
-    dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    wheel_hub.take_out(sums[0], sums[1], Vector3{sums[2], sums[3], sums[4], 0.});
+    std::array<double, 5> of_all;
+    for (unsigned int k = 0; k < sums.size(); ++k)
+      of_all[k] = sums[k].value(mesh.comm);
+    wheel_hub.take_out(of_all[0], of_all[1], Vector3{of_all[2], of_all[3], of_all[4], 0.});
   }
 
 
@@ -115,6 +131,7 @@ namespace tread
   {
     supports = &s;
     s.set_gravity(parameters.gravity);
+    s.set_quanta(quanta.force, quanta.stiffness);
     rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
     rank_sums.resize(n_sums_of_hubs() + s.n_points());
     set_node_levels();
@@ -225,7 +242,7 @@ namespace tread
       wheel.nominal_angular_velocity = wheel.hub->motion.angular_velocity;
     set_inertia();
     prepare_step();
-    totals             = EnergyLedger();
+    totals             = Totals();
     start_kinetic      = kinetic_energy(cell_forces());
     start_potential    = body_potential();
     start_strain       = strain_energy();

@@ -12,6 +12,7 @@ namespace tread
                          const Solid                     &solid,
                          const std::vector<unsigned int> &smallest_steps,
                          const std::vector<int>          &wheel_of_body)
+    : reproducible(solid.reproducible())
   {
     set_levels(mesh, solid, smallest_steps);
     Hangs hangs(mesh.nodes.size(), nullptr);
@@ -91,25 +92,32 @@ namespace tread
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
         // Forces on hanging nodes are their parents'.
-        std::vector<char> is_shared(of_node.size(), false);
+        NodalField marks(of_node.size(), Vector3{});
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
           if (solid.cell_levels()[c] == level)
             for (const unsigned int i : mesh.cells[c].nodes)
               {
                 if (!hangs[i])
-                  is_shared[i] = true;
+                  marks[i][0] = 1.;
                 else
                   for (const unsigned int parent : hangs[i]->parents)
-                    is_shared[parent] = true;
+                    marks[parent][0] = 1.;
               }
+        if (reproducible) // the rank that has a whole share need not have any of the cells
+          mesh.shared_nodes.sum(marks.data());
         SlowShares &shares = slow_shares[level];
         for (unsigned int own = 0; own < level; ++own)
           {
             for (unsigned int i = 0; i < of_node.size(); ++i)
-              if (is_shared[i] && of_node[i] == own)
+              if (marks[i][0] > 0. && of_node[i] == own)
                 shares.nodes.push_back(i);
             shares.end_of_level.push_back(shares.nodes.size());
           }
+        if (reproducible)
+          for (std::size_t k = 0; k < shares.nodes.size(); ++k)
+            if (std::binary_search(mesh.shared_nodes.nodes().begin(), mesh.shared_nodes.nodes().end(),
+                                   shares.nodes[k]))
+              shares.with_copies.push_back(k);
         shares.steady.assign(shares.nodes.size(), Vector3{});
       }
   }
@@ -132,11 +140,52 @@ namespace tread
   }
 
 
-  void NodeLevels::serialize(Archive &archive)
+  void NodeLevels::serialize(Archive &archive, const Mesh &mesh)
   {
     archive.same(slow_shares_known);
+    if (reproducible)
+      {
+        serialize_by_key(archive, mesh);
+        return;
+      }
     for (SlowShares &shares : slow_shares)
       slow_shares_known = archive.own(shares.steady) && slow_shares_known;
+  }
+
+
+  void NodeLevels::serialize_by_key(Archive &archive, const Mesh &mesh)
+  {
+    struct Share
+    {
+      unsigned int level;
+      Archive::Key key;
+      double       steady[3]; ///< N
+    };
+    const auto by_name = [](const Share &a, const Share &b) {
+      return std::tie(a.level, a.key) < std::tie(b.level, b.key);
+    };
+    std::vector<Share> list;
+    for (unsigned int level = 1; level <= max_level() && !archive.restores(); ++level)
+      for (std::size_t k = 0; k < slow_shares[level].nodes.size(); ++k)
+        if (const unsigned int i = slow_shares[level].nodes[k]; mesh.shared_nodes.is_owned(i))
+          {
+            const Vector3 steady = slow_shares[level].steady[k];
+            list.push_back({level, mesh.node_key(i), {steady[0], steady[1], steady[2]}});
+          }
+    list = archive.records(list);
+    std::sort(list.begin(), list.end(), by_name);
+    for (unsigned int level = 1; level <= max_level() && archive.restores(); ++level)
+      for (std::size_t k = 0; k < slow_shares[level].nodes.size(); ++k)
+        if (const unsigned int i = slow_shares[level].nodes[k]; mesh.shared_nodes.is_owned(i))
+          {
+            const Share wanted{level, mesh.node_key(i), {}};
+            const auto  found = std::lower_bound(list.begin(), list.end(), wanted, by_name);
+            if (found == list.end() || by_name(wanted, *found))
+              archive.miss();
+            else
+              slow_shares[level].steady[k] =
+                Vector3{found->steady[0], found->steady[1], found->steady[2], 0.};
+          }
   }
 
 

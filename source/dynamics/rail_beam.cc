@@ -26,13 +26,13 @@ namespace tread
     : mesh(mesh)
     , supports(supports)
     , support_of_body(mesh.body_names.size(), -1)
+    , quantum(solid.force_quantum())
   {
-    using dealii::Utilities::MPI::sum;
     for (unsigned int s = 0; s < supports.solid_sleepers.size(); ++s)
       support_of_body[supports.solid_sleepers[s].body] = s;
 
-    double volume = 0., first = 0., second = 0., low = std::numeric_limits<double>::max(),
-           high            = std::numeric_limits<double>::lowest();
+    ReproducibleSum<double> volumes, firsts, seconds;
+    double     low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     const auto cell_masses = solid.cell_masses(mesh);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (mesh.cells[c].body == supports.rail_body)
@@ -50,16 +50,16 @@ namespace tread
               high   = std::max(high, p[0]);
             }
           const double cell = mass / rail.density;
-          volume += cell;
-          first += cell * z;
-          second += cell * (z * z + (top - bottom) * (top - bottom) / 12.);
+          volumes.add(cell);
+          firsts.add(cell * z);
+          seconds.add(cell * (z * z + (top - bottom) * (top - bottom) / 12.));
         }
-    volume                         = sum(volume, mesh.comm);
-    begin                          = dealii::Utilities::MPI::min(low, mesh.comm);
-    end                            = dealii::Utilities::MPI::max(high, mesh.comm);
-    centroid_z                     = sum(first, mesh.comm) / volume;
-    const double area              = volume / (end - begin),
-                 moment_of_inertia = sum(second, mesh.comm) / (end - begin) - area * centroid_z * centroid_z;
+    const double volume = volumes.value(mesh.comm);
+    begin               = dealii::Utilities::MPI::min(low, mesh.comm);
+    end                 = dealii::Utilities::MPI::max(high, mesh.comm);
+    centroid_z          = firsts.value(mesh.comm) / volume;
+    const double area = volume / (end - begin), moment_of_inertia = seconds.value(mesh.comm) / (end - begin) -
+                                                                    area * centroid_z * centroid_z;
     rail_section.bending_stiffness = rail.young_modulus * moment_of_inertia;
     rail_section.shear_stiffness =
       shear_coefficient * rail.young_modulus / (2. * (1. + rail.poisson_ratio)) * area;
@@ -116,12 +116,12 @@ namespace tread
             for (unsigned int side = 0; side < 2; ++side)
               {
                 const double share = side == 0 ? 1. - (s - place) : s - place;
-                sums[2 * (place + side)] += share * force[i][2];
-                sums[2 * (place + side) + 1] += share * moment;
+                sums[2 * (place + side)] += quantum.round(share * force[i][2]);
+                sums[2 * (place + side) + 1] += quantum.round(share * moment);
               }
           }
         else if (support_of_body[body] >= 0)
-          sums[2 * n + support_of_body[body]] += force[i][2];
+          sums[2 * n + support_of_body[body]] += quantum.round(force[i][2]);
       }
     dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
     for (unsigned int k = 0; k < n; ++k)

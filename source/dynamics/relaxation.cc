@@ -12,8 +12,6 @@
 
 namespace tread
 {
-  using dealii::Utilities::MPI::sum;
-
   namespace
   {
     /// Largest frequency times step that the masses of the iteration give any cell: below 2, where central
@@ -104,6 +102,24 @@ namespace tread
     void check_that_nodes_stay() const;
     void set_masses();
     void set_loads();
+    /// Sum of term(i) over the nodes of a wheel, each of them once. Collective.
+    template <typename Term>
+    double sum_of_wheel(const std::size_t k, const Term &term) const
+    {
+      return reproducible_sum(
+        x.size(),
+        [&](const std::size_t i) {
+          return d.wheel_of(i) == static_cast<int>(k) && d.mesh.shared_nodes.is_owned(i) ? term(i) : 0.;
+        },
+        d.mesh.comm);
+    }
+    /// Sum of term(i) over the nodes that are free to move. Collective.
+    template <typename Term>
+    double sum_of_free(const Term &term) const
+    {
+      return reproducible_sum(
+        x.size(), [&](const std::size_t i) { return is_free_and_owned(i) ? term(i) : 0.; }, d.mesh.comm);
+    }
     /// Whether a node of this rank's own is free to move.
     bool is_free_and_owned(const unsigned int i) const
     {
@@ -187,32 +203,30 @@ namespace tread
       {
         const double ratio = d.solid.cell_frequencies()[c] / frequency_of_cells;
         for (unsigned int a = 0; a < 8; ++a)
-          mass[mesh.cells[c].nodes[a]][0] += ratio * ratio * d.parameters.density_scale * cell_masses[c][a];
+          mass[mesh.cells[c].nodes[a]][0] +=
+            d.quanta.stiffness.round(ratio * ratio * d.parameters.density_scale * cell_masses[c][a]);
       }
     mesh.condense_hanging_nodes(mass.data());
+    mesh.shared_nodes.sum(mass.data());
     if (d.supports)
       {
         NodalField rows(x.size(), Vector3{});
         d.supports->add_row_sums(rows.data());
+        mesh.shared_nodes.sum(rows.data());
         for (unsigned int i = 0; i < x.size(); ++i)
           mass[i][0] += rows[i][0] / (frequency_of_cells * frequency_of_cells);
       }
-    mesh.shared_nodes.sum(mass.data());
     for (unsigned int i = 0; i < x.size(); ++i)
-      if (d.carried[i])
-        {
-          OfWheel     &of_wheel = of_wheels[d.wheel_of(i)];
-          const double own      = mesh.shared_nodes.is_owned(i) ? mass[i][0] : 0.;
-          const auto   roll     = by_roll(d.wheels[d.wheel_of(i)], i);
-          of_wheel.hub_mass += own;
-          of_wheel.hub_roll_inertia += own * dot(roll, roll);
-        }
-      else if (!d.fixed[i] && mass[i][0] > 0.)
+      if (!d.carried[i] && !d.fixed[i] && mass[i][0] > 0.)
         inverse[i] = 1. / mass[i][0];
-    for (OfWheel &wheel : of_wheels)
+    for (std::size_t k = 0; k < of_wheels.size(); ++k)
       {
-        wheel.hub_mass         = sum(wheel.hub_mass, mesh.comm);
-        wheel.hub_roll_inertia = sum(wheel.hub_roll_inertia, mesh.comm);
+        of_wheels[k].hub_mass =
+          sum_of_wheel(k, [&](const std::size_t i) { return d.carried[i] ? mass[i][0] : 0.; });
+        of_wheels[k].hub_roll_inertia = sum_of_wheel(k, [&](const std::size_t i) {
+          const Vector3 roll = by_roll(d.wheels[k], i);
+          return d.carried[i] ? mass[i][0] * dot(roll, roll) : 0.;
+        });
       }
   }
 
@@ -233,33 +247,29 @@ namespace tread
             }
           if (!d.external_force.empty())
             body_force[i] += d.external_force[i];
-        }
-    for (unsigned int i = 0; i < x.size(); ++i)
-      if (const int number = d.wheel_of(i); number >= 0 && mesh.shared_nodes.is_owned(i))
-        {
-          const Vector3 roll = by_roll(d.wheels[number], i);
-          of_wheels[number].mass += mass[i][0];
-          of_wheels[number].load += body_force[i][2];
-          of_wheels[number].roll_inertia += mass[i][0] * dot(roll, roll);
+          body_force[i] = d.quanta.force.round(body_force[i]);
         }
     for (std::size_t k = 0; k < of_wheels.size(); ++k)
       {
-        OfWheel &wheel     = of_wheels[k];
-        wheel.hub_load     = d.wheels[k].hub->static_force();
-        wheel.mass         = sum(wheel.mass, mesh.comm);
-        wheel.load         = sum(wheel.load, mesh.comm) + wheel.hub_load;
-        wheel.roll_inertia = sum(wheel.roll_inertia, mesh.comm);
+        OfWheel &wheel = of_wheels[k];
+        wheel.hub_load = d.wheels[k].hub->static_force();
+        wheel.mass     = sum_of_wheel(k, [&](const std::size_t i) { return mass[i][0]; });
+        wheel.load = sum_of_wheel(k, [&](const std::size_t i) { return body_force[i][2]; }) + wheel.hub_load;
+        wheel.roll_inertia = sum_of_wheel(k, [&](const std::size_t i) {
+          const Vector3 roll = by_roll(d.wheels[k], i);
+          return mass[i][0] * dot(roll, roll);
+        });
       }
   }
 
 
   double ExplicitDynamics::Relaxation::roll_moment(const std::size_t k) const
   {
-    double of_cells = 0.;
-    for (unsigned int i = 0; i < x.size(); ++i)
-      if (d.wheel_of(i) == static_cast<int>(k) && is_free_and_owned(i))
-        of_cells += dot(by_roll(d.wheels[k], i), d.force[i]);
-    return sum(of_cells, d.mesh.comm) - d.rank_sums[n_hub_sums * k + 3];
+    return sum_of_wheel(k,
+                        [&](const std::size_t i) {
+                          return inverse[i] > 0. ? dot(by_roll(d.wheels[k], i), d.force[i]) : 0.;
+                        }) -
+           d.rank_sums[n_hub_sums * k + 3];
   }
 
 
@@ -281,31 +291,24 @@ namespace tread
   {
     // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves: the
     // frequency that still moves (Underwood 1983).
-    double              change = 0., inertia = 0.;
-    std::vector<double> momentum(of_wheels.size(), 0.), turning(of_wheels.size(), 0.);
-    for (unsigned int i = 0; i < x.size(); ++i)
-      if (is_free_and_owned(i))
-        {
-          change -= dot(d.v[i], d.force[i] - previous[i]);
-          inertia += dot(d.v[i], d.v[i]) / inverse[i];
-          if (const int number = d.wheel_of(i); number >= 0)
-            {
-              momentum[number] += d.v[i][2] / inverse[i];
-              turning[number] += dot(by_roll(d.wheels[number], i), d.v[i]) / inverse[i];
-            }
-        }
-    change  = sum(change, d.mesh.comm) / keep;
-    inertia = sum(inertia, d.mesh.comm);
+    const double change =
+      -sum_of_free([&](const std::size_t i) { return dot(d.v[i], d.force[i] - previous[i]); }) / keep;
+    double inertia = sum_of_free([&](const std::size_t i) { return dot(d.v[i], d.v[i]) / inverse[i]; });
     for (std::size_t k = 0; k < of_wheels.size(); ++k)
       {
         const OfWheel &wheel = of_wheels[k];
-        const double   total = sum(momentum[k], d.mesh.comm) + wheel.hub_mass * wheel.hub_velocity;
+        const double   momentum =
+          sum_of_wheel(k, [&](const std::size_t i) { return inverse[i] > 0. ? d.v[i][2] / inverse[i] : 0.; });
+        const double total = momentum + wheel.hub_mass * wheel.hub_velocity;
         inertia += wheel.hub_mass * wheel.hub_velocity * wheel.hub_velocity;
         if (lightness > 0.)
           inertia -= lightness / (1. + lightness) * total * total / wheel.mass;
         if (!d.wheels[k].hub->rolls())
           continue;
-        const double turns = sum(turning[k], d.mesh.comm) + wheel.hub_roll_inertia * wheel.hub_roll_velocity;
+        const double turning = sum_of_wheel(k, [&](const std::size_t i) {
+          return inverse[i] > 0. ? dot(by_roll(d.wheels[k], i), d.v[i]) / inverse[i] : 0.;
+        });
+        const double turns   = turning + wheel.hub_roll_inertia * wheel.hub_roll_velocity;
         inertia += wheel.hub_roll_inertia * wheel.hub_roll_velocity * wheel.hub_roll_velocity;
         if (lightness > 0.)
           inertia -= lightness / (1. + lightness) * turns * turns / wheel.roll_inertia;
@@ -335,21 +338,21 @@ namespace tread
         d.contact->solve(unit_step, d.force.data());
       }
     else if (!d.wheels.empty())
-      sum(d.rank_sums, d.mesh.comm, d.rank_sums);
+      dealii::Utilities::MPI::sum(d.rank_sums, d.mesh.comm, d.rank_sums);
   }
 
 
   void ExplicitDynamics::Relaxation::follow_beam()
   {
     // The wheels with all of their loads included.
-    std::vector<double> on_nodes(of_wheels.size(), 0.);
-    for (unsigned int i = 0; i < x.size(); ++i)
-      if (const int number = d.wheel_of(i); number >= 0 && !d.carried[i] && d.mesh.shared_nodes.is_owned(i))
-        on_nodes[number] += d.force[i][2];
     std::vector<reference::SupportedBeam::Load> loads;
     for (std::size_t k = 0; k < of_wheels.size(); ++k)
-      loads.push_back({d.wheels[k].hub->motion.x, sum(on_nodes[k], d.mesh.comm) +
-                                                    d.rank_sums[n_hub_sums * k + 2] + of_wheels[k].hub_load});
+      {
+        const double on_nodes =
+          sum_of_wheel(k, [&](const std::size_t i) { return d.carried[i] ? 0. : d.force[i][2]; });
+        loads.push_back(
+          {d.wheels[k].hub->motion.x, on_nodes + d.rank_sums[n_hub_sums * k + 2] + of_wheels[k].hub_load});
+      }
     const RailBeam::Field field = d.rail_beam->balance(d.force.data(), loads);
     d.rail_beam->add(field, 1., x.data());
     std::vector<double> up;
@@ -396,14 +399,8 @@ namespace tread
         of_hubs =
           std::max(of_hubs, std::abs(moment) / std::sqrt(of_wheel.hub_roll_inertia / of_wheel.hub_mass));
       }
-    double squares = 0., load_squares = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        if (measure && is_free_and_owned(i))
-          {
-            squares += dot(d.force[i], d.force[i]);
-            load_squares += dot(body_force[i], body_force[i]);
-          }
         const int number = d.wheel_of(i);
         Vector3   displacement =
           d.v[i] + inverse[i] * d.force[i] + Vector3{0., 0., number >= 0 ? shift[number] : 0., 0.};
@@ -429,8 +426,11 @@ namespace tread
     Mesh::distribute(d.levels.hanging_at_contact, d.v.data()); // all that is asked for
     if (!measure)
       return;
-    residual = std::max(of_hubs, std::sqrt(sum(squares, d.mesh.comm)));
-    load     = std::max(hub_loads, std::sqrt(sum(load_squares, d.mesh.comm)));
+    const double squares = sum_of_free([&](const std::size_t i) { return dot(d.force[i], d.force[i]); });
+    const double load_squares =
+      sum_of_free([&](const std::size_t i) { return dot(body_force[i], body_force[i]); });
+    residual = std::max(of_hubs, std::sqrt(squares));
+    load     = std::max(hub_loads, std::sqrt(load_squares));
     if (first_residual < 0.)
       first_residual = residual;
   }

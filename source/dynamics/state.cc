@@ -19,13 +19,15 @@ namespace tread
     archive.same(time, n_steps);
     archive.same(start_kinetic, start_potential, start_strain, start_hub_work, start_springs,
                  start_dissipated);
-    archive.shares(totals.external_work, totals.gross_work, totals.friction, totals.contact, totals.damping,
-                   totals.plastic, totals.contact_on_nodes, last_damping_power);
-    archive.same(last_damping_step, damping_is_sampled);
+    for (ReproducibleSum<double> *total :
+         {&totals.external_work, &totals.gross_work, &totals.friction, &totals.contact, &totals.damping,
+          &totals.plastic, &totals.contact_on_nodes})
+      total->serialize(archive);
+    archive.same(last_damping_power, last_damping_step, damping_is_sampled);
     archive.largest(times.internal_forces, times.contact, times.search, times.communication, times.nodes);
     serialize_nodes(archive);
     solid.plastic().serialize(archive, history);
-    levels.serialize(archive);
+    levels.serialize(archive, mesh);
     if (supports)
       supports->serialize(archive);
     if (contact)

@@ -45,9 +45,11 @@ namespace tread
   void ExplicitDynamics::count_local_damping(const unsigned int due)
   {
     // The work uses the mean of the velocities before and after the step, as for all prescribed forces.
+    ReproducibleSum<double> lost;
     for (const DampedNode &damped : damped_nodes)
       if (const unsigned int i = damped.node; levels.of_node[i] <= due && mesh.shared_nodes.is_owned(i))
-        totals.damping -= time_step * dot(damped.load, v[i] + (0.5 * time_step * inverse_mass[i]) * force[i]);
+        lost.add(-time_step * dot(damped.load, v[i] + (0.5 * time_step * inverse_mass[i]) * force[i]));
+    totals.damping.add(lost);
   }
 
 
@@ -63,7 +65,7 @@ namespace tread
         loop([](const unsigned int) { return Vector3{}; });
         return;
       }
-    Vector3      squares{};
+    Vector3      loss{};
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
     if (run.wheel >= 0)
       {
@@ -79,25 +81,25 @@ namespace tread
           const double  along    = dot(axle, arm);
           const Vector3 off_axle = arm - along * axle;
           const Vector3 relative = v[i] - velocity - cross(turning, arm);
-          const Vector3 momentum = mass * relative;
-          of_run.arms += mass * off_axle;
-          of_run.products += (mass * along) * off_axle;
-          of_run.momentum += momentum;
-          of_run.moments += cross(arm, momentum);
-          squares += relative * momentum;
-          return mass * inward * off_axle - damping * momentum;
+          const Vector3 drag     = (damping * mass) * relative;
+          of_run.arms += quanta.moments.round(mass * off_axle);
+          of_run.products += quanta.moments.round((mass * along) * off_axle);
+          of_run.drag += quanta.on_hubs.round(drag);
+          of_run.moments += quanta.on_hubs.round(cross(arm, drag));
+          loss += quanta.loss.round((time_step * relative) * drag);
+          return mass * inward * off_axle - drag;
         });
         if (run.is_owned)
           sums.wheels[run.wheel] += of_run;
       }
     else
       loop([&](const unsigned int i) {
-        const Vector3 momentum = free_mass(i, scaled) * v[i];
-        squares += v[i] * momentum;
-        return -damping * momentum;
+        const Vector3 drag = (damping * free_mass(i, scaled)) * v[i];
+        loss += quanta.loss.round((time_step * v[i]) * drag);
+        return -drag;
       });
     if (run.is_owned)
-      sums.squares += squares;
+      sums.loss += loss;
   }
 
 
@@ -124,7 +126,7 @@ namespace tread
           const double factor = std::ldexp(1., level);
           with_body_loads(level == 0 && has_body_loads(run), run, factor, next_loads, [&](const auto &load) {
             for (unsigned int i = run.begin; i < run.end; ++i)
-              force[i] = weight(i, factor) + load(i);
+              force[i] = quanta.force.round(weight(i, factor) + load(i));
           });
         }
     keep_loads_of_shared(max_level());
@@ -141,10 +143,11 @@ namespace tread
         for (const unsigned int i : wheel.nodes)
           if (mesh.shared_nodes.is_owned(i))
             {
-              const Vector3 moment = cross(position(i) - middle, force[i]);
+              const Vector3 load   = quanta.on_hubs.round(force[i]),
+                            moment = quanta.on_hubs.round(cross(position(i) - middle, force[i]));
               for (unsigned int d = 0; d < 3; ++d)
                 {
-                  of_wheel[d] += force[i][d];
+                  of_wheel[d] += load[d];
                   of_wheel[3 + d] += moment[d];
                 }
             }
@@ -191,7 +194,7 @@ namespace tread
             for (unsigned int i = run.begin; i < run.end; ++i)
               force[i] += load(i);
           });
-    totals.damping += time_step * parameters.mass_damping * dot(loads.squares, Vector3{1., 1., 1., 0.});
+    totals.damping.add(dot(loads.loss, Vector3{1., 1., 1., 0.}));
     add_local_damping(due);
     hold_guided_nodes(force);
     return loads;
@@ -207,8 +210,8 @@ namespace tread
         double                   *sums     = rank_sums.data() + n_hub_sums * k;
         for (unsigned int d = 0; d < 3; ++d)
           {
-            sums[d] += parameters.mass_damping * of_wheel.momentum[d];
-            sums[3 + d] += parameters.mass_damping * of_wheel.moments[d];
+            sums[d] += of_wheel.drag[d];
+            sums[3 + d] += of_wheel.moments[d];
             sums[6 + d] = of_wheel.arms[d];
             sums[9 + d] = of_wheel.products[d];
           }
@@ -230,12 +233,13 @@ namespace tread
     contact->predict(v.data(), force.data(), time_step, rank_sums);
     times.communication += watch.lap();
     contact->solve(time_step, force.data());
-    const ContactWork work = contact->last_work();
-    totals.friction += work.friction;
-    totals.contact += work.normal + work.adhesion;
-    totals.contact_on_nodes += work.on_nodes + work.imposed;
-    totals.external_work += work.imposed;
-    totals.gross_work += std::abs(work.imposed);
+    const ContactWork &work = contact->last_work();
+    totals.friction.add(work.friction);
+    totals.contact.add(work.normal + work.adhesion);
+    totals.contact_on_nodes.add(work.on_nodes);
+    totals.contact_on_nodes.add(work.imposed);
+    totals.external_work.add(work.imposed);
+    totals.gross_work.add(std::abs(work.imposed));
     times.contact += watch.lap();
   }
 
@@ -256,8 +260,8 @@ namespace tread
            dot(Vector3{sums[9], sums[10], sums[11], 0.}, wheel.hub->axle() - axle));
         if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
           {
-            totals.external_work += work;
-            totals.gross_work += std::abs(work);
+            totals.external_work.add(work);
+            totals.gross_work.add(std::abs(work));
           }
         sums += n_hub_sums;
       }
@@ -266,8 +270,8 @@ namespace tread
 
   void ExplicitDynamics::advance_nodes(const unsigned int due)
   {
-    const bool loaded = !external_force.empty();
-    double     work = 0., gross = 0.;
+    const bool              loaded = !external_force.empty();
+    ReproducibleSum<double> work, gross;
     next_loads = BodyLoads(wheels.size());
     for (unsigned int level = 0; level <= due; ++level)
       {
@@ -279,8 +283,8 @@ namespace tread
               if (loaded && run.is_owned)
                 {
                   const double w = 0.5 * factor * time_step * dot(external_force[i], velocity + v[i]);
-                  work += w;
-                  gross += std::abs(w);
+                  work.add(w);
+                  gross.add(std::abs(w));
                 }
               x_damped[i] += way * velocity - damping_time * v[i];
               v[i] = velocity;
@@ -290,14 +294,14 @@ namespace tread
                               for (unsigned int i = run.begin; i < run.end; ++i)
                                 {
                                   advance(i);
-                                  force[i] = weight(i, factor) + load(i);
+                                  force[i] = quanta.force.round(weight(i, factor) + load(i));
                                 }
                             });
           }
       }
     keep_loads_of_shared(due);
-    totals.external_work += work;
-    totals.gross_work += gross;
+    totals.external_work.add(work);
+    totals.gross_work.add(gross);
   }
 
 

@@ -139,7 +139,6 @@ namespace tread
                                              const PlasticHistory &memory) const
   {
     using dealii::Utilities::MPI::max;
-    using dealii::Utilities::MPI::sum;
     double bound = 0.;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.cell_levels()[c] >= first_level)
@@ -150,11 +149,12 @@ namespace tread
     // mesh does. Its largest Ritz value comes from below, hence the margin; the cells' bound stays the limit.
     const std::vector<double> inverse = free_inverse_masses();
     const auto                product = [&](const NodalField &a, const NodalField &b) {
-      double of_rank = 0.;
-      for (unsigned int i = 0; i < v.size(); ++i)
-        if (inverse[i] > 0. && mesh.shared_nodes.is_owned(i))
-          of_rank += dot(a[i], b[i]) / inverse[i];
-      return sum(of_rank, mesh.comm);
+      return reproducible_sum(
+                       v.size(),
+                       [&](const std::size_t i) {
+          return inverse[i] > 0. && mesh.shared_nodes.is_owned(i) ? dot(a[i], b[i]) / inverse[i] : 0.;
+        },
+                       mesh.comm);
     };
     NodalField mode(v.size(), Vector3{}), mode_before(v.size(), Vector3{}), moved(v.size()),
       at_rest(v.size(), Vector3{}), f(v.size()), forces_at_x(v.size(), Vector3{});
@@ -206,8 +206,8 @@ namespace tread
 
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
-    totals.plastic +=
-      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true});
+    totals.plastic.add(
+      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true}));
     Mesh::condense(levels.hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
@@ -223,11 +223,14 @@ namespace tread
           force_before[k] = force[shares.nodes[k]];
         solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
         Mesh::condense(levels.hanging[level].loaded, force.data());
+        if (levels.reproducible)
+          give_to_owners(shares);
         const double factor = std::ldexp(1., level);
         shares.for_nodes_up_to(level - 1, [&](const std::size_t k, const double own) {
-          Vector3      &here   = force[shares.nodes[k]];
-          const Vector3 now    = (1. / factor) * (here - force_before[k]);
-          const Vector3 change = (levels.slow_shares_known ? follow : 1.) * (now - shares.steady[k]);
+          Vector3      &here = force[shares.nodes[k]];
+          const Vector3 now  = (1. / factor) * (here - force_before[k]);
+          const Vector3 change =
+            quanta.force.round((levels.slow_shares_known ? follow : 1.) * (now - shares.steady[k]));
           shares.steady[k] += change;
           // The steady part acts on average half of (factor - own) steps late: what that takes from a
           // force that changes is given at once, or motion would be fed with energy.
@@ -236,6 +239,24 @@ namespace tread
         });
       }
     levels.slow_shares_known = true;
+  }
+
+
+  void ExplicitDynamics::give_to_owners(const SlowShares &shares)
+  {
+    if (mesh.shared_nodes.nodes().empty())
+      return;
+    given_to_owners.assign(v.size(), Vector3{});
+    for (const std::size_t k : shares.with_copies)
+      {
+        Vector3 &here                    = force[shares.nodes[k]];
+        given_to_owners[shares.nodes[k]] = here - force_before[k];
+        here                             = force_before[k];
+      }
+    mesh.shared_nodes.sum(given_to_owners.data());
+    for (const std::size_t k : shares.with_copies)
+      if (const unsigned int i = shares.nodes[k]; mesh.shared_nodes.is_owned(i))
+        force[i] += given_to_owners[i];
   }
 
 

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 namespace tread
 {
@@ -317,6 +318,13 @@ namespace tread
     add_cells(*this, dof_handler, local_number, likely_level, bodies, level_of_node);
     add_hanging_nodes(*this, constraints, local_number, global_ids, level_of_node, max_level + 1);
     renumber(level_of_node, global_ids);
+    // deal.II lists parents by numbers that depend on the ranks. By position their mean is the same to the
+    // last bit.
+    for (HangingNode &h : hanging_nodes)
+      std::sort(h.parents.begin(), h.parents.end(), [&](const unsigned int a, const unsigned int b) {
+        const dealii::Point<3> &p = nodes[a], &q = nodes[b];
+        return std::tie(p[0], p[1], p[2]) < std::tie(q[0], q[1], q[2]);
+      });
     // Parents follow from the constraint itself, so every rank places a hanging node alike:
     // on the chord, where every linear displacement field leaves it.
     for (const HangingNode &h : hanging_nodes)

@@ -40,6 +40,7 @@ namespace tread
     p.quadratic_bulk_viscosity = scene.solid.quadratic_bulk_viscosity;
     p.density_scale            = scene.general.density_scale;
     p.max_level                = scene.time_stepping.levels - 1;
+    p.reproducible             = scene.general.reproducible;
     return p;
   }
 
@@ -217,6 +218,7 @@ namespace tread
     ContactParameters p;
     p.solver.tolerance  = scene.contact.tolerance;
     p.solver.max_sweeps = scene.contact.max_sweeps;
+    p.reproducible      = scene.general.reproducible;
     return p;
   }
 } // namespace tread

@@ -22,7 +22,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-14";
+    constexpr const char *layout = "tread-checkpoint-15";
 
     unsigned int checksum(const std::string &content)
     {

@@ -44,14 +44,15 @@ namespace tread
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
     const double middle = 0.5 * (scene.path_begin() + scene.path_end()), half_length = 5e-3, on_line = 1e-6;
-    double       settled = 0., shifted = 0., n_nodes = 0., strain = 0., residual = 0.;
+    ReproducibleSum<double> settled, shifted;
+    double                  n_nodes = 0., strain = 0., residual = 0.;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (const dealii::Point<3> &p = mesh.nodes[i];
           mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
           std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
         {
-          settled += p[2] - dynamics.position(i)[2];
-          shifted += dynamics.position(i)[0] - p[0];
+          settled.add(p[2] - dynamics.position(i)[2]);
+          shifted.add(dynamics.position(i)[0] - p[0]);
           n_nodes += 1.;
         }
     const std::vector<std::array<double, 6>> stress =
@@ -67,7 +68,7 @@ namespace tread
     n_nodes                   = std::max(1., sum(n_nodes, comm));
     const Vector3      force  = last_force_on(wheels.front());
     const EnergyLedger energy = dynamics.ledger();
-    passages.push_back({passages.size() + 1., sum(settled, comm) / n_nodes, sum(shifted, comm) / n_nodes,
+    passages.push_back({passages.size() + 1., settled.value(comm) / n_nodes, shifted.value(comm) / n_nodes,
                         max(strain, comm), max(residual, comm), energy.plastic, energy.friction,
                         force[2] > 0. ? force[0] / force[2] : 0.,
                         measure(solution_patches().front()).max_pressure, energy.residual_share(),

@@ -48,8 +48,12 @@ namespace tread
     class Group : public BatchedGroup<BatchOfPoints>
     {
     public:
-      Group(const Mesh &mesh, const ElasticMaterial &material, const std::vector<unsigned int> &cells)
+      Group(const Mesh                      &mesh,
+            const ElasticMaterial           &material,
+            const std::vector<unsigned int> &cells,
+            const Quantum                    force_quantum)
         : BatchedGroup<BatchOfPoints>(mesh, material, cells, set)
+        , force_quantum(force_quantum)
       {
       }
 
@@ -73,22 +77,26 @@ namespace tread
                                 P[i][2] * batch.gradient[q][a][2]);
               }
             for (unsigned int a = 0; a < 8; ++a)
-              scatter_add(force, batch.node[a], f[a][0], f[a][1], f[a][2]);
+              scatter_add(force, batch.node[a], force_quantum.round(f[a][0]), force_quantum.round(f[a][1]),
+                          force_quantum.round(f[a][2]));
           }
       }
 
-      void add_energies(const Vector3 *x, Lanes &strain, Lanes &) const override
+      void add_energies(const Vector3          *x,
+                        ReproducibleSum<Lanes> &strain,
+                        ReproducibleSum<Lanes> &) const override
       {
         for (const BatchOfPoints &batch : batches)
           {
-            Lanes position[8][3], F[3][3], E[6];
+            Lanes position[8][3], F[3][3], E[6], energy{};
             gather_nodes(batch, x, position);
             for (unsigned int q = 0; q < 8; ++q)
               {
                 deform(position, batch.gradient[q], F);
                 green_lagrange(F, E);
-                strain += batch.weight[q] * HenckyPoint<Lanes>(E).energy(lambda, mu);
+                energy += batch.weight[q] * HenckyPoint<Lanes>(E).energy(lambda, mu);
               }
+            strain.add(energy);
           }
       }
 
@@ -103,6 +111,9 @@ namespace tread
               gradient[a][i] += 0.125 * batch.gradient[q][a][i];
         deform(position, gradient, F);
       }
+
+    private:
+      Quantum force_quantum;
     };
   } // namespace
 
@@ -127,7 +138,7 @@ namespace tread
     const std::vector<unsigned int> &cells) const
   {
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    groups.push_back(std::make_unique<Group>(mesh, material, cells));
+    groups.push_back(std::make_unique<Group>(mesh, material, cells, force_quantum));
     return groups;
   }
 } // namespace tread

@@ -39,17 +39,21 @@ namespace tread
           add<false>(x, v, force, factor);
       }
 
-      void add_energies(const Vector3 *x, Lanes &strain, Lanes &hourglass) const override
+      void add_energies(const Vector3          *x,
+                        ReproducibleSum<Lanes> &strain,
+                        ReproducibleSum<Lanes> &hourglass) const override
       {
         for (const auto &batch : this->batches)
           {
             Lanes F[3][3], amplitude[4][3], E[6];
             deform(batch, x, F, amplitude);
             green_lagrange(F, E);
-            strain += batch.volume * HenckyPoint<Lanes>(E).energy(this->lambda, this->mu);
+            strain.add(batch.volume * HenckyPoint<Lanes>(E).energy(this->lambda, this->mu));
+            Lanes squares{};
             for (const auto &mode : amplitude)
               for (const Lanes &component : mode)
-                hourglass += 0.5 * batch.stiffness * component * component;
+                squares += component * component;
+            hourglass.add(0.5 * batch.stiffness * squares);
           }
       }
 
@@ -66,6 +70,7 @@ namespace tread
       template <bool viscous>
       void add(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const
       {
+        const Quantum quantum = parameters.force_quantum();
         for (const auto &batch : this->batches)
           {
             Lanes F[3][3], amplitude[4][3], E[6], S[6], P[3][3];
@@ -81,7 +86,7 @@ namespace tread
             for (auto &mode : amplitude)
               for (Lanes &component : mode)
                 component *= stiffness;
-            add_forces_of(batch, force, P, amplitude);
+            add_forces_of(batch, force, P, amplitude, quantum);
           }
       }
 

@@ -29,7 +29,9 @@ namespace tread
   PlasticCells::PlasticCells(const Mesh                         &mesh,
                              const std::vector<ElasticMaterial> &materials,
                              const std::vector<PlasticZone>     &zones,
-                             const double                        hourglass_coefficient)
+                             const double                        hourglass_coefficient,
+                             const Quantum                       force_quantum)
+    : force_quantum(force_quantum)
   {
     if (zones.empty())
       return;
@@ -235,13 +237,13 @@ namespace tread
 
 
   template <unsigned int n, bool updates, typename History>
-  double PlasticCells::add_forces(const Range   &range,
-                                  const Vector3 *x,
-                                  Vector3       *force,
-                                  History       &history) const
+  ReproducibleSum<double> PlasticCells::add_forces(const Range   &range,
+                                                   const Vector3 *x,
+                                                   Vector3       *force,
+                                                   History       &history) const
   {
     const YieldConstants<n> material(range.elastic, range.plastic);
-    Lanes                   work{};
+    ReproducibleSum<Lanes>  work;
     for (std::size_t b = range.begin; b < range.end; ++b)
       {
         const Batch &batch  = batches[b];
@@ -262,7 +264,7 @@ namespace tread
         for (unsigned int m = 0; m < 4; ++m)
           for (unsigned int i = 0; i < 3; ++i)
             restoring[m][i] = -batch.stiffness * state.amplitude[m][i];
-        add_forces_of(batch, force, P, restoring);
+        add_forces_of(batch, force, P, restoring, force_quantum);
         if constexpr (updates)
           {
             const auto yields = state.point.flow.strain > 0.;
@@ -281,15 +283,12 @@ namespace tread
                     memory[backstress_at + 6 * i + k] = state.point.backstress[i][k];
                 // Amplitudes that shrink to the share 1 - s lose 1 - (1 - s)^2 of their energy.
                 const Lanes left = 1. - state.point.flow.share;
-                work += batch.volume * state.point.flow.work +
-                        state.hourglass_energy(batches[b].stiffness) * (1. / (left * left) - 1.);
+                work.add(batch.volume * state.point.flow.work +
+                         state.hourglass_energy(batches[b].stiffness) * (1. / (left * left) - 1.));
               }
           }
       }
-    double sum = 0.;
-    for (unsigned int l = 0; l < n_lanes; ++l)
-      sum += work[l];
-    return sum;
+    return work.of_lanes();
   }
 
 
@@ -299,18 +298,21 @@ namespace tread
   }
 
 
-  double PlasticCells::update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const
+  ReproducibleSum<double> PlasticCells::update(const Vector3  *x,
+                                               Vector3        *force,
+                                               PlasticHistory &history) const
   {
-    double work = 0.;
+    ReproducibleSum<double> work;
     for_ranges(
-      [&](const Range &range, const auto n) { work += add_forces<n(), true>(range, x, force, history); });
+      [&](const Range &range, const auto n) { work.add(add_forces<n(), true>(range, x, force, history)); });
     return work;
   }
 
 
-  std::array<double, 2> PlasticCells::energies(const Vector3 *x, const PlasticHistory &history) const
+  std::array<ReproducibleSum<double>, 2> PlasticCells::energies(const Vector3        *x,
+                                                                const PlasticHistory &history) const
   {
-    Lanes strain{}, hourglass{};
+    ReproducibleSum<Lanes> strain, hourglass;
     for_ranges([&](const Range &range, const auto n) {
       const YieldConstants<n()> material(range.elastic, range.plastic);
       for (std::size_t b = range.begin; b < range.end; ++b)
@@ -318,17 +320,11 @@ namespace tread
           State<n()> state;
           state.evaluate(material, batches[b], x,
                          history.values.data() + range.history + (b - range.begin) * range.stride());
-          strain += batches[b].volume * state.point.energy;
-          hourglass += state.hourglass_energy(batches[b].stiffness);
+          strain.add(batches[b].volume * state.point.energy);
+          hourglass.add(state.hourglass_energy(batches[b].stiffness));
         }
     });
-    std::array<double, 2> sums{};
-    for (unsigned int l = 0; l < n_lanes; ++l)
-      {
-        sums[0] += strain[l];
-        sums[1] += hourglass[l];
-      }
-    return sums;
+    return {{strain.of_lanes(), hourglass.of_lanes()}};
   }
 
 

@@ -15,7 +15,7 @@ namespace tread
                const SolidParameters              &parameters,
                const std::vector<PlasticZone>     &zones)
     : parameters(parameters)
-    , plastic_cells(mesh, materials, zones, parameters.hourglass_coefficient)
+    , plastic_cells(mesh, materials, zones, parameters.hourglass_coefficient, parameters.force_quantum())
     , virgin_history(plastic_cells.virgin_history())
     , materials(materials)
     , n_cells(mesh.cells.size())
@@ -85,19 +85,15 @@ namespace tread
   }
 
 
-  StrainEnergy Solid::strain_energy(const Vector3 *x, const PlasticHistory &history) const
+  StrainEnergySums Solid::strain_energy_sums(const Vector3 *x, const PlasticHistory &history) const
   {
-    Lanes strain_sum{}, hourglass_sum{};
+    ReproducibleSum<Lanes> strain, hourglass;
     for (const Group &group : groups)
-      group.cells->add_energies(x, strain_sum, hourglass_sum);
-    const auto [plastic_strain, plastic_hourglass] = plastic_cells.energies(x, history);
-    StrainEnergy energy{plastic_strain, plastic_hourglass};
-    for (unsigned int l = 0; l < n_lanes; ++l)
-      {
-        energy.strain += strain_sum[l];
-        energy.hourglass += hourglass_sum[l];
-      }
-    return energy;
+      group.cells->add_energies(x, strain, hourglass);
+    auto [strain_sum, hourglass_sum] = plastic_cells.energies(x, history);
+    strain_sum.add(strain.of_lanes());
+    hourglass_sum.add(hourglass.of_lanes());
+    return {strain_sum, hourglass_sum};
   }
 
 

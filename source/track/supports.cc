@@ -32,6 +32,8 @@ namespace tread
     /// anything of a mesh.
     constexpr double round_off = 1e-9;
 
+    constexpr double nanometre = 1e-9; // m
+
     /// Shape functions of a face at (x, y), seen along z; false if it lies outside.
     bool shares_of_corners(const std::array<dealii::Point<3>, 4> &corner,
                            const double                           x,
@@ -181,54 +183,74 @@ namespace tread
 
   unsigned int Supports::add_end(const Faces &faces, const double x, const double y, const double side)
   {
-    std::array<double, 4>           share, shares;
-    std::array<dealii::Point<3>, 4> corner;
-    const Mesh::Face               *found   = nullptr;
-    double                          highest = std::numeric_limits<double>::lowest();
+    using Place = std::array<long long, 3>; // the middle of a face, nm
+    struct Candidate
+    {
+      double                height;
+      Place                 place;
+      const Mesh::Face     *face;
+      std::array<double, 4> shares;
+    };
+    constexpr Place        nowhere{{std::numeric_limits<long long>::max(), 0, 0}};
+    std::vector<Candidate> candidates;
+    double                 highest = std::numeric_limits<double>::lowest();
     for (const Mesh::Face *face : faces)
       {
+        std::array<dealii::Point<3>, 4> corner;
         for (unsigned int k = 0; k < 4; ++k)
           corner[k] = mesh.nodes[face->nodes[k]];
-        if (!shares_of_corners(corner, x, y, share))
+        Candidate candidate{0., {}, face, {}};
+        if (!shares_of_corners(corner, x, y, candidate.shares))
           continue;
-        double height = 0.;
+        dealii::Point<3> middle;
         for (unsigned int k = 0; k < 4; ++k)
-          height += side * share[k] * corner[k][2];
-        if (height > highest + round_off)
           {
-            highest = height;
-            found   = face;
-            shares  = share;
+            candidate.height += side * candidate.shares[k] * corner[k][2];
+            middle += 0.25 * corner[k];
           }
+        for (unsigned int d = 0; d < 3; ++d)
+          candidate.place[d] = std::llround(middle[d] / nanometre);
+        highest = std::max(highest, candidate.height);
+        candidates.push_back(candidate);
       }
-    // Where the parts of ranks meet, several of them hold a face; the lowest rank takes the point.
     const double best = dealii::Utilities::MPI::max(highest, mesh.comm);
     if (best == std::numeric_limits<double>::lowest())
       throw std::invalid_argument("no face of the body lies at x = " + std::to_string(1e3 * x) +
                                   " mm, y = " + std::to_string(1e3 * y) + " mm");
-    const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
-    const unsigned int owner = dealii::Utilities::MPI::min(
-      found && highest > best - round_off ? rank : std::numeric_limits<unsigned int>::max(), mesh.comm);
-    End end;
-    if (owner == rank)
+    // On an edge several faces hold the point: the first by its place takes it, whichever rank has that.
+    Place            first = nowhere;
+    const Candidate *found = nullptr;
+    for (const Candidate &candidate : candidates)
+      if (candidate.height > best - round_off && candidate.place < first)
+        {
+          first = candidate.place;
+          found = &candidate;
+        }
+    const auto firsts = dealii::Utilities::MPI::all_gather(mesh.comm, first);
+    End        end;
+    if (found && first == *std::min_element(firsts.begin(), firsts.end()))
       {
         std::map<unsigned int, double> of_node;
         for (unsigned int k = 0; k < 4; ++k)
           {
-            const unsigned int node = found->nodes[k];
+            const unsigned int node = found->face->nodes[k];
             const auto         h =
               std::find_if(mesh.hanging_nodes.begin(), mesh.hanging_nodes.end(),
                            [=](const Mesh::HangingNode &hanging) { return hanging.node == node; });
             if (h == mesh.hanging_nodes.end())
-              of_node[node] += shares[k];
+              of_node[node] += found->shares[k];
             else
               for (const unsigned int parent : h->parents)
-                of_node[parent] += shares[k] * Mesh::HangingNode::weight;
+                of_node[parent] += found->shares[k] * Mesh::HangingNode::weight;
           }
         // On an edge two faces hold a point, by the nodes of the edge alone.
         for (const auto &[node, part] : of_node)
           if (part > round_off)
             end.nodes.emplace_back(node, part);
+        // Their numbers depend on the ranks, and a sum on its order.
+        std::sort(end.nodes.begin(), end.nodes.end(), [this](const auto &a, const auto &b) {
+          return mesh.node_key(a.first) < mesh.node_key(b.first);
+        });
       }
     ends.push_back(end);
     return ends.size() - 1;
@@ -307,7 +329,7 @@ namespace tread
   {
     if (point >= static_cast<int>(n_sleepers))
       for (const auto &[node, share] : ends[point - n_sleepers].nodes)
-        force[node][2] += share * value;
+        force[node][2] += force_quantum.round(share * value);
   }
 
 
@@ -354,8 +376,8 @@ namespace tread
             const double neighbours = spring.b < 0 ? 1. : 2.;
             for (const auto &[node, share] : ends[point - n_sleepers].nodes)
               {
-                field[node][0] += neighbours * share * spring.stiffness;
-                field[node][1] += neighbours * share * spring.damping;
+                field[node][0] += row_quantum.round(neighbours * share * spring.stiffness);
+                field[node][1] += row_quantum.round(neighbours * share * spring.damping);
               }
           }
   }

@@ -30,9 +30,20 @@ namespace
     double largest_share = 0.; ///< of what the cells cost, over the mean of the ranks
   };
 
-  History run(const MPI_Comm comm, const bool with_hub, const std::string type, const unsigned int n_steps)
+  struct Case
   {
-    Body body;
+    const char  *name;
+    bool         with_hub;
+    std::string  type;
+    bool         reproducible;
+    unsigned int max_level;
+  };
+
+  History run(const MPI_Comm comm, const Case &c, const unsigned int n_steps)
+  {
+    const bool        with_hub = c.with_hub;
+    const std::string type     = c.type;
+    Body              body;
     if (with_hub)
       body = tests::make_driven_ring();
     else
@@ -46,13 +57,15 @@ namespace
     const auto cost = [](const unsigned int, const auto &corners, const unsigned int) {
       return corners[0][0] > .03 ? 4e6 : 1e6;
     };
-    const Mesh mesh(comm, {body}, 0, cost);
+    const Mesh mesh(comm, {body}, c.max_level, cost);
     double     share = 0.;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       share += cost(0, mesh.corners(c), 0);
     const auto      shares = dealii::Utilities::MPI::min_max_avg(share, comm);
     SolidParameters solid_parameters;
-    solid_parameters.element = type;
+    solid_parameters.element      = type;
+    solid_parameters.reproducible = c.reproducible;
+    solid_parameters.max_level    = c.max_level;
     if (type == OnePoint::name)
       {
         solid_parameters.linear_bulk_viscosity    = .06;
@@ -61,6 +74,8 @@ namespace
     const Solid        solid(mesh, {ElasticMaterial()}, solid_parameters);
     DynamicsParameters parameters;
     parameters.courant_number = 0.7;
+    if (c.max_level > 0)
+      parameters.mass_damping = 50.;
     ExplicitDynamics dynamics(mesh, solid, parameters);
 
     WheelHub hub(tests::sprung_hub());
@@ -116,18 +131,19 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   using dealii::Utilities::MPI::max;
 
-  struct Case
-  {
-    const char *name;
-    bool        with_hub;
-    std::string type;
-  };
-  for (const Case &c :
-       {Case{"block", false, OnePoint::name}, Case{"block, fully integrated", false, FullyIntegrated::name},
-        Case{"ring on a hub", true, OnePoint::name}})
+  // Those that are not reproducible to the last bit: sums over ranks differ in order, 1e-16 a step, and
+  // rounding of positions (1e-17 m) over displacements of um.
+  for (const Case &c : {Case{"block", false, OnePoint::name, false, 0},
+                        Case{"block, fully integrated", false, FullyIntegrated::name, false, 0},
+                        Case{"ring on a hub", true, OnePoint::name, false, 0},
+                        Case{"the same bits, block, levels", false, OnePoint::name, true, 2},
+                        Case{"the same bits, fully integrated", false, FullyIntegrated::name, true, 0},
+                        Case{"the same bits, ring, levels", true, OnePoint::name, true, 2}})
     {
-      const History together = run(MPI_COMM_WORLD, c.with_hub, c.type, 2000);
-      const History alone    = run(MPI_COMM_SELF, c.with_hub, c.type, 2000);
+      const unsigned int n_steps  = c.reproducible ? 400 : 2000;
+      const double       allowed  = c.reproducible ? 0. : 1e-10;
+      const History      together = run(MPI_COMM_WORLD, c, n_steps);
+      const History      alone    = run(MPI_COMM_SELF, c, n_steps);
       // Scales: the largest displacement and velocity anywhere.
       double scale[2] = {0., 0.}, error[2] = {0., 0.}, missing = 0.;
       for (const auto &[p, value] : alone.nodes)
@@ -151,16 +167,14 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.absolute(name + "cells", together.n_cells, alone.n_cells, 0.);
       check.absolute(name + "hanging nodes", together.n_hanging, alone.n_hanging, 0.);
       check.absolute(name + "nodes in other places", max(missing, MPI_COMM_WORLD), 0., 0.);
-      // Sums over ranks differ in order: 1e-16 a step, and rounding of positions (1e-17 m) over displacements
-      // of um.
-      check.below(name + "displacement", max(error[0], MPI_COMM_WORLD), 1e-10);
-      check.below(name + "velocity", max(error[1], MPI_COMM_WORLD), 1e-10);
-      check.below(name + "energies", tests::difference(together.tip, alone.tip), 1e-10);
+      check.below(name + "displacement", max(error[0], MPI_COMM_WORLD), allowed);
+      check.below(name + "velocity", max(error[1], MPI_COMM_WORLD), allowed);
+      check.below(name + "energies", tests::difference(together.tip, alone.tip), allowed);
       if (c.with_hub)
         {
-          check.relative(name + "hub height (um)", 1e6 * together.hub.z, 1e6 * alone.hub.z, 1e-10);
+          check.relative(name + "hub height (um)", 1e6 * together.hub.z, 1e6 * alone.hub.z, allowed);
           check.relative(name + "angular velocity (rad/s)", together.hub.angular_velocity,
-                         alone.hub.angular_velocity, 1e-12);
+                         alone.hub.angular_velocity, 1e-2 * allowed);
         }
     }
 }

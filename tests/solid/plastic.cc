@@ -187,7 +187,8 @@ namespace
           {
             const NodalField next = cube.moved(0.03 * std::sin(2. * dealii::numbers::PI * step / steps));
             NodalField       force(next.size(), Vector3{});
-            plastic += solid.update_internal_forces(next.data(), cube.at_rest.data(), force.data(), path);
+            plastic +=
+              solid.update_internal_forces(next.data(), cube.at_rest.data(), force.data(), path).value();
             for (unsigned int i = 0; i < next.size(); ++i)
               external -= 0.5 * dot(force[i] + last_f[i], next[i] - last_x[i]);
             last_x = next;

@@ -3,6 +3,7 @@
 #define tread_contact_contact_h
 
 #include <tread/base/archive.h>
+#include <tread/base/reproducible_sum.h>
 #include <tread/contact/contact_surfaces.h>
 #include <tread/contact/coulomb_solver.h>
 #include <tread/contact/mortar.h>
@@ -28,6 +29,9 @@ namespace tread
     /// ... or when the loaded slave faces have turned by this angle, rad: 22 times with half of it, 18 with
     /// double.
     double turning = 2e-3;
+    /// Whether all ranks sweep all pairs, in the order of their places, so that the impulses do not depend on
+    /// the number of ranks. Otherwise each rank has a strip of its own.
+    bool reproducible = false;
   };
 
   /// Result of the last step at one slave node.
@@ -51,8 +55,8 @@ namespace tread
                           ///< older than their sliding turn with the surfaces, lost or gained
     double adhesion =
       0.; ///< lost by the tangential impulses of adhering pairs: what stops those that slipped
-    double on_nodes = 0.; ///< lost by what the forces on the nodes do
-    double imposed  = 0.; ///< put in by who imposes sliding; on_nodes + imposed is lost by the pairs
+    ReproducibleSum<double> on_nodes; ///< lost by what the forces on the nodes do
+    double imposed = 0.; ///< put in by who imposes sliding; on_nodes + imposed is lost by the pairs
   };
 
   /// Contact between the surface of one body and those of others, each of which touches it in a place of its
@@ -142,8 +146,8 @@ namespace tread
     /// Total impulse on the master surfaces from slave nodes whose reference position is at smaller y, N s.
     Vector3 total_impulse_below(const double y) const;
 
-    /// This rank's share.
-    ContactWork last_work() const
+    /// This rank's share, J.
+    const ContactWork &last_work() const
     {
       return work;
     }
@@ -193,6 +197,9 @@ namespace tread
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Vector3>      &impulse_of_node,
                  const std::vector<Vector3>      &x);
+    /// Whether this rank counts what all of its strip's pairs do: where all ranks sweep all pairs only one
+    /// does.
+    bool counts_pairs() const;
     /// Allocate the arrays used in each step for the present pairs and involved nodes.
     /// @param begin_of_strip division into strips, for the same pairs and number of ranks; if empty, new
     /// strips are made.

@@ -3,6 +3,7 @@
 #define tread_dynamics_explicit_dynamics_h
 
 #include <tread/base/archive.h>
+#include <tread/base/reproducible_sum.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/energy_ledger.h>
 #include <tread/dynamics/node_levels.h>
@@ -258,9 +259,13 @@ namespace tread
     StrainEnergy strain_energy() const;
     /// Forces of the cells, before hanging nodes pass theirs to their parents.
     NodalField cell_forces() const;
-    /// Contribution of damping to the forces of this rank's cells, N. @param forces the present
-    /// cell_forces(). @returns the dissipated power with the velocities of half a step back, W.
+    /// Contribution of damping to the forces of the cells of all ranks on nodes that do not hang, N. @param
+    /// forces the present cell_forces(). @returns the dissipated power with the velocities of half a step
+    /// back, of all ranks, W. Collective.
     double damping_forces(const NodalField &forces, NodalField &damping) const;
+    /// That the forces on this rank's own nodes take with the present velocities, summed over all ranks, W.
+    /// Collective.
+    double power_of(const NodalField &forces) const;
     /// Energy dissipated from the step of the last sample to the previous step, if the power is this much at
     /// present, J.
     double damping_since_sample(const double power) const;
@@ -275,6 +280,9 @@ namespace tread
 
     /// Forces of the cells that are due in this step, times 2^level.
     void add_forces_due(const unsigned int due);
+    /// Where slow shares do not depend on the ranks: give what the cells of this level have added to the
+    /// forces since force_before to the ranks that own the nodes. Collective.
+    void give_to_owners(const SlowShares &shares);
 
     using Run = NodeLevels::Run;
 
@@ -322,15 +330,15 @@ namespace tread
       struct OfWheel
       {
         Vector3 arms{};     ///< from the axle to the wheel's nodes, at right angles to it, kg m
-        Vector3 momentum{}; ///< of the wheel's nodes on top of the rigid motion, kg m/s
+        Vector3 drag{};     ///< of mass damping on the wheel's nodes, N
         Vector3 products{}; ///< of these arms with the places along the axle, kg m^2
-        Vector3 moments{};  ///< of that momentum about the wheel's middle, kg m^2/s
+        Vector3 moments{};  ///< of that drag about the wheel's middle, N m
 
         void operator+=(const OfWheel &other)
         {
           arms += other.arms;
           products += other.products;
-          momentum += other.momentum;
+          drag += other.drag;
           moments += other.moments;
         }
       };
@@ -341,7 +349,7 @@ namespace tread
       }
 
       std::vector<OfWheel> wheels;
-      Vector3              squares{}; ///< squares of all velocities on top of the rigid motion, kg m^2/s^2
+      Vector3              loss{}; ///< by this drag in a step, J: its parts along x, y and z
     };
 
     /// Mass of a node that is free to move, times factor, kg.
@@ -392,7 +400,8 @@ namespace tread
 
     DynamicsParameters  parameters;
     NodeLevels          levels;
-    NodalField          force_before; ///< of the cells of a level, on nodes that share them
+    NodalField          force_before;    ///< of the cells of a level, on nodes that share them
+    NodalField          given_to_owners; ///< of these forces, what is one rank's alone
     NodalField          force;
     NodalField          x_damped;                ///< x + beta v: all that a step needs of positions
     double              damping_time = 0.;       ///< beta, s: set by start(), 0 at rest
@@ -412,7 +421,24 @@ namespace tread
     std::vector<double>           rank_sums;
     static constexpr unsigned int n_hub_sums = 12;
 
-    EnergyLedger          totals; ///< accumulated by step()
+    /// What is rounded before sums over nodes or ranks, so that they do not depend on the ranks; 0: nothing.
+    struct Quanta
+    {
+      Quantum force;     ///< on a node, N
+      Quantum on_hubs;   ///< forces and moments that add up to those of hubs, N and N m
+      Quantum moments;   ///< of masses of a wheel's nodes, kg m and kg m^2
+      Quantum loss;      ///< of one node in one step, J
+      Quantum stiffness; ///< of which masses of the relaxation are made, N/m
+    };
+    Quanta quanta;
+
+    /// Accumulated by step(), J: this rank's shares of what the ledger has by these names.
+    struct Totals
+    {
+      ReproducibleSum<double> external_work, gross_work, friction, contact, damping, plastic,
+        contact_on_nodes;
+    };
+    Totals                totals;
     double                start_kinetic = 0., start_potential = 0.;
     StrainEnergy          start_strain;
     std::array<double, 2> start_hub_work{}; ///< @see work_on_hubs

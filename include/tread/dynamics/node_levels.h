@@ -20,6 +20,9 @@ namespace tread
     std::vector<unsigned int> nodes;        ///< by their own levels
     std::vector<std::size_t>  end_of_level; ///< in nodes
     NodalField                steady;       ///< N
+    /// Of shares that do not depend on the ranks: nodes with copies elsewhere, places in nodes. One rank has
+    /// the whole share of each, the others none.
+    std::vector<std::size_t> with_copies;
 
     /// Call work(k, 2^own level) for nodes[k] up to an own level.
     template <typename Work>
@@ -55,7 +58,8 @@ namespace tread
     NodeLevels() = default;
 
     /// @param smallest_steps nodes of level 0, besides those of contact surfaces.
-    /// @param wheel_of_body number of the wheel that a body is, -1: none. Collective.
+    /// @param wheel_of_body number of the wheel that a body is, -1: none.
+    /// With a solid whose forces do not depend on the ranks steady shares do not either. Collective.
     NodeLevels(const Mesh                      &mesh,
                const Solid                     &solid,
                const std::vector<unsigned int> &smallest_steps,
@@ -66,8 +70,9 @@ namespace tread
       return runs.size() - 1;
     }
 
-    /// Store or restore the steady shares of slow cells' forces. On other ranks they begin anew. Collective.
-    void serialize(Archive &archive);
+    /// Store or restore the steady shares of slow cells' forces. On other ranks they begin anew, unless they
+    /// do not depend on the ranks. Collective.
+    void serialize(Archive &archive, const Mesh &mesh);
 
     std::vector<unsigned int>      of_node;
     std::vector<std::vector<Run>>  runs;    ///< by level; hanging nodes, which are placed, are in none
@@ -75,11 +80,13 @@ namespace tread
     std::vector<Mesh::HangingNode> hanging_at_contact;
     std::vector<SlowShares>        slow_shares; ///< by level
     bool                           slow_shares_known = false;
+    bool                           reproducible      = false; ///< slow shares do not depend on the ranks
 
     /// Memory of this rank's nodes in this object, bytes.
     std::size_t memory_consumption() const;
 
   private:
+    void serialize_by_key(Archive &archive, const Mesh &mesh);
     /// By node of the mesh; null: it does not hang.
     using Hangs = std::vector<const Mesh::HangingNode *>;
 

@@ -50,6 +50,7 @@ namespace tread
     reference::BeamSection                          rail_section;
     double                                          centroid_z = 0., begin = 0., end = 0.;
     std::vector<int>                                support_of_body; ///< of a solid sleeper; -1: none
+    Quantum                                         quantum;         ///< of what nodes add to sums, N and N m
     std::unique_ptr<const reference::SupportedBeam> beam;
   };
 } // namespace tread

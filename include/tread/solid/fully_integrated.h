@@ -17,6 +17,7 @@ namespace tread
 
     explicit FullyIntegrated(const SolidParameters &parameters)
       : density_scale(parameters.density_scale)
+      , force_quantum(parameters.force_quantum())
     {
     }
 
@@ -29,7 +30,8 @@ namespace tread
       const std::vector<unsigned int> &cells) const override;
 
   private:
-    double density_scale;
+    double  density_scale;
+    Quantum force_quantum;
   };
 } // namespace tread
 

@@ -2,6 +2,7 @@
 #ifndef tread_solid_one_point_batch_h
 #define tread_solid_one_point_batch_h
 
+#include <tread/base/reproducible_sum.h>
 #include <tread/base/simd.h>
 #include <tread/solid/hexahedron.h>
 
@@ -53,8 +54,8 @@ namespace tread
         }
     }
 
-    /// Add to the nodes the sum of the patterns times these vectors: the transpose of read().
-    void add_to(Vector3 *rows, const unsigned int (&node)[8][n_lanes]) const
+    /// Add to the nodes the sum of the patterns times these vectors, rounded: the transpose of read().
+    void add_to(Vector3 *rows, const unsigned int (&node)[8][n_lanes], const Quantum quantum) const
     {
       for (unsigned int zeta = 0; zeta < 2; ++zeta)
         {
@@ -78,8 +79,10 @@ namespace tread
               const unsigned int a = 4 * zeta + 2 * eta;
               const auto        &s = sum[eta];
               const auto        &d = difference[eta];
-              scatter_add(rows, node[a], s[0] - d[0], s[1] - d[1], s[2] - d[2]);
-              scatter_add(rows, node[a + 1], s[0] + d[0], s[1] + d[1], s[2] + d[2]);
+              scatter_add(rows, node[a], quantum.round(s[0] - d[0]), quantum.round(s[1] - d[1]),
+                          quantum.round(s[2] - d[2]));
+              scatter_add(rows, node[a + 1], quantum.round(s[0] + d[0]), quantum.round(s[1] + d[1]),
+                          quantum.round(s[2] + d[2]));
             }
         }
     }
@@ -143,13 +146,14 @@ namespace tread
         }
   }
 
-  /// Add P B_a + sum_m Q_m gamma_m(a) to the nodes: the transpose of deform(). P (N m) is overwritten; Q in
-  /// N.
+  /// Add P B_a + sum_m Q_m gamma_m(a), rounded, to the nodes: the transpose of deform(). P (N m) is
+  /// overwritten; Q in N.
   template <bool affine>
   inline void add_forces_of(const OnePointBatch<affine> &batch,
                             Vector3                     *force,
                             Lanes (&P)[3][3],
-                            const Lanes (&Q)[4][3])
+                            const Lanes (&Q)[4][3],
+                            const Quantum quantum)
   {
     NodalPatterns f;
     for (unsigned int i = 0; i < 3; ++i)
@@ -170,7 +174,7 @@ namespace tread
                                    P[i][2] * batch.hourglass_gradient[m][2];
           }
       }
-    f.add_to(force, batch.node);
+    f.add_to(force, batch.node, quantum);
   }
 } // namespace tread
 

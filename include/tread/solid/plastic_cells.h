@@ -54,11 +54,12 @@ namespace tread
     static constexpr double relative_cost = 2.;
 
     /// @param materials one for each body. @param zones if a cell lies in several zones of a body, the last
-    /// one applies.
+    /// one applies. @param force_quantum of what is added to the forces of nodes, N.
     PlasticCells(const Mesh                         &mesh,
                  const std::vector<ElasticMaterial> &materials,
                  const std::vector<PlasticZone>     &zones,
-                 const double                        hourglass_coefficient);
+                 const double                        hourglass_coefficient,
+                 const Quantum                       force_quantum = Quantum());
 
     bool contains(const unsigned int cell) const
     {
@@ -80,10 +81,10 @@ namespace tread
     void add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const;
 
     /// The same with an update of the history. @returns the plastic work done in it on this rank, J.
-    double update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const;
+    ReproducibleSum<double> update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const;
 
     /// Elastic energies of deformation and of the hourglass modes at x, J.
-    std::array<double, 2> energies(const Vector3 *x, const PlasticHistory &history) const;
+    std::array<ReproducibleSum<double>, 2> energies(const Vector3 *x, const PlasticHistory &history) const;
 
     /// Write the Cauchy stress (xx, yy, zz, xy, yz, zx; Pa) of the cells at x into a list of all cells.
     /// @param wanted by cell: batches without any wanted cell are omitted; empty: all cells.
@@ -132,7 +133,10 @@ namespace tread
     struct State;
 
     template <unsigned int n, bool updates, typename History>
-    double add_forces(const Range &range, const Vector3 *x, Vector3 *force, History &history) const;
+    ReproducibleSum<double> add_forces(const Range   &range,
+                                       const Vector3 *x,
+                                       Vector3       *force,
+                                       History       &history) const;
 
     /// Call work(range, n) for each range, with the number n of its backstresses as a constant.
     template <typename Work>
@@ -147,6 +151,7 @@ namespace tread
     std::vector<std::array<int, n_lanes>> cell_of_lane; ///< -1: padded
     std::vector<std::array<long long, 4>> keys;         ///< of the cells, in the order of for_cells()
     std::vector<Range>                    ranges;
+    Quantum                               force_quantum;
   };
 } // namespace tread
 

@@ -26,6 +26,12 @@ namespace tread
     double strain = 0., hourglass = 0.;
   };
 
+  /// The same as sums that do not depend on the ranks.
+  struct StrainEnergySums
+  {
+    ReproducibleSum<double> strain, hourglass;
+  };
+
   /// The deformable cells of this rank: internal forces, lumped mass, frequencies.
   ///
   /// Total Lagrangian: gradients refer to the reference positions and are computed once;
@@ -70,18 +76,23 @@ namespace tread
 
     /// Forces of all cells with an update of the history to x: once per step, with the cells of level 0.
     /// @returns the plastic work done on this rank, J.
-    double update_internal_forces(const Vector3  *x,
-                                  const Vector3  *v,
-                                  Vector3        *force,
-                                  PlasticHistory &history,
-                                  const Levels    levels = {}) const
+    ReproducibleSum<double> update_internal_forces(const Vector3  *x,
+                                                   const Vector3  *v,
+                                                   Vector3        *force,
+                                                   PlasticHistory &history,
+                                                   const Levels    levels = {}) const
     {
       add_elastic_forces(x, v, force, levels);
-      return levels.first == 0 ? plastic_cells.update(x, force, history) : 0.;
+      return levels.first == 0 ? plastic_cells.update(x, force, history) : ReproducibleSum<double>();
     }
 
     /// Energies stored in the cells of this rank at x.
-    StrainEnergy strain_energy(const Vector3 *x, const PlasticHistory &history) const;
+    StrainEnergySums strain_energy_sums(const Vector3 *x, const PlasticHistory &history) const;
+    StrainEnergy     strain_energy(const Vector3 *x, const PlasticHistory &history) const
+    {
+      const StrainEnergySums sums = strain_energy_sums(x, history);
+      return {sums.strain.value(), sums.hourglass.value()};
+    }
     StrainEnergy strain_energy(const Vector3 *x) const
     {
       return strain_energy(x, virgin_history);
@@ -135,6 +146,17 @@ namespace tread
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell. They
     /// are computed anew and not stored.
     std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
+
+    /// Whether sums of forces at the nodes are not to depend on the ranks, and the quantum of what is added
+    /// to them for that, N.
+    bool reproducible() const
+    {
+      return parameters.reproducible;
+    }
+    Quantum force_quantum() const
+    {
+      return parameters.force_quantum();
+    }
 
     bool needs_velocity() const
     {

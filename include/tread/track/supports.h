@@ -3,6 +3,7 @@
 #define tread_track_supports_h
 
 #include <tread/base/archive.h>
+#include <tread/base/reproducible_sum.h>
 #include <tread/mesh/mesh.h>
 #include <tread/reference/supported_beam.h>
 
@@ -83,6 +84,14 @@ namespace tread
     void set_gravity(const double value)
     {
       gravity = value;
+    }
+
+    /// Round what is added to the forces of nodes (N) and to row sums (N/m, N s/m), so that the sums do not
+    /// depend on the ranks.
+    void set_quanta(const Quantum of_forces, const Quantum of_rows)
+    {
+      force_quantum = of_forces;
+      row_quantum   = of_rows;
     }
 
     /// Initialise the displacements from nodal positions: everything is at rest, and rigid sleepers are
@@ -224,6 +233,7 @@ namespace tread
     std::vector<double> spring_force; ///< by spring, of the last step: tension, N
     std::vector<double> damper_force; ///< the dampers' part of it
     double              damper_work = 0., gravity = 0.;
+    Quantum             force_quantum, row_quantum;
   };
 } // namespace tread
 

@@ -16,6 +16,11 @@ namespace tread
       "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
       "inertia like (speed / wave speed)^2. 1 to 100; above 1 only for quasi-static scenes.",
       Double(1., 100.));
+    section.add(
+      "Reproducible", reproducible,
+      "Whether all results are the same to the last bit on any number of ranks, also after a run is "
+      "resumed on others. Forces are then rounded to 1.5e-8 N, and every rank solves the whole contact "
+      "instead of a strip of it.");
   }
 
 

@@ -12,6 +12,7 @@ namespace tread
     std::string title;
     bool        quasi_static  = true;
     double      density_scale = 1.; ///< factor on the density of the cells
+    bool        reproducible  = false;
 
     void declare(dealii::ParameterHandler &handler);
     void check() const;
