@@ -193,6 +193,8 @@ namespace tread
                  const std::vector<unsigned int> &chosen,
                  const std::vector<Vector3>      &impulse_of_node,
                  const std::vector<Vector3>      &x);
+    /// Whether pairs, nodes and strips that were restored belong together.
+    bool is_consistent(const std::vector<unsigned int> &begin_of_strip) const;
     /// Allocate the arrays used in each step for the present pairs and involved nodes.
     /// @param begin_of_strip division into strips, for the same pairs and number of ranks; if empty, new
     /// strips are made.
