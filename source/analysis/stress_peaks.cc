@@ -325,6 +325,6 @@ namespace tread
   {
     if (!archive.restores())
       peaks = of_all_ranks();
-    archive.same(peaks);
+    archive.same_number(peaks);
   }
 } // namespace tread

@@ -93,7 +93,10 @@ namespace tread
   {
     Group group;
     get_values(rank, &group, sizeof group);
-    if (group.size != size || group.number > parts[rank].bytes.size())
+    // No more values than there are bytes for are made room for.
+    const Part       &part  = parts[rank];
+    const std::size_t least = size > 0 ? size : sizeof(Group);
+    if (group.size != size || group.number > (part.bytes.size() - part.next) / least)
       throw OtherLayout();
     return group.number;
   }

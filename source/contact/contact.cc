@@ -380,27 +380,6 @@ namespace tread
   }
 
 
-  void Contact::serialize(Archive &archive)
-  {
-    if (!archive.restores())
-      complete_state();
-    archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
-                 corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
-                 travelled, allowed_travel, unconverged_steps, pair_friction.coefficient,
-                 pair_friction.factor);
-    archive.shares(work.friction, work.normal, work.adhesion, work.imposed);
-    work.on_nodes.serialize(archive);
-    std::vector<unsigned int> begin_of_strip = strips.begins();
-    archive.same(begin_of_strip);
-    if (archive.restores())
-      make_room(begin_of_strip);
-    if (parameters.reproducible)
-      archive.same(slips);
-    else
-      archive.own(slips); // on other ranks they are found by the next step
-  }
-
-
   void Contact::predict(const Vector3       *v,
                         const Vector3       *force,
                         const double         time_step,

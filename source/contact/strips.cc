@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace tread
 {
@@ -63,7 +64,8 @@ namespace tread
   {
     this->comm           = comm;
     this->begin_of_strip = begin_of_strip;
-    divide(problem, n_nodes);
+    if (!divide(problem, n_nodes))
+      throw std::invalid_argument("these strips are too thin for the pairs");
   }
 
 

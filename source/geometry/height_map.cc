@@ -45,8 +45,12 @@ namespace tread
     n = places.size();
     if (n < 2)
       throw InputError("'" + file + "' needs at least two different " + name);
-    begin   = 1e-3 * places.front();
-    spacing = 1e-3 * (places.back() - places.front()) / (n - 1);
+    begin                  = 1e-3 * places.front();
+    spacing                = 1e-3 * (places.back() - places.front()) / (n - 1);
+    constexpr double least = 1e-9; // m
+    if (!(spacing >= least))
+      throw InputError("'" + file + "': " + name + " have spacings of " + text_in_mm(spacing) +
+                       " mm; at least " + text_in_mm(least) + " mm");
     for (std::size_t i = 0; i < n; ++i)
       if (std::abs(1e-3 * places[i] - begin - i * spacing) > printed_digits * spacing)
         throw InputError("'" + file + "': " + name + " " + text_of(places[i]) +
@@ -57,7 +61,7 @@ namespace tread
 
   std::size_t HeightMap::Axis::place_of(const double value) const
   {
-    return std::lround((value - begin) / spacing);
+    return std::lround(std::clamp((value - begin) / spacing, 0., double(n - 1)));
   }
 
 
@@ -70,27 +74,41 @@ namespace tread
   HeightMap::HeightMap(const CsvTable &table)
     : along(table.column("x_mm"), "x_mm", table.file)
     , across(table.column("y_mm"), "y_mm", table.file)
-    , heights(along.n * across.n, 0.)
   {
     const std::vector<double> &x = table.column("x_mm"), &y = table.column("y_mm"), &z = table.column("z_mm");
-    std::vector<bool>          known(heights.size(), false);
+    std::vector<std::size_t>   places;
+    for (std::size_t row = 0; row < z.size(); ++row)
+      places.push_back(across.place_of(1e-3 * y[row]) * along.n + along.place_of(1e-3 * x[row]));
+    // Nothing is made room for that the file does not have.
+    if (along.n * across.n > places.size())
+      fail_at_missing(places, table.file);
+    heights.assign(along.n * across.n, 0.);
+    std::vector<bool> known(heights.size(), false);
     for (std::size_t row = 0; row < z.size(); ++row)
       {
-        const std::size_t k = across.place_of(1e-3 * y[row]) * along.n + along.place_of(1e-3 * x[row]);
+        const std::size_t k = places[row];
         if (known[k])
           throw InputError("'" + table.file + "', row " + std::to_string(row + 1) + ": x " + text_of(x[row]) +
                            " mm, y " + text_of(y[row]) + " mm is there twice");
         known[k]   = true;
         heights[k] = 1e-3 * z[row];
       }
-    if (const auto missing = std::find(known.begin(), known.end(), false); missing != known.end())
-      {
-        const std::size_t k = missing - known.begin();
-        throw InputError("'" + table.file + "': the place x " +
-                         text_in_mm(along.begin + (k % along.n) * along.spacing) + " mm, y " +
-                         text_in_mm(across.begin + (k / along.n) * across.spacing) + " mm of its grid of " +
-                         std::to_string(along.n) + " x " + std::to_string(across.n) + " is missing");
-      }
+  }
+
+
+  void HeightMap::fail_at_missing(std::vector<std::size_t> places, const std::string &file) const
+  {
+    std::sort(places.begin(), places.end());
+    std::size_t k = 0;
+    for (const std::size_t place : places)
+      if (place == k)
+        ++k;
+      else if (place > k)
+        break;
+    throw InputError("'" + file + "': the place x " +
+                     text_in_mm(along.begin + (k % along.n) * along.spacing) + " mm, y " +
+                     text_in_mm(across.begin + (k / along.n) * across.spacing) + " mm of its grid of " +
+                     std::to_string(along.n) + " x " + std::to_string(across.n) + " is missing");
   }
 
 

@@ -25,6 +25,9 @@ namespace tread
       unsigned int line; ///< in the file
     };
 
+    /// Places that are nearer are one, m.
+    constexpr double least_distance = 1e-9;
+
     [[noreturn]] void fail(const std::string &file, const std::string &what)
     {
       throw std::runtime_error("profile '" + file + "': " + what);
@@ -192,6 +195,10 @@ namespace tread
         });
       const std::vector<Sample> samples =
         format != formats.end() ? format->read(file, in) : read_table(file, in);
+      constexpr double furthest = 1e4; // m
+      for (const Sample &s : samples)
+        if (!(std::abs(s.x) <= furthest && std::abs(s.z) <= furthest))
+          fail(file, s.line, "a place further away than " + text_in_mm(furthest) + " mm");
       if (samples.size() < 4)
         fail(file, "has " + std::to_string(samples.size()) + (samples.size() == 1 ? " point" : " points") +
                      "; at least four are needed");
@@ -240,9 +247,9 @@ namespace tread
           middle = samples.size() - 1 - middle;
         }
       std::size_t begin = middle, end = middle;
-      while (begin > 0 && samples[begin - 1].x < samples[begin].x)
+      while (begin > 0 && samples[begin].x - samples[begin - 1].x >= least_distance)
         --begin;
-      while (end + 1 < samples.size() && samples[end].x < samples[end + 1].x)
+      while (end + 1 < samples.size() && samples[end + 1].x - samples[end].x >= least_distance)
         ++end;
       const bool folds_before = samples[begin].x > -half_width && begin > 0,
                  folds_after  = samples[end].x < half_width && end + 1 < samples.size();
@@ -297,7 +304,7 @@ namespace tread
   {
     const std::vector<Sample> samples = read_samples(file);
     for (std::size_t i = 1; i < samples.size(); ++i)
-      if (samples[i].x <= samples[i - 1].x)
+      if (!(samples[i].x - samples[i - 1].x >= least_distance))
         fail(file, samples[i].line, "x must increase from line to line");
     refuse_gaps(file, samples);
     return line_through(samples);
@@ -415,6 +422,10 @@ namespace tread
     std::sort(about.begin(), about.end(), [](const Sample &a, const Sample &b) { return a.x < b.x; });
     if (about.size() < 4 || about.front().x > 0. || about.back().x < 0.)
       fail(file, "has less than four points within 5 mm of the running circle y = 0");
+    for (std::size_t i = 1; i < about.size(); ++i)
+      if (!(about[i].x - about[i - 1].x >= least_distance))
+        fail(file, about[i].line,
+             "y = " + text_in_mm(about[i].x) + " mm occurs twice, within 5 mm of the running circle y = 0");
     const double level = line_through(about)(0.);
     for (Sample &s : samples)
       s.z -= level;

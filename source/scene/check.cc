@@ -107,15 +107,15 @@ namespace tread
     std::sort(begins.begin(), begins.end());
     for (std::size_t k = 0; k < begins.size(); ++k)
       {
-        const double      begin = begins[k], end = begin + made.length;
+        const double      begin = begins[k], end = begin + made.length, before = begins[k > 0 ? k - 1 : 0];
         const std::string which =
           begin == made.begin ? "'Defect/Position (mm)' " : "'Defect/Repeated at (mm)' ";
         require(begin >= rail_begin() && end <= rail_end(),
                 "the defect, from " + which + text_in_mm(begin) + " to " + text_in_mm(end) +
                   " mm, lies outside the rail, which is from " + text_in_mm(rail_begin()) + " to " +
                   text_in_mm(rail_end()) + " mm");
-        require(k == 0 || begin >= begins[k - 1] + made.length - round_off,
-                "'Defect/Repeated at (mm)': the defects from " + text_in_mm(begins[k - 1]) + " and " +
+        require(k == 0 || begin >= before + made.length - round_off,
+                "'Defect/Repeated at (mm)': the defects from " + text_in_mm(before) + " and " +
                   text_in_mm(begin) + " mm overlap, being " + text_in_mm(made.length) + " mm long");
         const double fine_begin = made.begin + mesh.fine_from, fine_end = made.begin + mesh.fine_to;
         require(mesh.fine_from == mesh.fine_to || mesh.path_cell <= mesh.finest_cell || begin == made.begin ||

@@ -2,6 +2,7 @@
 #include <tread/scene/scene.h>
 
 #include <boost/property_tree/json_parser.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -17,6 +18,15 @@ namespace tread
 {
   namespace
   {
+    /// The beginning and the end of a text that is longer than what a user may be told of a value.
+    std::string shortened(const std::string &text)
+    {
+      constexpr std::size_t longest = 1000, kept_end = 700;
+      return text.size() <= longest
+               ? text
+               : text.substr(0, longest - kept_end) + " ... " + text.substr(text.size() - kept_end);
+    }
+
     /// What a deal.II exception says, on one line.
     std::string one_line(const dealii::ExceptionBase &error)
     {
@@ -26,7 +36,7 @@ namespace tread
       std::string        word, line;
       while (words >> word)
         line += (line.empty() ? "" : " ") + word;
-      return line;
+      return shortened(line);
     }
 
     std::size_t edit_distance(const std::string &a, const std::string &b)
@@ -65,6 +75,33 @@ namespace tread
       return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }
 
+    /// As the files of a run must be, of which titles and names of files become part.
+    bool is_utf8(const std::string &text)
+    {
+      try
+        {
+          nlohmann::json(text).dump();
+          return true;
+        }
+      catch (const nlohmann::json::type_error &)
+        {
+          return false;
+        }
+    }
+
+    /// The file that a line "include NAME" names; empty for another line. deal.II would look for it in the
+    /// present folder, and would not notice a file that includes itself.
+    std::string included_by(const std::string &line)
+    {
+      std::string text = line.substr(0, line.find('#'));
+      std::replace(text.begin(), text.end(), '\t', ' ');
+      text = dealii::Utilities::trim(text);
+      for (const std::string word : {"include ", "INCLUDE "})
+        if (text.compare(0, word.size(), word) == 0)
+          return dealii::Utilities::trim(text.substr(word.size()));
+      return "";
+    }
+
     /// A parameter file: what it says itself, and the files that it includes.
     struct ParameterFile
     {
@@ -79,14 +116,32 @@ namespace tread
       if (!input)
         throw InputError("cannot read parameter file '" + file + "'" +
                          (included ? ", which another one includes" : ""));
-      const std::regex include("\\s*include\\s+([^#]*[^#\\s])\\s*(#.*)?");
-      ParameterFile    content;
-      std::string      line;
-      for (std::smatch match; std::getline(input, line); content.text += '\n')
-        if (std::regex_match(line, match, include))
-          content.included.push_back(match[1]);
-        else
-          content.text += line;
+      ParameterFile content;
+      // Lines that end with a backslash go on in the next one, and words as well.
+      std::string joined, as_they_are;
+      std::size_t number = 0;
+      for (std::string line; std::getline(input, line);)
+        {
+          ++number;
+          require(is_utf8(line.substr(0, line.find('#'))),
+                  "'" + file + "', line " + std::to_string(number) +
+                    ": its characters are not UTF-8; save the file in that encoding");
+          const std::string trimmed = dealii::Utilities::trim(line);
+          const bool        goes_on = !trimmed.empty() && trimmed.back() == '\\';
+          joined += goes_on ? trimmed.substr(0, trimmed.size() - 1) : trimmed;
+          as_they_are += line + '\n';
+          if (goes_on && input.peek() != std::ifstream::traits_type::eof())
+            continue;
+          if (const std::string name = included_by(joined); !name.empty())
+            {
+              content.included.push_back(name);
+              content.text.append(std::count(as_they_are.begin(), as_they_are.end(), '\n'), '\n');
+            }
+          else
+            content.text += as_they_are;
+          joined.clear();
+          as_they_are.clear();
+        }
       return content;
     }
 
@@ -268,9 +323,10 @@ namespace tread
       text.erase(text.find_last_not_of(" \t") + 1);
       return text;
     };
+    require(is_utf8(setting), "a setting of -s is not UTF-8 text");
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
-      throw InputError("-s \"" + setting + "\": expected Section/Name=value");
+      throw InputError("-s \"" + shortened(setting) + "\": expected Section/Name=value");
     const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
     for (const Entry &entry : all_entries(handler))
       if (entry.path == path)
@@ -283,13 +339,14 @@ namespace tread
           catch (const dealii::ExceptionBase &)
             {
               handler.leave_subsection();
-              throw InputError("'" + path + "' cannot be '" + value +
+              throw InputError("'" + path + "' cannot be '" + shortened(value) +
                                "'; allowed: " + readable(entry.pattern));
             }
           handler.leave_subsection();
           return;
         }
-    throw InputError("no parameter '" + path + "'; " + did_you_mean(handler, path));
+    const std::string unknown = shortened(path);
+    throw InputError("no parameter '" + unknown + "'; " + did_you_mean(handler, unknown));
   }
 
 

@@ -88,9 +88,11 @@ namespace tread
     require(!numbers.empty() && table.names().size() > 1, begin + "has no rows, or no column beside support");
     for (std::size_t row = 0; row < numbers.size(); ++row)
       {
-        const std::string place  = begin + "row " + std::to_string(row + 1) + ": ";
-        const int         number = static_cast<int>(numbers[row]);
-        require(numbers[row] == number, place + "support " + text_of(numbers[row]) + " is no whole number");
+        const std::string place = begin + "row " + std::to_string(row + 1) + ": ";
+        constexpr double  most  = 1e6; // more than on any rail
+        require(numbers[row] == std::round(numbers[row]) && std::abs(numbers[row]) <= most,
+                place + "support " + text_of(numbers[row]) + " is no whole number, or far beyond the rail");
+        const int number = static_cast<int>(numbers[row]);
         require(support_springs.count(number) == 0,
                 place + "support " + std::to_string(number) + " occurs twice");
         Springs own{track.pad_stiffness, track.ballast_stiffness, track.pad_damping, track.ballast_damping};

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -47,10 +48,17 @@ namespace tread
     if (time.front() > 0.)
       throw InputError(parameter + "'" + file + "' begins at " + text_of(time.front()) +
                        " s, after the start of the run at 0");
+    constexpr double shortest = 1e-9; // s
     for (std::size_t row = 1; row < time.size(); ++row)
-      if (!(time[row] > time[row - 1]))
+      if (!(time[row] - time[row - 1] >= shortest))
         throw InputError(parameter + "'" + file + "', row " + std::to_string(row + 1) + ": time_s " +
                          text_of(time[row]) + " does not follow " + text_of(time[row - 1]));
+    constexpr double largest = 1e6; // of any number: none of a wheelset comes near
+    for (const std::string &name : table.names())
+      for (std::size_t row = 0; row < time.size(); ++row)
+        if (const double value = table.column(name)[row]; !(std::abs(value) <= largest))
+          throw InputError(parameter + "'" + file + "', row " + std::to_string(row + 1) + ": " + name + " " +
+                           text_of(value) + " is larger than " + text_of(largest));
     // A gap among samples that are otherwise evenly spread is a piece that is missing.
     std::vector<double> steps;
     for (std::size_t row = 1; row < time.size(); ++row)

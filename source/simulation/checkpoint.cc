@@ -171,10 +171,13 @@ namespace tread
       throw InputError("--resume: no checkpoint in '" + folder.path("") + "'");
     next_slot = name.back() == '0' ? 1 : 0;
 
-    const std::string content = content_of(name);
-    std::uint64_t     size    = 0;
-    std::memcpy(&size, content.data(), std::min(sizeof size, content.size()));
-    require_same_parameters(content.substr(std::min(sizeof size, content.size()), size));
+    const std::string content = content_of(name),
+                      damaged = "--resume: '" + folder.path(name) + "' is damaged";
+    std::uint64_t size        = 0;
+    require(content.size() >= sizeof size, damaged);
+    std::memcpy(&size, content.data(), sizeof size);
+    require(content.size() - sizeof size >= size, damaged);
+    require_same_parameters(content.substr(sizeof size, size));
     try
       {
         Archive archive(comm, content.substr(sizeof size + size));

@@ -99,7 +99,7 @@ namespace tread
         {
           do
             copy();
-          while (line.empty());
+          while (line.empty() && rows);
           char text[300];
           std::snprintf(text, sizeof(text), ",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d\n",
                         a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure,
@@ -131,6 +131,9 @@ namespace tread
     std::error_code none;
     if (std::filesystem::equivalent(cases, output, none))
       throw InputError("--batch reads '" + cases + "'; --output must be another file");
+    if (std::filesystem::exists(cases) && !std::filesystem::is_directory(cases) &&
+        !std::filesystem::is_regular_file(cases))
+      throw InputError("--batch reads its table twice; '" + cases + "' is no file");
     Progress                                 progress(true);
     std::string                              not_read;
     const std::vector<tread_half_space_case> problems = read_cases(cases, not_read);

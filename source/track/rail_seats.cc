@@ -55,6 +55,6 @@ namespace tread
 
   void RailSeats::serialize(Archive &archive)
   {
-    archive.same(force, time, wheel_x, pressure);
+    archive.same_number(force, time, wheel_x, pressure);
   }
 } // namespace tread

@@ -582,6 +582,7 @@ namespace tread
 
   void Supports::serialize(Archive &archive)
   {
-    archive.same(displacement, velocity, spring_force, damper_work);
+    archive.same_number(displacement, velocity, spring_force);
+    archive.same(damper_work);
   }
 } // namespace tread

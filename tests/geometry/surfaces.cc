@@ -186,6 +186,8 @@ namespace
         read_rail_head(file, 20e-3);
       else if (kind == "wheel")
         read_wheel_tread(file, 20e-3);
+      else if (kind == "flange")
+        read_wheel_points(file);
       else if (kind == "map")
         HeightMap map(file);
       else
@@ -303,6 +305,13 @@ namespace
     says("x turns back", complaint("defect", ".txt", "0 0\n2 -.1\n1 -.2\n3 0\n"), {"line 3", "increase"});
     says("a gap", complaint("defect", ".txt", "0 0\n1 -.1\n2 -.2\n3 -.2\n30 0\n31 0\n"),
          {"line 5", "gap", "27 mm"});
+    says("a point beyond all rails", complaint("defect", ".txt", "0 0\n1 -.1\n2 -.2\n3 1e300\n"),
+         {"line 4", "further away"});
+    says("points that nearly coincide", complaint("defect", ".txt", "0 0\n1e-320 -.1\n2 -.2\n3 0\n"),
+         {"line 2", "increase"});
+    says("a unit that makes lengths infinite",
+         complaint("rail", ".prr", "units.len.f = 1e-308\npoint.begin\n-30 1\n-1 0\n1 0\n30 1\npoint.end\n"),
+         {"line 3", "further away"});
     says("too few points", complaint("defect", ".txt", "0 0\n1 0\n"), {"2 points"});
     says("a narrow rail head", complaint("rail", ".txt", "-5 -.1\n-2 0\n2 0\n5 -.1\n"), {"-5 mm", "20 mm"});
     says("a rail head that folds back",
@@ -316,10 +325,16 @@ namespace
     says("a map with unequal spacings",
          complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n3,0,0\n0,1,0\n1,1,0\n3,1,0\n"),
          {"x_mm 1", "equal spacings"});
+    says("a map whose spacing vanishes",
+         complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n5e-324,0,0\n0,1,0\n5e-324,1,-1\n"),
+         {"x_mm have spacings of 0 mm", "at least"});
     says("a map of one line", complaint("map", ".csv", "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n"),
          {"two different y_mm"});
     says("a map without heights", complaint("map", ".csv", "x_mm,y_mm\n0,0\n1,0\n0,1\n1,1\n"),
          {"no column 'z_mm'"});
+    says("a wheel with a point twice at its running circle",
+         complaint("flange", ".txt", "-50 -30\n-45 -28\n-4 0\n-1 0\n-1 .1\n1 0\n4 0\n"),
+         {"y = -1 mm", "twice"});
     says("a .ban with one column", complaint("rail", ".ban", "A=1\n1\n"), {"line 2", "two numbers"});
   }
 } // namespace

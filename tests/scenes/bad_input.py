@@ -232,6 +232,28 @@ with tempfile.TemporaryDirectory() as folder:
             stream.write(text)
         must_fail(name, [path, "--output", results], words)
 
+    # Files wrong in their form, which once ended the program without a word, or did not end it.
+    path = os.path.join(folder, "bad.prm")
+    for name, content, words in (("includes itself", b"include bad.prm\n", ["included by itself"]),
+                                 ("includes itself in capitals", b"INCLUDE bad.prm\n", ["included by itself"]),
+                                 ("includes itself in two lines", b"incl\\\nude bad.prm\n", ["included by itself"]),
+                                 ("includes a long name", b"include " + 200000 * b"a", ["cannot read parameter file"]),
+                                 ("has a long line", 300000 * b" " + b"\nsubsection Motion\n", ["subsection"]),
+                                 ("has a long value", b"subsection Motion\n set Drive = [Selection " + 200000 * b"b" + b"\nend\n",
+                                  ["Drive", "creepage", " ... "]),
+                                 ("is not UTF-8", "subsection Scene\n set Title = Pr\xfcfstand\nend\n".encode("latin-1"),
+                                  ["line 2", "UTF-8"])):
+        with open(path, "wb") as stream:
+            stream.write(content)
+        must_fail("a parameter file that " + name, [path, "--output", results], words)
+    must_fail("a setting that is not UTF-8", base + ["-s", b"Scene/Title=Pr\xfcfstand"], ["-s", "UTF-8"])
+    steps = os.path.join(folder, "map.csv")
+    with open(steps, "w", encoding="utf-8") as stream:
+        stream.write("x_mm,y_mm,z_mm\n" + "".join(f"{i},{i},0.1\n" for i in range(60000)))
+    must_fail("a map of a diagonal, whose grid would take gigabytes", base + ["-s", "Defect/Shape=map", "-s", "Defect/Profile file=" + steps],
+              ["Defect/Profile file", "60000 x 60000", "x 1 mm, y 0 mm", "is missing"])
+    must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["--batch", "twice"])
+
     # Root may write anywhere but not below a file.
     blocked = os.path.join(folder, "a-file")
     with open(blocked, "w", encoding="utf-8") as stream:

@@ -63,6 +63,14 @@ namespace tread
         (write(values), ...);
     }
 
+    /// The same for vectors of which the scene determines how many values they have. @throws OtherLayout also
+    /// if another number was stored.
+    template <typename... T>
+    void same_number(std::vector<T> &...values)
+    {
+      (keep_number(values), ...);
+    }
+
     /// Shares of sums over the ranks. On as many ranks as before each gets its own back; on others the first
     /// has the whole sum.
     template <typename... T>
@@ -145,11 +153,20 @@ namespace tread
 
     bool on_all_ranks(const bool holds) const;
     void put(const void *values, const std::size_t n, const std::size_t size);
-    /// @returns the number n of values, which must be of this size; get_values() copies them.
+    /// @returns the number n of values, which must be of this size and all be there; get_values() copies
+    /// them.
     std::size_t get_number(const unsigned int rank, const std::size_t size);
     void        get_values(const unsigned int rank, void *values, const std::size_t bytes);
     void        share(double &value);
     void        maximum(double &value);
+
+    template <typename T>
+    void keep_number(std::vector<T> &values)
+    {
+      const std::size_t number = values.size();
+      same(values);
+      require_number(number, values.size());
+    }
 
     template <typename T>
     void write(const T &value)
@@ -164,6 +181,16 @@ namespace tread
       static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
       require_number(1, get_number(rank, sizeof value));
       get_values(rank, &value, sizeof value);
+    }
+
+    /// Another byte than 0 or 1 would be neither true nor false.
+    void read(bool &value, const unsigned int rank)
+    {
+      unsigned char stored;
+      read(stored, rank);
+      if (stored > 1)
+        throw OtherLayout();
+      value = stored == 1;
     }
 
     template <typename T, typename A>

@@ -200,6 +200,8 @@ namespace tread
     /// Whether this rank counts what all of its strip's pairs do: where all ranks sweep all pairs only one
     /// does.
     bool counts_pairs() const;
+    /// Whether pairs, nodes and strips that were restored belong together.
+    bool is_consistent(const std::vector<unsigned int> &begin_of_strip) const;
     /// Allocate the arrays used in each step for the present pairs and involved nodes.
     /// @param begin_of_strip division into strips, for the same pairs and number of ranks; if empty, new
     /// strips are made.

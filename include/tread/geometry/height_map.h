@@ -62,6 +62,9 @@ namespace tread
 
     Axis                along, across;
     std::vector<double> heights;
+
+    /// @throws InputError that names a place of the grid which none of these numbers of places is
+    [[noreturn]] void fail_at_missing(std::vector<std::size_t> places, const std::string &file) const;
   };
 } // namespace tread
 
