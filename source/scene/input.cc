@@ -114,7 +114,7 @@ namespace tread
     {
       std::ifstream input(file);
       if (!input)
-        throw InputError("cannot read parameter file '" + file + "'" +
+        throw InputError("cannot read parameter file '" + shortened(file) + "'" +
                          (included ? ", which another one includes" : ""));
       ParameterFile content;
       // Lines that end with a backslash go on in the next one, and words as well.
@@ -221,7 +221,8 @@ namespace tread
     constexpr unsigned int deepest = 10;
     if (depth > deepest)
       throw InputError("parameter file '" + file + "' is included by itself");
-    if (std::filesystem::is_directory(file))
+    std::error_code cannot_tell; // of a name that no file can have
+    if (std::filesystem::is_directory(file, cannot_tell))
       throw InputError("parameter file '" + file + "' is a folder");
     const ParameterFile content = read_parameter_file(file, depth > 0);
     for (const std::string &name : content.included)

@@ -26,8 +26,10 @@ namespace tread
 
   std::string Scene::located(const std::string &file) const
   {
-    return !std::filesystem::exists(file) && std::filesystem::exists(folder / file) ? (folder / file).string()
-                                                                                    : file;
+    std::error_code cannot_tell; // of a name that no file can have
+    return !std::filesystem::exists(file, cannot_tell) && std::filesystem::exists(folder / file, cannot_tell)
+             ? (folder / file).string()
+             : file;
   }
 
 

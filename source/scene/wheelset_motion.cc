@@ -4,7 +4,10 @@
 #include <tread/base/input_error.h>
 #include <tread/scene/wheelset_motion.h>
 
+// clang-format off
+#include <math.h> // isnan without a namespace, which pchip.hpp of Boost 1.74 asks for
 #include <boost/math/interpolators/pchip.hpp>
+// clang-format on
 
 #include <algorithm>
 #include <array>

@@ -307,10 +307,10 @@ namespace
          {"line 5", "gap", "27 mm"});
     says("a point beyond all rails", complaint("defect", ".txt", "0 0\n1 -.1\n2 -.2\n3 1e300\n"),
          {"line 4", "further away"});
-    says("points that nearly coincide", complaint("defect", ".txt", "0 0\n1e-320 -.1\n2 -.2\n3 0\n"),
+    says("points that nearly coincide", complaint("defect", ".txt", "0 0\n1e-10 -.1\n2 -.2\n3 0\n"),
          {"line 2", "increase"});
     says("a unit that makes lengths infinite",
-         complaint("rail", ".prr", "units.len.f = 1e-308\npoint.begin\n-30 1\n-1 0\n1 0\n30 1\npoint.end\n"),
+         complaint("rail", ".prr", "units.len.f = 1e-300\npoint.begin\n-30 1\n-1 0\n1 0\n30 1\npoint.end\n"),
          {"line 3", "further away"});
     says("too few points", complaint("defect", ".txt", "0 0\n1 0\n"), {"2 points"});
     says("a narrow rail head", complaint("rail", ".txt", "-5 -.1\n-2 0\n2 0\n5 -.1\n"), {"-5 mm", "20 mm"});
