@@ -572,31 +572,4 @@ namespace tread
                               std::exp(-std::max(speed, memory.speed) * time_step / memory.distance);
       }
   }
-
-
-  bool Contact::counts_pairs() const
-  {
-    return !parameters.reproducible || dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-  }
-
-
-  void Contact::add_work_of_pairs()
-  {
-    if (!counts_pairs())
-      return;
-    for (unsigned int j = strips.begin; j < strips.end; ++j)
-      {
-        const ContactProblem::Constraint &constraint = problem.constraints[j];
-        const double                      normal     = dot(impulse[j], constraint.normal);
-        if (normal <= 0.)
-          continue;
-        const Vector3 u          = problem.combine(constraint, mean_velocity);
-        const Vector3 tangential = impulse[j] - normal * constraint.normal;
-        const double  put_in     = -dot(tangential, imposed[j]);
-        const double  lost       = put_in - dot(tangential, u);
-        work.imposed += put_in;
-        work.normal -= normal * dot(u, constraint.normal);
-        (slips[j] ? work.friction : work.adhesion) += lost;
-      }
-  }
 } // namespace tread
