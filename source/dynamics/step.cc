@@ -65,6 +65,7 @@ namespace tread
         loop([](const unsigned int) { return Vector3{}; });
         return;
       }
+    const Quanta quanta = this->quanta; // which no force can overwrite in the loop
     Vector3      loss{};
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
     if (run.wheel >= 0)
@@ -272,7 +273,8 @@ namespace tread
   {
     const bool              loaded = !external_force.empty();
     ReproducibleSum<double> work, gross;
-    next_loads = BodyLoads(wheels.size());
+    next_loads             = BodyLoads(wheels.size());
+    const Quantum of_loads = quanta.force;
     for (unsigned int level = 0; level <= due; ++level)
       {
         const double factor = std::ldexp(1., level), way = factor * time_step + damping_time;
@@ -294,7 +296,7 @@ namespace tread
                               for (unsigned int i = run.begin; i < run.end; ++i)
                                 {
                                   advance(i);
-                                  force[i] = quanta.force.round(weight(i, factor) + load(i));
+                                  force[i] = of_loads.round(weight(i, factor) + load(i));
                                 }
                             });
           }

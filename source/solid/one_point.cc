@@ -33,10 +33,10 @@ namespace tread
 
       void add_forces(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const override
       {
-        if (parameters.has_bulk_viscosity())
-          add<true>(x, v, force, factor);
+        if (parameters.reproducible)
+          add(x, v, force, factor, parameters.force_quantum());
         else
-          add<false>(x, v, force, factor);
+          add(x, v, force, factor, NoRounding());
       }
 
       void add_energies(const Vector3          *x,
@@ -67,10 +67,26 @@ namespace tread
       }
 
     private:
-      template <bool viscous>
-      void add(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const
+      template <typename Rounding>
+      void add(const Vector3 *x,
+               const Vector3 *v,
+               Vector3       *force,
+               const double   factor,
+               const Rounding rounding) const
       {
-        const Quantum quantum = parameters.force_quantum();
+        if (parameters.has_bulk_viscosity())
+          add<true>(x, v, force, factor, rounding);
+        else
+          add<false>(x, v, force, factor, rounding);
+      }
+
+      template <bool viscous, typename Rounding>
+      void add(const Vector3 *x,
+               const Vector3 *v,
+               Vector3       *force,
+               const double   factor,
+               const Rounding rounding) const
+      {
         for (const auto &batch : this->batches)
           {
             Lanes F[3][3], amplitude[4][3], E[6], S[6], P[3][3];
@@ -86,7 +102,7 @@ namespace tread
             for (auto &mode : amplitude)
               for (Lanes &component : mode)
                 component *= stiffness;
-            add_forces_of(batch, force, P, amplitude, quantum);
+            add_forces_of(batch, force, P, amplitude, rounding);
           }
       }
 

@@ -8,6 +8,16 @@
 
 namespace tread
 {
+  /// Takes the place of a Quantum where nothing is rounded and not even the additions of 0 are to be made.
+  struct NoRounding
+  {
+    template <typename T>
+    T round(const T x) const
+    {
+      return x;
+    }
+  };
+
   /// The nodal vectors of n_lanes trilinear cells, seen as the patterns that their nodes can make: by
   /// component, without the constant one.
   struct NodalPatterns
@@ -55,7 +65,8 @@ namespace tread
     }
 
     /// Add to the nodes the sum of the patterns times these vectors, rounded: the transpose of read().
-    void add_to(Vector3 *rows, const unsigned int (&node)[8][n_lanes], const Quantum quantum) const
+    template <typename Rounding>
+    void add_to(Vector3 *rows, const unsigned int (&node)[8][n_lanes], const Rounding quantum) const
     {
       for (unsigned int zeta = 0; zeta < 2; ++zeta)
         {
@@ -148,12 +159,12 @@ namespace tread
 
   /// Add P B_a + sum_m Q_m gamma_m(a), rounded, to the nodes: the transpose of deform(). P (N m) is
   /// overwritten; Q in N.
-  template <bool affine>
+  template <bool affine, typename Rounding>
   inline void add_forces_of(const OnePointBatch<affine> &batch,
                             Vector3                     *force,
                             Lanes (&P)[3][3],
                             const Lanes (&Q)[4][3],
-                            const Quantum quantum)
+                            const Rounding quantum)
   {
     NodalPatterns f;
     for (unsigned int i = 0; i < 3; ++i)
