@@ -297,6 +297,21 @@ namespace
     check.absolute("von Mises maximum over p0", s[largest].von_mises() / r.hertz_pressure, 0.620, 0.001);
     check.absolute("its depth over a", points[largest][2] / r.hertz_semi_x, 0.481, 0.006);
 
+    // Shear across the track: turned by a right angle the stress is that of shear along it, in both bodies.
+    const std::vector<double> shear(grid.size(), 1e8), none(grid.size(), 0.);
+    const double              u = 0.3 * c.element_size, depth = 2. * c.element_size, a = r.hertz_semi_x;
+    for (const Body body : {Body::wheel, Body::rail})
+      {
+        const std::string name = body == Body::wheel ? "wheel: " : "rail: ";
+        const Stress
+          along  = subsurface_stress(grid, 0.3, r.pressure, shear, none, body, {{0.4 * a, u, depth}}).front(),
+          across = subsurface_stress(grid, 0.3, r.pressure, none, shear, body, {{u, 0.4 * a, depth}}).front();
+        check.relative(name + "yz under shear across, MPa", 1e-6 * across.yz, 1e-6 * along.xz, 1e-6);
+        check.relative(name + "yy under shear across, MPa", 1e-6 * across.yy, 1e-6 * along.xx, 1e-6);
+        check.relative(name + "von Mises stress under shear across, MPa", 1e-6 * across.von_mises(),
+                       1e-6 * along.von_mises(), 1e-6);
+      }
+
     // one element: the stress on its axis by its corner, and equilibrium of a deep plane
     const Stress one = rectangle_stress(0.3, 1., 1., {0., 0., 1.}, 0., 0., 0.);
     check.relative("one square: sigma_z on the surface", one.zz, -1., 1e-12);

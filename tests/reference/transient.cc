@@ -161,6 +161,31 @@ namespace
       rises = rises && fine.traction_coefficient[k] > fine.traction_coefficient[k - 1];
     check.that("the traction rises all the way", rises);
   }
+  /// Spin, of a number or of a tread that is coned: the end of the transient is steady rolling.
+  void with_spin(tread::tests::Check &check)
+  {
+    std::printf("\n--- to steady rolling under spin\n");
+    for (const bool coned : {false, true})
+      {
+        TransientCase t;
+        t.rolling          = blocks(0.8e-3);
+        t.rolling.creepage = -2e-4;
+        if (coned)
+          // Rolling radii that differ by so much have a spin, and a part that bends.
+          t.rolling.radius_change = [](const double y) {
+            return 0.1 * y + 12. * y * y;
+          };
+        else
+          t.rolling.spin = 0.1;
+        t.distance                   = 60e-3;
+        const TransientResult after  = solve_transient(t);
+        const double          steady = estimate_rolling(t.rolling).lateral_force.value;
+        const std::string     name   = coned ? "coned tread: " : "spin: ";
+        check.that(name + "the lateral force counts", std::abs(steady) > 0.01 * t.rolling.normal_force);
+        check.relative(name + "lateral coefficient", after.lateral_coefficient.back(),
+                       steady / t.rolling.normal_force, 0.005);
+      }
+  }
 } // namespace
 
 void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
@@ -168,4 +193,5 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
   cattaneo_to_carter(check);
   start_at_small_creepage(check);
   from_rest(check);
+  with_spin(check);
 }
