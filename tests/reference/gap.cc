@@ -520,6 +520,22 @@ namespace
         check.that("the grid holds the patch", !border);
       }
 
+    // ... and a patch that lies beside the middle of its first grid, to any side, is not cut
+    for (const auto &[dx, dy] : {std::pair{6e-3, 0.}, {-6e-3, 0.}, {0., 6e-3}, {0., -6e-3}})
+      {
+        RollingCase c     = good;
+        c.prescribe_force = false;
+        c.gap             = [&, dx = dx, dy = dy](const double x, const double y) {
+          return good.curvature_x * (x - dx) * (x - dx) + good.curvature_y * (y - dy) * (y - dy);
+        };
+        const auto result = solve_rolling(c);
+        char       name[60];
+        std::snprintf(name, sizeof name, "patch %+.0f, %+.0f mm beside: largest pressure, MPa", 1e3 * dx,
+                      1e3 * dy);
+        check.relative(name, 1e-6 * *std::max_element(result.pressure.begin(), result.pressure.end()),
+                       1e-6 * result.hertz_pressure, 0.01);
+      }
+
     // creepage for a traction: positive for driving, odd in the force
     RollingCase c          = good;
     c.traction_coefficient = 0.3;
