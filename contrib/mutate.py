@@ -192,7 +192,8 @@ def write_page(faults, results):
     if not counts["tried"]:
         return
     rows.append(["all", str(counts["tried"]), str(counts["noticed"]), f"{100 * counts['noticed'] / counts['tried']:.1f} %"])
-    fill("mutations.md", "mutations", markdown(["folder", "faults", "noticed", "share"], rows) + f"\n\n{machine()}; `contrib/mutate.py`.")
+    fill("mutations.md", "mutations", markdown(["folder", "faults", "noticed", "share"], rows)
+         + f"\n\n{counts['tried']} of the {len(faults)} listed faults have been tried. {machine()}; `contrib/mutate.py`.")
     fill("mutations.md", "survivors", markdown(["fault", "what it does", "why no test notices it"], survivors or [["-", "-", "-"]]))
     fill("mutations.md", "faults", markdown(["fault", "what it does", "noticed by"],
                                             [[f"`{fault['name']}`", fault["what"], f"`{results[fault['name']]['noticed']}`"]
