@@ -178,22 +178,49 @@ namespace
     check.that("a point above the block is refused by its number", said == "2");
   }
 
+  PeakRegion region_of_peaks()
+  {
+    return {0.02,
+            0.04,
+            0.,
+            4e-3,
+            10e-3,
+            fine,
+            5e-3,
+            [](const Point<3> &p) { return p[0]; },
+            [](const Point<3> &p) {
+              return -p[2];
+            }};
+  }
+
+  /// Cells with long steps, below the fine ones, are looked at when all nodes are at the same instant.
+  void check_peaks_between_steps(tests::Check &check, const Mesh &mesh)
+  {
+    SolidParameters parameters;
+    parameters.max_level = 1;
+    const Solid      solid(mesh, {ElasticMaterial()}, parameters);
+    ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
+    StressPeaks      peaks(dynamics, nullptr, 0, ElasticMaterial(), region_of_peaks());
+    dynamics.n_steps = 1;
+    take(dynamics, Field{0.1, false}, 1.);
+    peaks.sample(dynamics, {}, 10.);
+    dynamics.n_steps = 2;
+    take(dynamics, Field{0.09, false}, 2.);
+    peaks.sample(dynamics, {}, 20.);
+    const StressPeaks::Answer answer = peaks.answer(dynamics);
+    check.that("peaks between steps: three layers", answer.layers.size() == 3);
+    for (unsigned int k = 0; k < std::min<std::size_t>(3, answer.layers.size()); ++k)
+      check.absolute("peaks between steps: time of layer " + std::to_string(k + 1),
+                     answer.layers[k].peak.time, k < 2 ? 1. : 2., 0.);
+    check.absolute("peaks between steps: time of the extrapolated one", answer.surface.peak.time, 1., 0.);
+  }
+
   void check_peaks(tests::Check &check, ExplicitDynamics &dynamics)
   {
-    const MPI_Comm comm = dynamics.mesh.comm;
-    PeakRegion     region{0.02,
-                      0.04,
-                      0.,
-                      4e-3,
-                      10e-3,
-                      fine,
-                      5e-3,
-                      [](const Point<3> &p) { return p[0]; },
-                      [](const Point<3> &p) {
-                        return -p[2];
-                      }};
-    const Field    first{0.1, false}, second{0.09, true};
-    StressPeaks    peaks(dynamics, nullptr, 0, ElasticMaterial(), region);
+    const MPI_Comm   comm   = dynamics.mesh.comm;
+    const PeakRegion region = region_of_peaks();
+    const Field      first{0.1, false}, second{0.09, true};
+    StressPeaks      peaks(dynamics, nullptr, 0, ElasticMaterial(), region);
     check.that("peaks: a wheel is near up to the reach, and no farther",
                peaks.concerns(0.0151) && peaks.concerns(0.0449) && !peaks.concerns(0.0149) &&
                  !peaks.concerns(0.0451));
@@ -295,5 +322,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_strip(check, dynamics);
   check_probes(check, dynamics);
   check_peaks(check, dynamics);
+  check_peaks_between_steps(check, mesh);
   check_face(check);
 }

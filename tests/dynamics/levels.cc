@@ -124,6 +124,67 @@ namespace
                 plain.dynamics->critical_time_step() / block.dynamics->critical_time_step(), 1.05);
   }
 
+  /// Cells that are not quite twice as slow take steps that are twice as long, and the step must be as short
+  /// as these need it.
+  void step_of_slow_cells(tests::Check &check)
+  {
+    constexpr double times_as_slow = 1.85;
+    const auto       cube          = [](const double x) {
+      return tests::make_box("cube", Point<3>(x, 0., 0.), Point<3>(x + .02, .02, .02), {{4, 4, 4}});
+    };
+    const Mesh      mesh(MPI_COMM_WORLD, {cube(0.), cube(.1)});
+    ElasticMaterial heavy = ElasticMaterial();
+    heavy.density *= times_as_slow * times_as_slow;
+    double step[2];
+    for (const unsigned int max_level : {0u, 1u})
+      {
+        SolidParameters solid_parameters;
+        solid_parameters.max_level = max_level;
+        const Solid            solid(mesh, {ElasticMaterial(), heavy}, solid_parameters);
+        const ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
+        check.absolute("slow cells: levels", dynamics.max_level(), max_level, 0.);
+        step[max_level] = dynamics.critical_time_step();
+      }
+    // Frequencies are rounded up to three digits.
+    check.relative("slow cells: step over that of fast cells", step[1] / step[0], .5 * times_as_slow, .011);
+  }
+
+  /// Nodes that hang at the contact follow their parents in every step: their velocity is what contact looks
+  /// at.
+  void hanging_at_contact(tests::Check &check)
+  {
+    Body body = tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}},
+                                {{tests::Side::top, Boundary::contact}});
+    tests::refine_near(body, Point<3>(.08, .03, .03), .012, .0025);
+    const Mesh      mesh(MPI_COMM_WORLD, {body});
+    SolidParameters solid_parameters;
+    solid_parameters.max_level = 2;
+    const Solid      solid(mesh, {ElasticMaterial()}, solid_parameters);
+    ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      dynamics.v[i] = Vector3{std::sin(40. * mesh.nodes[i][0]), 0., mesh.nodes[i][1], 0.};
+    mesh.distribute_hanging_nodes(dynamics.v.data());
+    dynamics.start();
+    double       largest = 0.;
+    unsigned int n       = 0;
+    for (unsigned int step = 0; step < 16; ++step)
+      {
+        dynamics.step();
+        for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+          if (mesh.nodes[h.node][2] > .03 - 1e-9)
+            {
+              Vector3 mean{};
+              for (const unsigned int parent : h.parents)
+                mean += Mesh::HangingNode::weight * dynamics.v[parent];
+              largest = std::max(largest, tests::size(dynamics.v[h.node] - mean));
+              ++n;
+            }
+      }
+    check.that("nodes hang at the contact", dealii::Utilities::MPI::sum(n, mesh.comm) > 0);
+    check.below("hanging at the contact: velocity off the parents', m/s",
+                dealii::Utilities::MPI::max(largest, mesh.comm), 1e-14);
+  }
+
   /// Any motion of the grid: energy only falls, over 1e5 of the smallest steps at Courant number 0.95.
   void random_motion(tests::Check &check)
   {
@@ -256,6 +317,8 @@ namespace
 void run_test(tests::Check &check, const tests::Arguments &)
 {
   levels_of_cells(check);
+  step_of_slow_cells(check);
+  hanging_at_contact(check);
   random_motion(check);
   free_block(check);
   loaded_at_rest(check);

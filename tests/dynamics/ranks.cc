@@ -124,12 +124,41 @@ namespace
     std::printf("shares of the ranks: %g to %g\n", shares.min, shares.max);
     return history;
   }
+
+  /// Ranks add what they know of a node in one order, so that all copies of it have the same bits.
+  void copies_are_the_same(tests::Check &check)
+  {
+    using namespace dealii::Utilities::MPI;
+    const Mesh   mesh(MPI_COMM_WORLD,
+                      {tests::make_box("block", Point<3>(), Point<3>(.06, .06, .06), {{6, 6, 6}})});
+    NodalField   field(mesh.nodes.size());
+    const double rank = this_mpi_process(mesh.comm);
+    for (unsigned int i = 0; i < field.size(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        field[i][d] = std::sin((1. + rank) * (17. + 1e3 * mesh.nodes[i][d]));
+    mesh.shared_nodes.sum(field.data());
+    std::map<std::array<long long, 4>, std::array<double, 3>> own;
+    for (const unsigned int i : mesh.shared_nodes.nodes())
+      own[mesh.node_key(i)] = {field[i][0], field[i][1], field[i][2]};
+    unsigned int n_copies = 0, n_other = 0;
+    for (const auto &of_rank : all_gather(mesh.comm, own))
+      for (const auto &[key, value] : of_rank)
+        if (const auto here = own.find(key); here != own.end())
+          {
+            ++n_copies;
+            n_other += here->second != value;
+          }
+    check.absolute("copies of nodes with other bits", sum(n_other, mesh.comm), 0., 0.);
+    check.that("there are copies", n_mpi_processes(mesh.comm) == 1 || n_copies > 2 * own.size() - 1);
+  }
 } // namespace
 
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
   using dealii::Utilities::MPI::max;
+
+  copies_are_the_same(check);
 
   // Those that are not reproducible to the last bit: sums over ranks differ in order, 1e-16 a step, and
   // rounding of positions (1e-17 m) over displacements of um.

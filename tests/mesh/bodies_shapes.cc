@@ -183,6 +183,20 @@ namespace
     check.below(std::string(name) + ": first moment in y, mm4", 1e12 * m.moment[1], 1e-3);
   }
 
+  /// A rail that is laid at 1:20 has its foot beside its top, away from the gauge side.
+  void check_inclination(tests::Check &check)
+  {
+    RailTop top;
+    top.inclination  = std::atan(1. / 20.);
+    const auto place = shape_top([](const Point<3> &p) { return p; }, top, 0.04);
+    const auto foot = place(Point<3>(0.1, 0., -0.16)), gauge_side = place(Point<3>(0.1, -0.03, 0.));
+    check.absolute("inclined rail: foot to the field side, mm", 1e3 * foot[1], 160. / std::hypot(20., 1.),
+                   1e-9);
+    check.absolute("inclined rail: gauge side of the top, lower by mm", -1e3 * gauge_side[2],
+                   30. / std::hypot(20., 1.), 1e-9);
+    check.absolute("inclined rail: nothing moves along, mm", 1e3 * foot[0], 100., 1e-12);
+  }
+
   void check_sector(tests::Check &check, const double finest, const bool conical)
   {
     WheelSector sector;
@@ -287,6 +301,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   };
 
   check_rule(check);
+  check_inclination(check);
   check_block(check, 0.63e-3, 0.3);
   check_block(check, 0.63e-3, std::numeric_limits<double>::infinity());
   lap();

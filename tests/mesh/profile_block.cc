@@ -91,6 +91,15 @@ namespace
     };
     check.below(name + "nodes off the profile, nm",
                 1e9 * tests::off_surface(mesh, Boundary::contact, off_arc), 1.);
+    // The lines behind both ends and the middle are at right angles to the base.
+    const auto behind = [&](const double along) {
+      return section.point(along, depth) - section.point(along, 0.);
+    };
+    const Point<2> middle(behind(0.));
+    for (const double end : {-half_width, half_width})
+      check.below(name + "line behind the end at " + std::to_string(1e3 * end) + " mm off the middle's, rad",
+                  std::atan2(middle[0] * behind(end)[1] - middle[1] * behind(end)[0], middle * behind(end)),
+                  1e-9);
     check.relative(name + "base, cm2", 1e4 * m.areas.at(2),
                    600. * section.point(half_width, depth).distance(section.point(-half_width, depth)), 1e-9);
     // A little beside the zones, along the path too, and not between them.

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include "boxes.h"
 #include "check.h"
 
 #include <algorithm>
@@ -29,9 +30,10 @@ namespace
   struct Shapes
   {
     double scaled_jacobian = 1e300, fine_scaled_jacobian = 1e300, longest = 0.;
+    double lowest = 1e300, highest = 0.; ///< edges of the cells in the fine zone along the depth, m
   };
 
-  /// Determinant of the three edges at a vertex over their lengths, the smallest.
+  /// Determinant of the three edges at a vertex over their lengths, the smallest; lengths of edges.
   Shapes shapes(const Mesh &mesh, const FineZone &zone)
   {
     Shapes s;
@@ -49,7 +51,11 @@ namespace
         s.scaled_jacobian = std::min(s.scaled_jacobian, least);
         const auto &p     = mesh.nodes[cell.nodes[0]];
         if (p[0] > zone.cubes_begin && p[0] < zone.cubes_end && zone.distance(p[0], p[1], -p[2]) == 0.)
-          s.fine_scaled_jacobian = std::min(s.fine_scaled_jacobian, least);
+          {
+            s.fine_scaled_jacobian = std::min(s.fine_scaled_jacobian, least);
+            s.lowest               = std::min(s.lowest, edge(mesh, cell, 0, 4).norm());
+            s.highest              = std::max(s.highest, edge(mesh, cell, 0, 4).norm());
+          }
         s.longest = std::max(s.longest, edge(mesh, cell, 0, 1).norm());
       }
     return s;
@@ -85,10 +91,72 @@ namespace
           }
     return {area, moment / area, yy - moment * moment / area, zz};
   }
+
+  /// Rows along the path: as the fine zone asks near it, as the rail asks away from it.
+  void check_rows(tests::Check &check)
+  {
+    FineZone zone;
+    zone.x_begin          = -0.3;
+    zone.x_end            = 0.3;
+    zone.cubes_begin      = -0.05;
+    zone.cubes_end        = 0.05;
+    zone.path_stretch     = 2.;
+    constexpr double size = 0.02, far_stretch = 5.;
+    const PathLines  path     = path_lines(-1., 1., size, zone, far_stretch);
+    double           of_cubes = 0., of_path = 0., far_away = 0., growth = 0.;
+    for (std::size_t i = 0; i + 1 < path.lines.size(); ++i)
+      {
+        const double from = path.lines[i], to = path.lines[i + 1], stretch = (to - from) / size;
+        double      &largest = std::min(std::abs(from), std::abs(to)) < 0.05 - 1e-9 ? of_cubes
+                               : std::min(std::abs(from), std::abs(to)) < 0.28      ? of_path
+                                                                                    : far_away;
+        largest              = std::max(largest, stretch);
+        if (from >= 0. && i > 0)
+          growth = std::max(growth, (to - from) / (from - path.lines[i - 1]));
+      }
+    check.absolute("rows: at the cubes, over the size", of_cubes, 1., 1e-9);
+    check.absolute("rows: along the path", of_path, 2., 0.15);
+    check.absolute("rows: far away", far_away, 5., 0.5);
+    check.below("rows: growth less 1.4", std::max(0., growth - 1.4), 1e-9);
+  }
+
+  /// A cell that is stretched along the path is refined by its width, and not by its length.
+  void check_stretched_cell(tests::Check &check)
+  {
+    for (const double width : {2., 1.1})
+      {
+        Body body = tests::make_box("cell", dealii::Point<3>(), dealii::Point<3>(3., width, 1.), {{1, 1, 1}});
+        body.wanted_cell_size = [](const dealii::Point<3> &) {
+          return 1.;
+        };
+        body.path_stretch = [](const dealii::Point<3> &) {
+          return 3.;
+        };
+        check.absolute("cells of one that is 3 long, 1 high, and wide " + std::to_string(width),
+                       Mesh(MPI_COMM_SELF, {body}).cells.size(), width > 1.2 ? 8. : 1., 0.);
+      }
+  }
+
+  /// Hanging nodes lie at the mean of their parents also where the surface is curved, or a rotation would
+  /// strain their cells.
+  double off_the_mean(const Mesh &mesh)
+  {
+    double largest = 0.;
+    for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+      {
+        dealii::Point<3> mean;
+        for (const unsigned int parent : h.parents)
+          mean += Mesh::HangingNode::weight * mesh.nodes[parent];
+        largest = std::max(largest, mean.distance(mesh.nodes[h.node]));
+      }
+    return largest;
+  }
 } // namespace
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
+  check_rows(check);
+  check_stretched_cell(check);
   for (const RailProfile &profile : {RailProfile::rail_54e1(), RailProfile::rail_60e1()})
     {
       const std::string &name = profile.name();
@@ -118,7 +186,26 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const Shapes s = shapes(mesh, zone);
       check.that(name + " smallest scaled Jacobian above 0.4", s.scaled_jacobian > 0.4);
       check.that(name + " in the fine zone above 0.95", s.fine_scaled_jacobian > 0.95);
+      check.absolute(name + " lowest cell in the fine zone over the asked", s.lowest / zone.finest_cell_size,
+                     1., 0.02);
+      check.absolute(name + " highest cell in the fine zone over the asked",
+                     s.highest / zone.finest_cell_size, 1., 0.02);
+      double begin = 1e300, end = -1e300;
+      for (const Mesh::Face &face : mesh.faces)
+        if (face.boundary == Boundary::contact)
+          for (const unsigned int i : face.nodes)
+            {
+              begin = std::min(begin, mesh.nodes[i][0]);
+              end   = std::max(end, mesh.nodes[i][0]);
+            }
+      check.below(name + " in reach of the wheel from, mm beyond the margin",
+                  1e3 * std::max(0., begin - (zone.x_begin - rail.contact_margin)), 1e-9);
+      check.below(name + " in reach of the wheel to, mm beyond the margin",
+                  1e3 * std::max(0., zone.x_end + rail.contact_margin - end), 1e-9);
+      check.that(name + " not all of it", begin > -0.25 && end < 0.25);
       check.below(name + " longest row, mm", 1e3 * s.longest, 40. + 1e-9);
+      check.that(name + " has hanging nodes", !mesh.hanging_nodes.empty());
+      check.below(name + " hanging nodes off the mean of their parents, nm", 1e9 * off_the_mean(mesh), 1e-6);
       // The fine zone gives the time step, not a bad cell in a fillet.
       const Solid solid(mesh, {ElasticMaterial{210e9, 0.3, 7800.}}, SolidParameters());
       double      fastest_fine = 0., fastest_other = 0.;

@@ -3,6 +3,7 @@
 // input.
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
+#include <tread/reference/planar_contact.h>
 #include <tread/reference/rolling_case.h>
 #include <tread/reference/rolling_estimate.h>
 
@@ -354,6 +355,40 @@ namespace
     check.relative("p_max against Hertz [MPa]", r.max_pressure * 1e-6, r.hertz_pressure * 1e-6, 0.02);
   }
 
+  /// In a plane of its own a patch dissipates what it does as an ellipse; where bodies are unlike, the moment
+  /// of their pressure has a part in it.
+  void planar_power(tread::tests::Check &check)
+  {
+    RollingCase c;
+    c.curvature_x = c.curvature_y = 1. / 0.1;
+    c.normal_force                = 2e3;
+    c.friction                    = 0.2;
+    c.wheel                       = {70e9, 0.33};
+    c.rail                        = {207e9, 0.3};
+    c.prescribe_force             = false;
+    c.creepage                    = -2e-3;
+    c.element_size                = 0.04e-3;
+    const RollingResult r         = solve_rolling(c);
+
+    PlanarCase planar;
+    static_cast<Friction &>(planar) = c;
+    planar.grid                     = r.grid();
+    planar.gap                      = [&](const double x, const double y) {
+      return c.curvature_x * x * x + c.curvature_y * y * y;
+    };
+    planar.normal_force  = c.normal_force;
+    planar.longitudinal  = c.creepage;
+    planar.wheel         = c.wheel;
+    planar.rail          = c.rail;
+    planar.order         = 1;
+    const PlanarResult p = solve_planar(planar);
+    check.relative("unlike bodies in a plane: force along, N", p.longitudinal_force, r.longitudinal_force,
+                   1e-4);
+    check.relative("unlike bodies in a plane: power, W", p.frictional_power, r.power_balance, 1e-4);
+    check.that("to which the moment of the pressure belongs",
+               std::abs(p.frictional_power + p.longitudinal_force * c.creepage) > 0.005 * p.frictional_power);
+  }
+
   // A transient step that starts from steady rolling must stay there, for unlike bodies too; and so must the
   // answer from any start.
   void steady_is_steady(tread::tests::Check &check)
@@ -555,6 +590,7 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
   rail_head(check);
   two_patches(check);
   unlike_bodies(check);
+  planar_power(check);
   steady_is_steady(check);
   frictionless(check);
   bad_input(check);

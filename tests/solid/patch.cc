@@ -100,6 +100,31 @@ namespace
     errors.force  = max(inner_force, mesh.comm) / max(largest_force, mesh.comm);
     return errors;
   }
+
+  /// Bricks that are bent and twisted: the mean gradient of the one-point element is that of the centre,
+  /// where fully integrated cells have their stress as well.
+  void stress_at_the_centre(tests::Check &check, const ElasticMaterial &material)
+  {
+    const Mesh mesh(MPI_COMM_WORLD,
+                    {tests::make_box("bricks", Point<3>(), Point<3>(.1, .04, .03), {{4, 2, 3}})});
+    NodalField x = tests::reference_positions(mesh);
+    for (Vector3 &p : x)
+      p += Vector3{-2. * p[0] * p[2], .5 * p[0] * p[2], p[0] * p[0] + p[1] * p[2], 0.};
+    SolidParameters parameters;
+    parameters.element = FullyIntegrated::name;
+    const auto found   = Solid(mesh, {material}, parameters).cauchy_stress(x.data()),
+               mean    = Solid(mesh, {material}, SolidParameters()).cauchy_stress(x.data());
+    double worst = 0., scale = 0.;
+    for (unsigned int c = 0; c < found.size(); ++c)
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          worst = std::max(worst, std::abs(found[c][k] - mean[c][k]));
+          scale = std::max(scale, std::abs(mean[c][k]));
+        }
+    using dealii::Utilities::MPI::max;
+    check.below("bent bricks: stress of fully integrated cells beside one point",
+                max(worst, mesh.comm) / max(scale, mesh.comm), 1e-10);
+  }
 } // namespace
 
 
@@ -116,6 +141,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       }
 
   const ElasticMaterial material;
+  stress_at_the_centre(check, material);
   for (const bool refined : {false, true})
     {
       Body body = tests::make_patch_cube(edge);

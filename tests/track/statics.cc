@@ -52,6 +52,34 @@ namespace
                      1e-3 * rail.supports->force(middle, Supports::pad), 1e-9);
   }
 
+  /// Pads whose points lie within faces, at no node and in no middle: their forces on the nodes have the
+  /// resultant where the pads are.
+  void place_of_springs(tests::Check &check)
+  {
+    TrackParameters track;
+    track.pad_width     = .053;
+    track.pad_middle    = .007;
+    track.points_along  = 1;
+    track.points_across = 1;
+    tests::TrackRail rail(MPI_COMM_WORLD, tests::bar(3, 13), 3, track, DynamicsParameters(), {});
+    NodalField       rows(rail.mesh->nodes.size(), Vector3{});
+    rail.supports->add_row_sums(rows.data());
+    for (unsigned int s = 0; s < 3; ++s)
+      {
+        double sum = 0., along = 0., across = 0.;
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          if (std::abs(rail.mesh->nodes[i][0] - rail.positions[s]) < .3)
+            {
+              sum += rows[i][0];
+              along += rows[i][0] * (rail.mesh->nodes[i][0] - rail.positions[s]);
+              across += rows[i][0] * rail.mesh->nodes[i][1];
+            }
+        const std::string name = "pad " + std::to_string(s) + ": ";
+        check.below(name + "resultant off its place along the rail, mm", 1e3 * along / sum, 1e-6);
+        check.absolute(name + "place of the resultant across, mm", 1e3 * across / sum, 7., 1e-6);
+      }
+  }
+
   /// Support forces of the published problem, Euler's beam on pads that are points. Its deflections lack that
   /// by shear, 5 % over a sleeper and 8 % at mid-span, so that they belong to Timoshenko's beam.
   struct Published
@@ -168,6 +196,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   track.points_along  = 1;
   track.points_across = 2;
   const auto bar      = tests::bar(11, 20);
+  place_of_springs(check);
   statics(check, "bar, over a sleeper", bar, 11, track, {0.}, .01);
   statics(check, "bar, at mid-span", bar, 11, track, {.3}, .01);
   statics(check, "bar, two wheels", bar, 11, track, {-.9, 1.2}, .01);
