@@ -540,6 +540,17 @@ namespace
     check.that("a grid that cuts the patch is marked", solve_normal(fourier, op, normal).cut);
     normal.force = 1e3;
     check.that("a grid that holds it is not", !solve_normal(fourier, op, normal).cut);
+    // ... and it is, at whichever side that happens
+    for (const auto &[dx, dy] : {std::pair{0., 0.}, {3.5e-3, 0.}, {-3.5e-3, 0.}, {0., 3.5e-3}, {0., -3.5e-3}})
+      {
+        normal.gap   = make_gap(grid, [dx = dx, dy = dy](const double x, const double y) {
+          return (x - dx) * (x - dx) + (y - dy) * (y - dy);
+        });
+        normal.force = 1e3;
+        char name[60];
+        std::snprintf(name, sizeof name, "patch at %+.1f, %+.1f mm is cut", 1e3 * dx, 1e3 * dy);
+        check.absolute(name, solve_normal(fourier, op, normal).cut, dx != 0. || dy != 0., 0.);
+      }
 
     // ... and coarse grids chosen by solve_rolling hold it
     for (const double size : {1.6e-3, 1.3e-3, 1e-3, 0.7e-3})
