@@ -159,7 +159,7 @@ CASES = [
     Case("a million steps", "error that adds up, at 1 km/h with the true density", "force steady to 0.01 %, traction 0.300 within 0.006", settings={
         "Mesh/Finest cell (mm)": 2.6, "Motion/Speed (km per h)": 1, "Scene/Density scale": 1, "Motion/Rolled distance (mm)": 96,
         "Output/History interval (mm)": 0.5}, check=steady(0.01), ways=("0.95",)),
-    Case("soft ballast, stiff pads", "2 and 3000 MN/m", "carries the load within 3 %", scene="tutorial/track.prm", settings={
+    Case("soft ballast and stiff pads", "2 and 3000 MN/m", "carries the load within 3 %", scene="tutorial/track.prm", settings={
         "Track/Ballast stiffness (MN per m)": 2, "Track/Pad stiffness (MN per m)": 3000, "Motion/Rolled distance (mm)": 20},
          check=load(TRACK_LOAD, 3.), ways=("0.95", "0.95, 3 ranks")),
     Case("two sweeps", "contact is not solved to its tolerance", "a warning", settings={"Contact/Largest number of sweeps": 2}, warns="tolerance"),
