@@ -77,6 +77,12 @@ namespace tread
       throw InputError(std::string("the region of 'Peak stress' holds no middle of a cell of the ") +
                        (contact ? "rail" : "wheel") + ": make it longer, wider or deeper");
     find_pairs();
+    if (dealii::Utilities::MPI::sum(pairs.size(), comm) == 0)
+      throw InputError(
+        std::string("the region of 'Peak stress' holds no two layers of the finest cells of the ") +
+        (contact ? "rail" : "wheel") +
+        ", from which the stress at its surface follows: make it deeper, or longer where the "
+        "cells are finest");
     if (contact)
       find_faces(dynamics, *contact);
     unsigned int n_layers = 0;
@@ -172,9 +178,17 @@ namespace tread
       if (const int local = contact.surfaces.nodes[k].local; local >= 0)
         surface_number[local] = k;
     traction.resize(contact.surfaces.nodes.size());
+    // Hooke's law is not that of steel that can yield, and the largest of a part of the region would be taken
+    // for that of all of it.
     std::vector<char> is_member(mesh.cells.size(), false);
+    unsigned int      can_yield = 0;
     for (const Member &member : members)
-      is_member[member.cell] = !dynamics.solid.plastic().contains(member.cell);
+      {
+        is_member[member.cell] = true;
+        can_yield += member.layer == 0 && dynamics.solid.plastic().contains(member.cell);
+      }
+    if (dealii::Utilities::MPI::sum(can_yield, comm) > 0)
+      return;
     for (const Mesh::Face &face : mesh.faces)
       if (face.boundary == Boundary::contact && is_member[face.cell])
         {

@@ -153,9 +153,28 @@ namespace tread
             "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " +
               text_in_mm(region.end) + " mm, must lie on the path of the first wheel, which is from " +
               text_in_mm(path_begin()) + " to " + text_in_mm(last) + " mm");
-    require(peak_stress.depth >= mesh.finest_cell,
+    const double fine_begin = defect.position + mesh.fine_from, fine_end = defect.position + mesh.fine_to;
+    require(
+      mesh.fine_from == mesh.fine_to || mesh.path_cell <= mesh.finest_cell ||
+        (region.begin >= fine_begin && region.end <= fine_end),
+      "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " + text_in_mm(region.end) +
+        " mm, must lie among the finest cells, which 'Mesh/Fine from (mm)' and 'Fine to (mm)' put from " +
+        text_in_mm(fine_begin) + " to " + text_in_mm(fine_end) + " mm");
+    require(peak_stress.depth >= 2. * mesh.finest_cell,
             "'Peak stress/Depth (mm)' " + text_in_mm(peak_stress.depth) +
-              " holds no layer of cells; at least 'Mesh/Finest cell (mm)', " + text_in_mm(mesh.finest_cell));
+              " does not hold the two layers of cells from which the stress at the surface follows; at least "
+              "twice 'Mesh/Finest cell (mm)', " +
+              text_in_mm(2. * mesh.finest_cell));
+    if (peak_stress.place == PeakPlace::trailing_edge && shapes->defect)
+      {
+        const Defect &made = *shapes->defect;
+        const double  off  = std::abs(made.y_middle - first_contact().y) - peak_half_width();
+        require(
+          off < 0.5 * made.width,
+          "the region of 'Peak stress' does not meet the defect, whose 'Defect/Lateral position (mm)' is " +
+            text_in_mm(made.y_middle) + " and whose width is " + text_in_mm(made.width) +
+            ": make 'Peak stress/Half width (mm)' larger than " + text_in_mm(peak_half_width()));
+      }
     const double widest = std::min(rail.half_width(), wheel.half_width());
     require(peak_stress.half_width <= widest, "'Peak stress/Half width (mm)' " +
                                                 text_in_mm(peak_stress.half_width) +

@@ -150,7 +150,7 @@ namespace tread
     region.x_begin     = range.begin;
     region.x_end       = range.end;
     region.y_middle    = scene.first_contact().y;
-    region.half_width  = section.half_width > 0. ? section.half_width : ellipse.semi_axis_y;
+    region.half_width  = scene.peak_half_width();
     region.depth       = section.depth;
     region.finest_cell = scene.mesh.finest_cell;
     region.reach       = semi_axes * ellipse.semi_axis_x;

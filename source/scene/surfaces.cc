@@ -219,6 +219,12 @@ namespace tread
   }
 
 
+  double Scene::peak_half_width() const
+  {
+    return peak_stress.half_width > 0. ? peak_stress.half_width : hertz(*this, static_load()).semi_axis_y;
+  }
+
+
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
     if (is_positioned())

@@ -122,6 +122,7 @@ namespace tread
        "one-point"},
       {"Motion", {"Hold distance (mm)"}, "Drive", motion.drive == Drive::torque, "torque"},
       {"Peak stress", {}, "Region", peak_stress.is_wanted(), "a region"},
+      {"Peak stress", {"From (mm)", "To (mm)"}, "Region", peak_stress.place == PeakPlace::range, "range"},
       {"Output", {"Supports"}, "Track/Foundation", track.has_supports(), "one-layer or two-layer"},
       {"Output", {"Volume interval (mm)"}, "Write volume", output.write_volume, "true"},
     };

@@ -350,7 +350,8 @@ namespace tread
         add(prefix + "surface_von_mises", answer.surface.peak, false);
         if (of_rail)
           {
-            add("peak_surface_von_mises_from_tractions", answer.from_tractions, false);
+            if (answer.from_tractions.value > 0.)
+              add("peak_surface_von_mises_from_tractions", answer.from_tractions, false);
             add("peak_pressure", answer.pressure, false);
             add("peak_shear", answer.shear, false);
           }

@@ -85,13 +85,32 @@ namespace tread
       return seats;
     }
 
-    /// Whether the run ended with the largest force of its supports, on this one.
-    bool largest_force_at_end(const std::string &folder, const int support)
+    nlohmann::json summary_of(const std::string &folder)
     {
       std::ifstream file(folder + "/summary.json");
       const auto    summary = nlohmann::json::parse(file, nullptr, false);
-      return summary.is_object() && summary.value("largest_pad_force_at_end", false) &&
+      return summary.is_object() ? summary : nlohmann::json::object();
+    }
+
+    /// Whether the run ended with the largest force of its supports, on this one.
+    bool largest_force_at_end(const nlohmann::json &summary, const int support)
+    {
+      return summary.value("largest_pad_force_at_end", false) &&
              summary.value("largest_pad_force_support", support - 1) == support;
+    }
+
+    /// What makes the instant of the largest force doubtful, in lines.
+    std::string doubts(const nlohmann::json &summary, const RecordedSeat &seat, const double start)
+    {
+      constexpr double near_start = 0.5e-3; // m of the wheel's way
+      std::string      lines;
+      if (largest_force_at_end(summary, seat.support))
+        lines += "WARNING: the force on this support was still growing when the run ended\n";
+      if (!summary.value("completed", true))
+        lines += "WARNING: the run was interrupted, and larger forces may come later\n";
+      if (std::abs(seat.wheel_x - start) < near_start)
+        lines += "WARNING: the force on this support was largest when the run began\n";
+      return lines;
     }
 
     const RecordedSeat &chosen(const std::vector<RecordedSeat> &seats, const SleeperStressRequest &request)
@@ -209,15 +228,16 @@ namespace tread
       {
         throw InputError(error.what());
       }
-    const bool at_end           = largest_force_at_end(request.run, seat.support);
-    const auto [least, largest] = std::minmax_element(pressures.pressure.begin(), pressures.pressure.end());
+    const nlohmann::json summary = summary_of(request.run);
+    const auto [least, largest]  = std::minmax_element(pressures.pressure.begin(), pressures.pressure.end());
 
     nlohmann::ordered_json json;
     json["run"]                   = request.run;
     json["support"]               = seat.support;
     json["time_s"]                = seat.time;
     json["wheel_x_m"]             = seat.wheel_x;
-    json["at_end_of_run"]         = at_end;
+    json["at_end_of_run"]         = largest_force_at_end(summary, seat.support);
+    json["run_completed"]         = summary.value("completed", true);
     json["bottom"]                = request.bottom;
     json["max_von_mises_Pa"]      = s.max_von_mises;
     json["max_von_mises_place_m"] = place_of(s.place);
@@ -259,11 +279,11 @@ namespace tread
         "largest tension          %.4g MPa at (%.1f, %.1f, %.1f) mm\n"
         "force on the bottom %.6g kN\n"
         "Results in %s: sleeper_stress.json; for ParaView: sleeper_stress.vtu\n",
-        at_end ? "WARNING: the force on this support was still growing when the run ended\n" : "",
-        seat.support, request.run.c_str(), seat.time, 1e3 * seat.wheel_x, 1e-3 * pressures.force(),
-        1e-6 * *least, 1e-6 * *largest, mass, request.bottom == "fixed" ? "fixed" : "on ballast", s.cells,
-        s.unknowns, s.iterations, 1e-6 * s.max_von_mises, 1e3 * s.place[0], 1e3 * s.place[1],
-        1e3 * s.place[2], 1e-6 * s.max_tension, 1e3 * s.tension_place[0], 1e3 * s.tension_place[1],
-        1e3 * s.tension_place[2], 1e-3 * s.bottom_force, folder.path("").c_str());
+        doubts(summary, seat, parameters.number("Motion/Start (mm)", 1e-3)).c_str(), seat.support,
+        request.run.c_str(), seat.time, 1e3 * seat.wheel_x, 1e-3 * pressures.force(), 1e-6 * *least,
+        1e-6 * *largest, mass, request.bottom == "fixed" ? "fixed" : "on ballast", s.cells, s.unknowns,
+        s.iterations, 1e-6 * s.max_von_mises, 1e3 * s.place[0], 1e3 * s.place[1], 1e3 * s.place[2],
+        1e-6 * s.max_tension, 1e3 * s.tension_place[0], 1e3 * s.tension_place[1], 1e3 * s.tension_place[2],
+        1e-3 * s.bottom_force, folder.path("").c_str());
   }
 } // namespace tread

@@ -115,7 +115,11 @@ PAIRS = [
     (["Peak stress/Region=range"], ["Peak stress/From (mm)", "below 'To (mm)'"]),
     (["Peak stress/Region=range", "Peak stress/From (mm)=-500", "Peak stress/To (mm)=-400"], ["Peak stress", "must lie on the path"]),
     (["Peak stress/Region=range", "Peak stress/From (mm)=-20", "Peak stress/To (mm)=40"], ["Peak stress", "must lie on the path"]),
-    (["Peak stress/Region=range", "Peak stress/From (mm)=-20", "Peak stress/Depth (mm)=0.3"], ["Peak stress/Depth (mm)", "no layer"]),
+    (["Peak stress/Region=range", "Peak stress/From (mm)=-20", "Peak stress/Depth (mm)=1.2"], ["Peak stress/Depth (mm)", "two layers", "1.26"]),
+    (["Peak stress/Region=range", "Peak stress/From (mm)=-20", "Peak stress/To (mm)=-10", "Mesh/Fine from (mm)=-15", "Mesh/Fine to (mm)=0", "Mesh/Path cell (mm)=1.26"],
+     ["Peak stress", "from -20 to -10", "finest cells", "from -15 to 0"]),
+    (DIP + ["Defect/Position (mm)=-30", "Peak stress/Region=trailing edge", "Defect/Lateral position (mm)=20", "Defect/Width (mm)=8"],
+     ["Peak stress", "does not meet the defect", "Lateral position (mm)"]),
     (["Peak stress/Region=range", "Peak stress/From (mm)=-20", "Peak stress/Half width (mm)=99"], ["Peak stress/Half width (mm)", "exceeds"]),
     (DIP + ["Defect/Position (mm)=-900"], ["Defect/Position (mm)", "outside the rail"]),
     (DIP + ["Defect/Position (mm)=-30", "Defect/Width (mm)=80"], ["Defect/Width (mm)", "40 mm", "head"]),
@@ -265,7 +269,7 @@ with tempfile.TemporaryDirectory() as folder:
     # What another parameter leaves without effect is named; what is set to what it is anyhow is not.
     unused = {"Defect/Depth (mm)=3": "Defect/Shape", "Track/Pad stiffness (MN per m)=100": "Track/Foundation", "Wheel/Bore radius (mm)=90": "Wheel/Shape",
               "Rail/Tangent modulus (GPa)=10": "Rail/Yield stress (MPa)", "Contact/Friction memory (mm)=1": "Contact/Friction law",
-              "Wheelset/Track gauge (mm)=1400": "Wheelset/Lateral shift (mm)", "Rail/Absorbing length (m)=1": "Track/Foundation"}
+              "Wheelset/Track gauge (mm)=1400": "Wheelset/Lateral shift (mm)", "Peak stress/To (mm)=5": "Peak stress/Region", "Rail/Absorbing length (m)=1": "Track/Foundation"}
     settings = [text for setting in [*unused, "Guidance/File=", "Motion/Hold distance (mm)=15.0"] for text in ("-s", setting)]
     said = [line for line in execute([scene, "--dry-run"] + coarse + settings, program=program).stdout.splitlines() if "WARNING" in line]
     for setting, needed in unused.items():

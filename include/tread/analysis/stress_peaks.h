@@ -83,7 +83,8 @@ namespace tread
     struct Answer
     {
       Layer              surface; ///< extrapolated; value 0 where the region has no cells
-      Peak               from_tractions, pressure, shear;
+      Peak               from_tractions; ///< value 0 where steel at the surface can yield, and for the wheel
+      Peak               pressure, shear;
       std::vector<Layer> layers; ///< downwards; depths are those of the centres of the cells
     };
 

@@ -214,6 +214,8 @@ namespace tread
       double begin, end;
     };
     Range peak_range() const;
+    /// And to each side of the first contact, m.
+    double peak_half_width() const;
     /// Depth below the running surface of a point in the reference configuration, m.
     double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
