@@ -232,9 +232,17 @@ namespace
     check.relative("wheel on its suspension (Hz)", modes.frequency(2), relative / (2. * pi), 1e-3);
     check.relative("wheel on its suspension: damping share", modes.damping_share(2),
                    .5 * p.suspension_damping * relative / p.suspension_stiffness, 2e-3);
-    double                    whole = 0.;
+    double                    whole = 0., turning = 0.;
     ElasticSystem::RigidParts parts;
-    const NodalField          u = modes.shape(2, parts);
+    // The two rigid motions may be mixed; their modal masses are 1.
+    for (const unsigned int mode : {0u, 1u})
+      {
+        modes.shape(mode, parts);
+        turning += parts.turn * parts.turn;
+      }
+    check.relative("wheel: moment of inertia about the axle (kg m2)", 1. / turning, p.moment_of_inertia,
+                   1e-4);
+    const NodalField u = modes.shape(2, parts);
     for (const double inertia : wheel.system.rigid_inertia(parts))
       whole += inertia;
     for (unsigned int i = 0; i < u.size(); ++i)

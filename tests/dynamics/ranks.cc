@@ -139,7 +139,7 @@ namespace
     mesh.shared_nodes.sum(field.data());
     std::map<std::array<long long, 4>, std::array<double, 3>> own;
     for (const unsigned int i : mesh.shared_nodes.nodes())
-      own[mesh.node_key(i)] = {field[i][0], field[i][1], field[i][2]};
+      own[mesh.node_key(i)] = {{field[i][0], field[i][1], field[i][2]}};
     unsigned int n_copies = 0, n_other = 0;
     for (const auto &of_rank : all_gather(mesh.comm, own))
       for (const auto &[key, value] : of_rank)
@@ -151,6 +151,34 @@ namespace
     check.absolute("copies of nodes with other bits", sum(n_other, mesh.comm), 0., 0.);
     check.that("there are copies", n_mpi_processes(mesh.comm) == 1 || n_copies > 2 * own.size() - 1);
   }
+
+  /// What a rank knows of nodes that it holds for the sake of a neighbour's hanging node, or without the face
+  /// of the boundary on which they lie: the body and the boundary are those of their place.
+  void nodes_know_their_place(tests::Check &check)
+  {
+    const auto cube = [](const double x) {
+      Body body = tests::make_box("cube", Point<3>(x, 0., 0.), Point<3>(x + .04, .04, .04), {{4, 4, 4}},
+                                  {{tests::Side::bottom, Boundary::support}});
+      tests::refine_near(body, Point<3>(x + .02, .02, .01), .009, .005);
+      return body;
+    };
+    const Mesh   mesh(MPI_COMM_WORLD, {cube(0.), cube(.1)});
+    unsigned int wrong_bodies = 0, missing = 0;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      wrong_bodies += mesh.node_bodies[i] != (mesh.nodes[i][0] > .07);
+    for (const unsigned int body : {0u, 1u})
+      {
+        std::vector<char> found(mesh.nodes.size(), false);
+        for (const unsigned int i : mesh.boundary_nodes(body, Boundary::support))
+          found[i] = true;
+        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+          missing += (mesh.nodes[i][2] < 1e-9 && (mesh.nodes[i][0] > .07) == (body == 1)) != bool(found[i]);
+      }
+    using dealii::Utilities::MPI::sum;
+    check.that("two cubes have hanging nodes", mesh.n_global_hanging_nodes > 0);
+    check.absolute("nodes of a wrong body", sum(wrong_bodies, mesh.comm), 0., 0.);
+    check.absolute("nodes that belong to the bottom or do not, wrongly", sum(missing, mesh.comm), 0., 0.);
+  }
 } // namespace
 
 
@@ -159,6 +187,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   using dealii::Utilities::MPI::max;
 
   copies_are_the_same(check);
+  nodes_know_their_place(check);
 
   // Those that are not reproducible to the last bit: sums over ranks differ in order, 1e-16 a step, and
   // rounding of positions (1e-17 m) over displacements of um.
