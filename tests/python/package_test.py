@@ -380,6 +380,19 @@ class Studies(InFolder):
             self.assertEqual((result.returncode, "0 of 1 runs complete" in result.stdout), (1, True))
         self.assertFalse(os.path.exists(os.path.join(folder, "summary.json")))
 
+    def test_a_profile_in_the_present_folder_goes_before_that_beside_the_scene(self):
+        scene = write(self.path("scenes", "scene.prm"), "subsection Defect\n  set Profile file = profile.txt\nend\n")
+        beside = write(self.path("scenes", "profile.txt"), "0 0\n")
+        study = write(self.path("one.study"), f"set Scene = {scene}\nset Figures = normal_force_N\nsubsection Vary\n  set Motion/Creepage = 0.001\nend\n")
+        begins = lambda: "creepage-0.001: begins" in self.perform(study).stdout
+        self.assertEqual([begins(), begins()], [True, False])
+        write(self.path("profile.txt"), "0 0.1\n")
+        self.assertEqual([begins(), begins()], [True, False])
+        write(beside, "0 0.2\n")  # which the program does not read
+        self.assertFalse(begins())
+        write(self.path("profile.txt"), "0 0.3\n")
+        self.assertTrue(begins())
+
     def test_a_study_that_cannot_be(self):
         text = f"set Scene = {ROOT}/prm/smooth-rolling.prm\nsubsection Vary\n  set Motion/Creepage = 0.001\n  set Motion/Creepage = 0.002\nend\n"
         for arguments, what, code in (((write(self.path("twice.study"), text),), "'Motion/Creepage' is there twice", 1),
