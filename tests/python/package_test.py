@@ -425,7 +425,9 @@ class Studies(InFolder):
         def rows_and_words(figures, smooth=700):
             with mock.patch("builtins.print") as said:
                 heading, *rows = study.limits[0].rows(list(zip(study.members, figures, [smooth] * 6)))
-            self.assertEqual(heading, ["figure", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)", "uncertainty"])
+            self.assertEqual(heading, ["figure", "limit", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)",
+                                       "uncertainty"])
+            self.assertEqual([row.pop(1) for row in rows], [900.] * 2)
             return rows, "\n".join(str(call.args[0]) for call in said.call_args_list)
 
         rows, words = rows_and_words([750, 850, 950, 850, 950, 980])
@@ -449,10 +451,57 @@ class Studies(InFolder):
             self.assertIn("7, between 6 and 8; no figure at 4", words)
             self.assertIn("between 4 and 8 with Mesh/Finest cell (mm) 2, 7 with 1: not settled", words)
 
+    def test_a_limit_to_which_a_figure_falls(self):
+        answer = lambda *figures, smooth=None: limits.Answer([(size, figure, smooth) for size, figure in zip((8, 4, 6), figures)], 900)
+        for smooth in (None, 1000.):
+            found = answer(700, 950, 850, smooth=smooth)
+            self.assertEqual((found.below, found.above, found.at, found.from_above), (4, 6, 5, True))
+            self.assertIn("5, between 4 and 6; the figure falls", found.sentence)
+        self.assertEqual(answer(700, 850, 800, smooth=1000).words, "below 4")
+        self.assertEqual(answer(910, 950, 920, smooth=1000).words, "above 8")
+        self.assertIn("the figure falls, from 1000 on the smooth rail", answer(910, 950, 920, smooth=1000).sentence)
+        # What is below the limit and falls does not come to it, whether it is looked for from below or from above.
+        for smooth in (None, 800):
+            found = answer(600, 700, 650, smooth=smooth)
+            self.assertEqual((found.words, found.below, found.above, found.at), ("nowhere from 4 to 8", None, None, None))
+        # It rises from the smooth rail, though not from the smallest defect.
+        self.assertEqual(answer(940, 950, 945, smooth=700).words, "below 4")
+        self.assertEqual(answer(1000, 890, 950, smooth=910).words, "no defect is needed")
+
+    def test_a_figure_of_0_is_none(self):
+        found = limits.Answer([(4, 0., None), (6, 800, None), (8, 1000, None)], 900)
+        self.assertEqual((found.below, found.above, found.at), (6, 8, 7))
+        self.assertIn("no figure at 4 (it is 0)", found.sentence)
+        for figure, smooth in ((0, 0), (None, 950), (float("nan"), None)):
+            found = limits.Answer([(4, figure, smooth), (8, figure, smooth)], 900)
+            self.assertEqual((found.words, found.below, found.above, found.at), ("no figures", None, None, None))
+
+    def test_limits_in_one_table(self):
+        program = write(self.path("program"), "#!/usr/bin/python3\nimport json, sys\nfolder = sys.argv[sys.argv.index('--output') + 1]\n"
+                        "length = [float(a.split('=')[1]) for a in sys.argv if 'Length' in a][0]\n"
+                        "json.dump({'completed': True, 'f': 100 * length}, open(folder + '/summary.json', 'w'))\n", 0o755)
+        limits_of = lambda *values: "set Limit = " + " | ".join(f"f = {value} over Defect/Length (mm)" for value in values)
+        mesh, out = "set Mesh = Mesh/Finest cell (mm)", self.path("results", "limit", "limit.csv")
+
+        def perform(*entries, program=program):
+            result = self.perform(self.limit_study("set Figures = f", *entries), "--program", program)
+            if not os.path.exists(out):
+                return result.stdout, None
+            with open(out, encoding="utf-8") as stream:
+                return result.stdout, list(csv.DictReader(stream))
+
+        said, rows = perform(limits_of(500, 600), mesh)
+        self.assertEqual([(float(row["limit"]), row["Defect/Length (mm)"]) for row in rows], [(500, "5")] * 2 + [(600, "6")] * 2)
+        self.assertNotIn("one mesh only", said)
+        self.assertIn("the uncertainty is not known: there is one mesh only", self.perform(write(self.path("one.study"), (
+            f"set Scene = {ROOT}/prm/smooth-rolling.prm\nset Figures = f\n{limits_of(500)}\nsubsection Vary\n  set Defect/Length (mm) = 4 | 8\nend\n")),
+            "--program", program).stdout)
+
     def test_limits_that_cannot_be(self):
         for entries, words in ((["set Limit = f over"], "FIGURE = VALUE over PARAMETER"), (["set Limit = f = 1 over Rail/Length (mm)"], "is not varied"),
                                (["set Mesh = Mesh/Finest cell (mm)"], "there is none"),
                                (["set Limit = f = 1 over Defect/Length (mm)", "set Mesh = Fine"], "is not varied"),
+                               (["set Limit = f = 1 over Mesh/Finest cell (mm)", "set Mesh = Mesh/Finest cell (mm)"], "is the 'Mesh'"),
                                (["set Limit = g = 1 over Defect/Length (mm)"], "'g' is not among 'Figures': f"),
                                *(([f"set Limit = f = {value} over Defect/Length (mm)"], f"'{value}'; allowed: numbers above 0")
                                  for value in ("nan", "inf", "-9e8", "0"))):
