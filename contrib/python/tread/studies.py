@@ -31,7 +31,8 @@ strongest vibration.
 Smooth twins run first. There is one for all runs that differ in their defect alone, and one for each 'Defect/Position (mm)',
 since the rail is not the same everywhere. Where the largest stresses near a 'trailing edge' are recorded, the twin records them
 where the scene has this edge, or else, if only 'Vary' has a 'Defect/Length (mm)', where the first run has it: on a smooth rail
-so small a way makes little difference. Where a twin fails, only the figures that need it are missing, and what the smooth rail has in limit.csv.
+so small a way makes little difference. Where a twin fails, only the figures that need it are missing, and what the smooth rail
+has in limit.csv.
 
 Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
 interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. A run is complete also if
