@@ -579,8 +579,10 @@ class Studies(InFolder):
 
     def test_ctrl_c_with_mpirun_whose_exit_code_is_1(self):
         """Of the runs one has nothing, one a checkpoint after a fault before it, one its results, and one a fault."""
-        write(self.path("mpirun"), f"""#!/usr/bin/python3
-import glob, os, sys, time
+        write(self.path("mpirun"), "#!/bin/sh\ntrap '' INT\n$0-rank \"$@\"\nexit 1\n", 0o755)  # as if it told its ranks too late
+        write(self.path("mpirun-rank"), f"""#!/usr/bin/python3
+import glob, os, signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
 folder = sys.argv[sys.argv.index("--output") + 1]
 what = folder[-1]
 leave = lambda name, text: open(os.path.join(folder, name), "w").write(text)

@@ -253,13 +253,21 @@ class Member(Run):
         print(f"{self.name}: {'goes on' if resume else 'begins'}", flush=True)
         with open(self.path("output.txt"), "a" if resume else "w", encoding="utf-8") as output:
             self.begun_at = output.tell()
-            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well. mpirun kills its ranks a
-            # second later, too soon for a large checkpoint.
-            self.process = subprocess.Popen(line, env=environment(OMPI_MCA_odls_base_sigkill_timeout="60"), stdout=output,
-                                            stderr=subprocess.STDOUT, start_new_session=True)
+            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
+            self.process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+
+    def interrupt(self):
+        """Ctrl-C for the ranks themselves: mpirun kills them a second after it has told them, too soon for a large checkpoint."""
+        pids = [self.process.pid]
+        if self.ranks > 1:
+            with contextlib.suppress(OSError), open(f"/proc/{pids[0]}/task/{pids[0]}/children", encoding="ascii") as stream:
+                pids = [int(pid) for pid in stream.read().split()] or pids
+        for pid in pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGINT)
 
     def ended(self, stopped=False):
-        """Whether it has ended; then its state says how. @param stopped by Ctrl-C, for which mpirun has no exit code of its own"""
+        """Whether it has ended; then its state says how. @param stopped by Ctrl-C, after which mpirun may end with 1"""
         if self.process is None:
             return True
         code = self.process.poll()
@@ -292,7 +300,7 @@ def run_all(runs, processes):
     except KeyboardInterrupt:
         for run in active:
             if run.process is not None:
-                run.process.send_signal(signal.SIGINT)
+                run.interrupt()
         try:
             while not all([run.ended(stopped=True) for run in active]):
                 time.sleep(0.05)
