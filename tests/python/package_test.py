@@ -374,11 +374,25 @@ class Studies(InFolder):
         self.assertNotIn("begins", state())
         write(profile, "0 0.1\n")
         self.assertEqual(state(), "creepage-0.001: begins")
-        # A start that fails under other settings, and then once more.
+        # A start that fails under other settings, and then once more, where there is a checkpoint under the settings before.
+        write(os.path.join(folder, "checkpoint.last"), "checkpoint-0\n")
         for _ in range(2):
             result = self.perform(study("0.001", "Motion/Speed (km per h)=70"), "--program", write(self.path("fails"), "#!/bin/sh\nexit 1\n", 0o755))
-            self.assertEqual((result.returncode, "0 of 1 runs complete" in result.stdout), (1, True))
+            self.assertEqual((result.returncode, "0 of 1 runs complete" in result.stdout, "goes on" in result.stdout), (1, True, False))
         self.assertFalse(os.path.exists(os.path.join(folder, "summary.json")))
+
+    def test_a_profile_in_the_present_folder_goes_before_that_beside_the_scene(self):
+        scene = write(self.path("scenes", "scene.prm"), "subsection Defect\n  set Profile file = profile.txt\nend\n")
+        beside = write(self.path("scenes", "profile.txt"), "0 0\n")
+        study = write(self.path("one.study"), f"set Scene = {scene}\nset Figures = normal_force_N\nsubsection Vary\n  set Motion/Creepage = 0.001\nend\n")
+        begins = lambda: "creepage-0.001: begins" in self.perform(study).stdout
+        self.assertEqual([begins(), begins()], [True, False])
+        write(self.path("profile.txt"), "0 0.1\n")
+        self.assertEqual([begins(), begins()], [True, False])
+        write(beside, "0 0.2\n")  # which the program does not read
+        self.assertFalse(begins())
+        write(self.path("profile.txt"), "0 0.3\n")
+        self.assertTrue(begins())
 
     def test_a_study_that_cannot_be(self):
         text = f"set Scene = {ROOT}/prm/smooth-rolling.prm\nsubsection Vary\n  set Motion/Creepage = 0.001\n  set Motion/Creepage = 0.002\nend\n"
@@ -412,7 +426,9 @@ class Studies(InFolder):
         def rows_and_words(figures, smooth=700):
             with mock.patch("builtins.print") as said:
                 heading, *rows = study.limits[0].rows(list(zip(study.members, figures, [smooth] * 6)))
-            self.assertEqual(heading, ["figure", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)", "uncertainty"])
+            self.assertEqual(heading, ["figure", "limit", "Mesh/Finest cell (mm)", "smooth", "largest_below", "smallest_above", "Defect/Length (mm)",
+                                       "uncertainty"])
+            self.assertEqual([row.pop(1) for row in rows], [900.] * 2)
             return rows, "\n".join(str(call.args[0]) for call in said.call_args_list)
 
         rows, words = rows_and_words([750, 850, 950, 850, 950, 980])
@@ -436,10 +452,61 @@ class Studies(InFolder):
             self.assertIn("7, between 6 and 8; no figure at 4", words)
             self.assertIn("between 4 and 8 with Mesh/Finest cell (mm) 2, 7 with 1: not settled", words)
 
+    def test_a_limit_to_which_a_figure_falls(self):
+        answer = lambda *figures, smooth=None: limits.Answer([(size, figure, smooth) for size, figure in zip((8, 4, 6), figures)], 900)
+        for smooth in (None, 1000.):
+            found = answer(700, 950, 850, smooth=smooth)
+            self.assertEqual((found.below, found.above, found.at, found.from_above), (4, 6, 5, True))
+            self.assertIn("5, between 4 and 6; the figure falls", found.sentence)
+        self.assertEqual(answer(700, 850, 800, smooth=1000).words, "below 4")
+        self.assertEqual(answer(910, 950, 920, smooth=1000).words, "above 8")
+        self.assertIn("the figure falls, from 1000 on the smooth rail", answer(910, 950, 920, smooth=1000).sentence)
+        # What is below the limit and falls does not come to it, whether it is looked for from below or from above.
+        for smooth in (None, 800):
+            found = answer(600, 700, 650, smooth=smooth)
+            self.assertEqual((found.words, found.below, found.above, found.at), ("nowhere from 4 to 8", None, None, None))
+        # It rises from the smooth rail, though not from the smallest defect.
+        self.assertEqual(answer(940, 950, 945, smooth=700).words, "below 4")
+        self.assertEqual(answer(1000, 890, 950, smooth=910).words, "no defect is needed")
+
+    def test_a_figure_of_0_is_none(self):
+        found = limits.Answer([(4, 0., None), (6, 800, None), (8, 1000, None)], 900)
+        self.assertEqual((found.below, found.above, found.at), (6, 8, 7))
+        self.assertIn("no figure at 4 (it is 0)", found.sentence)
+        for figure, smooth in ((0, 0), (None, 950), (float("nan"), None)):
+            found = limits.Answer([(4, figure, smooth), (8, figure, smooth)], 900)
+            self.assertEqual((found.words, found.below, found.above, found.at), ("no figures", None, None, None))
+
+    def test_limits_in_one_table(self):
+        program = write(self.path("program"), "#!/usr/bin/python3\nimport json, sys\nfolder = sys.argv[sys.argv.index('--output') + 1]\n"
+                        "length = [float(a.split('=')[1]) for a in sys.argv if 'Length' in a][0]\n"
+                        "json.dump({'completed': True, 'f': 100 * length}, open(folder + '/summary.json', 'w'))\n", 0o755)
+        limits_of = lambda *values: "set Limit = " + " | ".join(f"f = {value} over Defect/Length (mm)" for value in values)
+        mesh, out = "set Mesh = Mesh/Finest cell (mm)", self.path("results", "limit", "limit.csv")
+
+        def perform(*entries, program=program):
+            result = self.perform(self.limit_study("set Figures = f", *entries), "--program", program)
+            if not os.path.exists(out):
+                return result.stdout, None
+            with open(out, encoding="utf-8") as stream:
+                return result.stdout, list(csv.DictReader(stream))
+
+        said, rows = perform(limits_of(500, 600), mesh)
+        self.assertEqual([(float(row["limit"]), row["Defect/Length (mm)"]) for row in rows], [(500, "5")] * 2 + [(600, "6")] * 2)
+        self.assertNotIn("one mesh only", said)
+        self.assertIn("the uncertainty is not known: there is one mesh only", self.perform(write(self.path("one.study"), (
+            f"set Scene = {ROOT}/prm/smooth-rolling.prm\nset Figures = f\n{limits_of(500)}\nsubsection Vary\n  set Defect/Length (mm) = 4 | 8\nend\n")),
+            "--program", program).stdout)
+        # It says nothing of other settings than study.csv does.
+        _, rows = perform(limits_of(500), mesh, "set Settings = Motion/Speed (km per h)=70", program=write(self.path("fails"), "#!/bin/sh\nexit 1\n", 0o755))
+        self.assertEqual([row["Defect/Length (mm)"] + row["largest_below"] for row in rows], [""] * 2)
+        self.assertIsNone(perform()[1])
+
     def test_limits_that_cannot_be(self):
         for entries, words in ((["set Limit = f over"], "FIGURE = VALUE over PARAMETER"), (["set Limit = f = 1 over Rail/Length (mm)"], "is not varied"),
                                (["set Mesh = Mesh/Finest cell (mm)"], "there is none"),
                                (["set Limit = f = 1 over Defect/Length (mm)", "set Mesh = Fine"], "is not varied"),
+                               (["set Limit = f = 1 over Mesh/Finest cell (mm)", "set Mesh = Mesh/Finest cell (mm)"], "is the 'Mesh'"),
                                (["set Limit = g = 1 over Defect/Length (mm)"], "'g' is not among 'Figures': f"),
                                *(([f"set Limit = f = {value} over Defect/Length (mm)"], f"'{value}'; allowed: numbers above 0")
                                  for value in ("nan", "inf", "-9e8", "0"))):
@@ -448,6 +515,121 @@ class Studies(InFolder):
             self.assertIn(words, result.stderr)
         result = self.perform(self.limit_study(lengths="4 & 0.04 | 8"))
         self.assertIn("must be 2 values with &", result.stderr)
+
+    def twin_study(self, vary, *entries, scene=""):
+        scene = write(self.path("defect.prm"), scene or "subsection Peak stress\n  set Region = trailing edge\nend\n")
+        return write(self.path("twin.study"), f"set Scene = {scene}\nset Smooth twin = Defect/Shape=none\n" + "".join(e + "\n" for e in entries) +
+                     "subsection Vary\n" + "".join(f"  set {v}\n" for v in vary) + "end\n")
+
+    def test_smooth_twins_lie_where_the_runs_do(self):
+        def twins(*vary, scene=""):
+            lines = self.perform(self.twin_study(vary, scene=scene), "--dry-run").stdout.splitlines()
+            found = dict(line.split(": ", 1) for line in lines if line.startswith("smooth-twin"))
+            self.assertEqual(lines[:len(found)], [f"{name}: {settings}" for name, settings in found.items()])  # they are first
+            return found
+
+        length, position = "Defect/Length (mm) = 4 | 8", "Defect/Position (mm) = -10 | 5"
+        # One for all lengths, for which the scene or else the first run says where the peaks are.
+        self.assertEqual(twins(length), {"smooth-twin": "Defect/Shape=none, Defect/Length (mm)=4"})
+        scene = "subsection Peak stress\n  set Region = {}\nend\nsubsection Defect\n  set Length (mm) = {}\nend\n"
+        for text in (scene.format("trailing edge", "6"), scene.format("range", "0"), "include parts.inc\n"):
+            write(self.path("parts.inc"), scene.format("trailing edge", "6"))
+            self.assertEqual(twins(length, scene=text), {"smooth-twin": "Defect/Shape=none"})
+        # One for each position.
+        self.assertEqual(twins(position, "Defect/Depth (mm) = 0.1 | 0.2", scene=scene.format("trailing edge", "6")),
+                         {f"smooth-twin_position-{x}": f"Defect/Position (mm)={x}, Defect/Shape=none" for x in ("-10", "5")})
+        self.assertEqual(twins("Defect/Position (mm) & Defect/Length (mm) = -10 & 4 | 5 & 8"),
+                         {f"smooth-twin_position-{x}": f"Defect/Position (mm)={x}, Defect/Shape=none, Defect/Length (mm)={l}" for x, l in (("-10", 4), ("5", 8))})
+
+    def test_a_smooth_twin_that_fails_hides_no_other_figure(self):
+        """The stand-in knows no --dynamic-force: without a twin's fault that is the reason why there is no figure."""
+        program = write(self.path("program"), f"#!/bin/sh\ncase \"$*\" in *Shape=none*$FAILING*) echo 'tread: no edge' >&2; exit 1;; esac\nexec {self.program} \"$@\"\n", 0o755)
+
+        def perform(figures, failing, *entries):
+            with mock.patch.dict(os.environ, {"FAILING": failing}):
+                result = self.perform(self.twin_study(["Defect/Length (mm) = 4 | 8"], f"set Figures = {figures}", *entries), "--program", program)
+            with open(self.path("results", "twin", "study.csv"), encoding="utf-8") as stream:
+                return result, list(csv.reader(stream))[1:]
+
+        limit = "set Limit = normal_force_N = 1e5 over Defect/Length (mm)"
+        result, rows = perform("normal_force_N | dynamic(normal_force_N)", "", limit)
+        self.assertEqual((result.returncode, rows), (1, [["4", "140000", "", "complete"], ["8", "140000", "", "complete"]]), result.stderr)
+        self.assertLess(result.stdout.index("smooth-twin: begins"), result.stdout.index("length-4: begins"))
+        self.assertIn("length-4: no 'dynamic(normal_force_N)': its smooth twin smooth-twin failed: no edge", result.stdout)
+        self.assertIn("below 4, the smallest with a figure", result.stdout)
+        # The exit code tells of it also where no figure needs it.
+        result, rows = perform("normal_force_N", "")
+        self.assertEqual((result.returncode, rows), (1, [["4", "140000", "complete"], ["8", "140000", "complete"]]))
+        self.assertIn("\nsmooth-twin: failed: no edge\n2 of 2 runs complete", result.stdout)
+        # What does not need a dynamic force does not fail with it; nor is one that is there taken once the twin fails.
+        result, rows = perform("normal_force_N", "never")
+        self.assertEqual((result.returncode, [row[-1] for row in rows]), (0, ["complete"] * 2), result.stdout)
+        write(self.path("results", "twin", "length-4", "dynamic.json"), '{"forces": {"normal_force_N": {"peak_N": 5}}}')
+        self.assertEqual([row[1] for row in perform("dynamic(normal_force_N)", "never")[1]], ["5", ""])
+        self.assertEqual([row[1] for row in perform("dynamic(normal_force_N)", "", "set Settings = A/B=1")[1]], ["", ""])
+
+    def interrupt(self, study, *more, ready):
+        """Ctrl-C as soon as a file is there. @returns exit code, {what: said of it}"""
+        with subprocess.Popen([os.path.join(ROOT, "contrib", "study.py"), study, *more], stdout=subprocess.PIPE, text=True) as process:
+            while not os.path.exists(ready) and process.poll() is None:
+                time.sleep(0.02)
+            process.send_signal(signal.SIGINT)
+            said = process.communicate()[0]
+        return process.returncode, dict(re.findall(r"^(\S+): (?!begins|goes on)(.+)$", said, re.MULTILINE))
+
+    def test_ctrl_c_with_mpirun_whose_exit_code_is_1(self):
+        """Of the runs one has nothing, one a checkpoint after a fault before it, one its results, and one a fault."""
+        write(self.path("mpirun"), "#!/bin/sh\ntrap '' INT\n$0-rank \"$@\"\nexit 1\n", 0o755)  # as if it told its ranks too late
+        write(self.path("mpirun-rank"), f"""#!/usr/bin/python3
+import glob, os, signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
+folder = sys.argv[sys.argv.index("--output") + 1]
+what = folder[-1]
+leave = lambda name, text: open(os.path.join(folder, name), "w").write(text)
+if what == "2" and "--resume" not in sys.argv:
+    leave("checkpoint.last", "checkpoint-0")
+    sys.exit("tread: no space left")
+try:
+    leave("ready", "")
+    while what == "4" and len(glob.glob(folder[:-1] + "*/ready")) < 4:
+        time.sleep(0.02)
+    leave("all-ready", "")
+    time.sleep(60)
+except KeyboardInterrupt:
+    if what == "3":
+        leave("summary.json", '{{"completed": true, "normal_force_N": 5}}')
+    sys.exit("tread: no checkpoint, disk full" if what == "4" else 1)
+""", 0o755)
+        entries = "set Ranks = 2\nset Processes = 4\nset Figures = normal_force_N\nset Limit = normal_force_N = 3 over A/B\n"
+        study = write(self.path("four.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\n{entries}subsection Vary\n  set A/B = 2 | 1 | 3 | 4\nend\n")
+        with mock.patch.dict(os.environ, {"PATH": f"{self.folder}:{os.environ['PATH']}"}):
+            arguments = (study, "--program", self.program)
+            one = write(self.path("one.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\nset Ranks = 2\nset Directory = results/four\nset Figures = normal_force_N\n"
+                        "subsection Vary\n  set A/B = 2\nend\n")
+            self.assertIn("b-2: failed: no space left", self.perform(one).stdout)
+            write(self.path("results", "four", "limit.csv"), "of other settings\n")
+            code, states = self.interrupt(*arguments, ready=self.path("results", "four", "b-4", "all-ready"))
+        self.assertEqual((code, states), (130, {"b-1": "interrupted", "b-2": "interrupted", "b-3": "complete", "b-4": "failed: no checkpoint, disk full",
+                                                "INTERRUPTED": "the same command goes on"}))
+        with open(self.path("results", "four", "study.csv"), encoding="utf-8") as stream:
+            self.assertEqual([row[:2] for row in csv.reader(stream)][1:], [["2", ""], ["1", ""], ["3", "5"], ["4", ""]])
+        with open(self.path("results", "four", "limit.csv"), encoding="utf-8") as stream:
+            self.assertEqual(list(csv.reader(stream))[1:], [["normal_force_N", "3.0", "", "", "3.0", "", ""]])
+
+    def test_runs_of_another_version_are_named(self):
+        study = self.twin_study(["Defect/Length (mm) = 4 | 8"], "set Figures = normal_force_N")
+        line = "2 of 3 runs, with smooth twins, were kept as other versions of the program than 1 (abc) made them: smooth-twin (0), length-4 (0)\n"
+        newer = write(self.path("newer"), f"#!/bin/bash\nif [ $1 = --version ]; then echo 'tread 1 (abc)'; exit; fi\n"
+                      f"{self.program} \"$@\" && sed -i 's/\"version\": \"0\"/\"version\": \"1 (abc)\"/' \"${{@: -1}}/summary.json\"\n", 0o755)
+        self.assertNotIn("other versions", self.perform(study).stdout)
+        self.assertNotIn("other versions", self.perform(study).stdout)  # of a program that does not tell
+        os.remove(self.path("results", "twin", "length-8", "summary.json"))
+        result = self.perform(study, "--program", newer)
+        self.assertEqual((result.returncode, line in result.stdout, result.stdout.count("begins")), (0, True, 1), result.stdout + result.stderr)
+        for name in ("smooth-twin", "length-4"):
+            os.remove(self.path("results", "twin", name, "summary.json"))
+        self.assertNotIn("other versions", self.perform(study, "--program", newer).stdout)
+        self.assertNotIn("other versions", self.perform(study, "--program", newer).stdout)
 
 
 class StudiesFromPython(InFolder):

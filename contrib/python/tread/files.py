@@ -131,14 +131,19 @@ def texts_of(scene, depth=0):
     return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name), depth + 1)]
 
 
+def own_parameters(scene):
+    """{"Section/Name": text} of what a parameter file sets, with the files that it includes. @raises DataError"""
+    return {name: value for text in reversed(texts_of(scene)) for name, value in parameters_in(text.splitlines()).items()}
+
+
 def input_of(scene, settings):
     """What decides about a run's results: its settings, {"Section/Name": value}, the texts of the scene, and what the files contain that
-    parameters name, such as profiles. @raises DataError"""
+    parameters name, such as profiles: as the program takes them, from the present folder or else from that of the scene. @raises DataError"""
     texts = texts_of(scene)
     named = {str(value) for text in texts for value in parameters_in(text.splitlines()).values()} | {str(value) for value in settings.values()}
     files = {}
     for name in sorted(named - {""}):
-        path = os.path.join(os.path.dirname(scene), name)
+        path = name if os.path.exists(name) else os.path.join(os.path.dirname(scene), name)
         if os.path.isfile(path):
             with open(path, "rb") as stream:
                 files[name] = hashlib.sha256(stream.read()).hexdigest()

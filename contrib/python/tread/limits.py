@@ -8,8 +8,9 @@ from .files import DataError
 
 
 def crossing(sizes, figures, limit):
-    """Where the straight lines between the points reach the limit first: (smallest size above, or None; largest size below it
-    among those smaller, or None; the crossing, or None unless both are known and no point between them is without a figure)."""
+    """Where the straight lines between the points reach the limit first, from below: (smallest size above, or None; largest size
+    below it among those smaller, or None; the crossing, or None unless both are known and no point between them is without a
+    figure)."""
     points = sorted(zip(sizes, figures), key=lambda point: point[0])
     below = above = None
     gap = False
@@ -28,22 +29,31 @@ def crossing(sizes, figures, limit):
 
 
 class Answer:
-    """What the runs of one mesh tell: the size at which the limit is reached (None if there is none), the sizes around it, and the
-    same in a few words and in a sentence."""
+    """What the runs of one mesh tell: the size at which the limit is reached (None if there is none), the sizes around it, whether
+    the figure falls to it, and the same in a few words and in a sentence."""
 
     def __init__(self, points, limit):
         """@param points (size, figure or None, figure of the smooth twin or None) of each run"""
-        known = lambda figure: figure if figure is not None and math.isfinite(figure) else None
+        points = sorted(points, key=lambda point: point[0])
+        # 0 is what a figure has that nothing was recorded of.
+        known = lambda figure: figure if figure is not None and math.isfinite(figure) and figure != 0 else None
         sizes, figures = [p[0] for p in points], [known(p[1]) for p in points]
-        self.smooth = max((p[2] for p in points if known(p[2]) is not None), default=None)
-        self.above, self.below, self.at = crossing(sizes, figures, limit)
-        missing = sorted(size for size, figure in zip(sizes, figures) if figure is None)
-        if self.smooth is not None and self.smooth >= limit:
+        given, smooth = [f for f in figures if f is not None], [p[2] for p in points if known(p[2]) is not None]
+        # A figure comes to the limit from above if it is above it without a defect, or with the smallest, and falls.
+        falling = bool(given) and given[-1] < (smooth + given)[0]
+        self.from_above = falling and (smooth + given)[0] >= limit
+        sign = -1 if self.from_above else 1
+        self.smooth = max(smooth, default=None)
+        self.above, self.below, self.at = crossing(sizes, [f and sign * f for f in figures], sign * limit)
+        if given and self.smooth is not None and self.smooth >= limit and not self.from_above:
             self.above = self.below = self.at = None
             self.words = "no defect is needed"
             self.sentence = f"the limit {limit:g} is below what the smooth rail has, {self.smooth:.4g}: no defect is needed to reach it"
-            return
-        if self.at is not None:
+        elif falling and not self.from_above and self.above is None:
+            self.above = self.below = None
+            self.words = f"nowhere from {sizes[0]:g} to {sizes[-1]:g}"
+            self.sentence = self.words + ": the figure is below the limit, and falls"
+        elif self.at is not None:
             self.words = f"{self.at:.3g}"
             self.sentence = f"{self.words}, between {self.below:g} and {self.above:g}"
         elif self.above is not None and self.below is not None:
@@ -56,8 +66,11 @@ class Answer:
             self.sentence = self.words + ", the smallest with a figure"
         else:
             self.words = self.sentence = "no figures"
+        if self.from_above:
+            self.sentence += "; the figure falls" + (f", from {self.smooth:.4g} on the smooth rail" if smooth else "")
+        missing = [f"{size:g}" + (" (it is 0)" if p[1] == 0 else "") for size, figure, p in zip(sizes, figures, points) if figure is None]
         if missing:
-            self.sentence += "; no figure at " + ", ".join(f"{size:g}" for size in missing)
+            self.sentence += "; no figure at " + ", ".join(missing)
 
 
 class Limit:
@@ -86,6 +99,8 @@ class Limit:
                     float(member[name])
                 except ValueError:
                     raise DataError(f"{path}: '{what}': '{name}' cannot be '{member[name]}', which is no number") from None
+        if limit.parameter == limit.mesh:
+            raise DataError(f"{path}: 'Limit': '{limit.parameter}' is the 'Mesh'; a limit is looked for over another parameter")
         return limit
 
     def rows(self, answers):
@@ -107,17 +122,19 @@ class Limit:
             lines += [f"{label}{f' with {self.mesh} {size:g}' if self.mesh else ''}: {answer.sentence}" for size, answer in found.items()]
             coarse, fine = list(found)[-2:] if len(found) > 1 else (None, None)
             uncertainty = None
-            if fine is not None and None not in (found[fine].at, found[coarse].at):
+            if fine is not None and None not in (found[fine].at, found[coarse].at) and found[fine].from_above == found[coarse].from_above:
                 uncertainty = abs(found[fine].at - found[coarse].at)
                 lines.append(f"{label}: {found[fine].words} +- {uncertainty:.2g} by the two finest meshes")
-            elif fine is not None and found[fine].words != found[coarse].words:
+            elif fine is not None and (found[fine].words, found[fine].from_above) != (found[coarse].words, found[coarse].from_above):
                 lines.append(f"{label}: {found[coarse].words} with {self.mesh} {coarse:g}, {found[fine].words} with {fine:g}: not settled")
             for size, answer in found.items():
-                rows.append([self.figure] + [value for _, value in key] + ([size] if self.mesh else [])
+                rows.append([self.figure, self.value] + [value for _, value in key] + ([size] if self.mesh else [])
                             + ["" if value is None else value for value in (answer.smooth, answer.below, answer.above)]
                             + ["" if value is None else f"{value:.{digits}g}"
                                for value, digits in ((answer.at, 4), (uncertainty if size == fine else None, 2))])
-        names = ["figure"] + [name for name, _ in next(iter(groups))] + ([self.mesh] if self.mesh else [])
+        if any(len(by_mesh) == 1 for by_mesh in groups.values()):
+            lines.append("the uncertainty is not known: there is one mesh only")
+        names = ["figure", "limit"] + [name for name, _ in next(iter(groups))] + ([self.mesh] if self.mesh else [])
         print(f"\n{self.figure} reaches {self.value:g} at")
         print("\n".join("  " + line for line in lines))
         return [names + ["smooth", "largest_below", "smallest_above", self.parameter, "uncertainty"]] + rows

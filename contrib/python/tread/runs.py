@@ -125,6 +125,13 @@ def run(scene, settings=None, *, ranks=1, output=None, options=(), program=PROGR
     return Run(output)
 
 
+def version_of(program=PROGRAM):
+    """As summary.json has it; None of a program that does not tell."""
+    asked = execute(["--version"], program=program)
+    name, _, version = asked.stdout.strip().partition(" ")
+    return version if asked.returncode == 0 and name == "tread" else None
+
+
 def dynamic_force(folder, twin, program=PROGRAM):
     """Write dynamic.csv, spectrum.csv and dynamic.json: what a defect adds to the forces of the run in a folder, beside its
     smooth twin in another."""

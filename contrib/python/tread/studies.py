@@ -14,8 +14,9 @@ A study is a text file in the format of the scenes:
     set Processes   = 1                            # runs at a time
     set Ranks       = 1                            # of each run
     set Limit       =                              # FIGURE = VALUE over PARAMETER: at which value of a parameter the figure
-                                                   # reaches the limit, as in peak_pressure_Pa = 2e9 over Defect/Length (mm);
-                                                   # several separated by |; the figure is one of 'Figures'
+                                                   # reaches the limit, from below or from above, as in
+                                                   # peak_pressure_Pa = 2e9 over Defect/Length (mm); several separated by |;
+                                                   # the figure is one of 'Figures', and 0 counts as no figure
     set Mesh        =                              # varied parameter, the smaller the finer, that tells how sure this is
     subsection Vary
       set Motion/Speed (km per h) = 70 | 100 | 140
@@ -27,9 +28,17 @@ table, as in max(strip.csv:von_mises_MPa); at(strip.csv:von_mises_MPa:x_mm), whi
 largest; and, with a smooth twin, dynamic(...) and frequency(...) of a force: the peak of what the defect adds, and its
 strongest vibration.
 
+Smooth twins run first. There is one for all runs that differ in their defect alone, and one for each 'Defect/Position (mm)',
+since the rail is not the same everywhere. Where the largest stresses near a 'trailing edge' are recorded, the twin records them
+where the scene has this edge, or else, if only 'Vary' has a 'Defect/Length (mm)', where the first run has it: on a smooth rail
+so small a way makes little difference. Where a twin fails, only the figures that need it are missing, and what the smooth rail
+has in limit.csv.
+
 Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
-interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. Ctrl-C ends the runs with a
-checkpoint. The table is study.csv in the study's folder. Exit code 0: all complete; 1: something failed; 130: interrupted.
+interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. A run is complete also if
+another version of the program made it; the last lines name such runs, and without their folders they are repeated. Ctrl-C
+ends the runs with a checkpoint. The table is study.csv in the study's folder, and limit.csv beside it what 'Limit' asks.
+Exit code 0: all complete; 1: something failed; 130: interrupted.
 """
 
 import argparse
@@ -45,14 +54,15 @@ import subprocess
 import time
 import warnings
 
-from .files import DataError, frame_or_rows, input_of, is_complete
+from .files import DataError, frame_or_rows, input_of, is_complete, own_parameters
 from .limits import Limit
-from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line, scene_path, text_of
+from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line, scene_path, text_of, version_of
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
             "Processes": "1", "Ranks": "1", "Limit": "", "Mesh": ""}
 COMPLETE = "complete"
+LENGTH = "Defect/Length (mm)"
 
 
 class Interruption(Exception):
@@ -207,6 +217,8 @@ class Member(Run):
     def __init__(self, study, root, name, settings, program, options=()):
         super().__init__(os.path.join(root, name))
         self.name, self.state, self.process = name, "", None
+        self.kept = False  # complete before this study began
+        self.without_force = ""  # why there is no dynamic.json
         self.line = [*arguments_of(study.scene, settings, self.folder), *options]
         self.ranks, self.program = study.ranks, program
         self.input = input_of(study.scene, settings)
@@ -220,83 +232,103 @@ class Member(Run):
         except (OSError, ValueError):
             return False
 
-    def begin(self):
-        """Start it unless its results are complete."""
-        known = self.same_input()
-        if known and is_complete(self.folder):
+    def keep(self):
+        """Take its results if they are complete. @returns whether they are"""
+        self.kept = self.same_input() and is_complete(self.folder)
+        if self.kept:
             self.state = COMPLETE
-            return
+        return self.kept
+
+    def begin(self):
+        """Start it, or let it go on from its checkpoint."""
+        known = self.same_input()
         resume = known and self.has("checkpoint.last")
         os.makedirs(self.folder, exist_ok=True)
-        if not known and self.has("summary.json"):
-            os.remove(self.path("summary.json"))  # of other input: never to be taken for what this run does not come to
+        for name in ("summary.json", "checkpoint.last"):
+            if not known and self.has(name):
+                os.remove(self.path(name))  # of other input: never to be taken for what this run does not come to
         with open(self.path("input.json"), "w", encoding="utf-8") as stream:
             json.dump(self.input, stream, indent=1)
         line = command(self.line + (["--resume"] if resume else []), self.ranks, self.program)
         print(f"{self.name}: {'goes on' if resume else 'begins'}", flush=True)
         with open(self.path("output.txt"), "a" if resume else "w", encoding="utf-8") as output:
-            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well. mpirun kills its ranks a
-            # second later, too soon for a large checkpoint.
-            self.process = subprocess.Popen(line, env=environment(OMPI_MCA_odls_base_sigkill_timeout="60"), stdout=output,
-                                            stderr=subprocess.STDOUT, start_new_session=True)
+            self.begun_at = output.tell()
+            # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
+            self.process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
 
-    def ended(self):
-        """Whether it has ended; then its state says how."""
+    def interrupt(self):
+        """Ctrl-C for the ranks themselves: mpirun kills them a second after it has told them, too soon for a large checkpoint."""
+        pids = [self.process.pid]
+        if self.ranks > 1:
+            with contextlib.suppress(OSError), open(f"/proc/{pids[0]}/task/{pids[0]}/children", encoding="ascii") as stream:
+                pids = [int(pid) for pid in stream.read().split()] or pids
+        for pid in pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGINT)
+
+    def ended(self, stopped=False):
+        """Whether it has ended; then its state says how. @param stopped by Ctrl-C, after which mpirun may end with 1"""
         if self.process is None:
             return True
         code = self.process.poll()
         if code is None:
             return False
         self.process = None
-        if code == 0 and is_complete(self.folder):
+        with open(self.path("output.txt"), "rb") as stream:
+            stream.seek(self.begun_at)
+            said = own_line(stream.read().decode(errors="replace"))
+        if is_complete(self.folder):
             self.state = COMPLETE
-        elif code == 130:
+        elif code == 130 or stopped and not said:
             self.state = "interrupted"
         else:
-            with open(self.path("output.txt"), encoding="utf-8", errors="replace") as stream:
-                said = own_line(stream.read())
             self.state = "failed: " + (said or f"exit code {code}, see {self.path('output.txt')}")
         print(f"{self.name}: {self.state}", flush=True)
         return True
 
 
 def run_all(runs, processes):
-    """Every run, so many at a time. @raises Interruption when all have ended with a checkpoint."""
-    waiting, active = list(runs), []
+    """Every run that is not complete, so many at a time. @raises Interruption when all have ended with a checkpoint."""
+    waiting, active = [run for run in runs if not run.keep()], []
     try:
         while waiting or active:
             active = [run for run in active if not run.ended()]
             while waiting and len(active) < processes:
-                waiting[0].begin()
                 active.append(waiting.pop(0))
+                active[-1].begin()
             time.sleep(0.05)
     except KeyboardInterrupt:
         for run in active:
             if run.process is not None:
-                run.process.send_signal(signal.SIGINT)
+                run.interrupt()
         try:
-            while not all([run.ended() for run in active]):
+            while not all([run.ended(stopped=True) for run in active]):
                 time.sleep(0.05)
         except KeyboardInterrupt:
             for run in active:
                 if run.process is not None:
                     os.killpg(run.process.pid, signal.SIGKILL)
+                    run.process.wait()
+                    run.ended(stopped=True)
         raise Interruption from None
 
 
-def add_dynamic_force(member, twin):
-    """dynamic.json of a member, unless it is newer than both runs."""
+def add_dynamic_force(member, twin, stopped):
+    """dynamic.json of a member, unless it is newer than both runs. @param stopped by Ctrl-C: nothing more is computed"""
     if twin.state != COMPLETE:
-        member.state = f"failed: its smooth twin {twin.name} {twin.state}"
+        member.without_force = f"its smooth twin {twin.name} {twin.state or 'not begun'}"
         return
     result = member.path("dynamic.json")
     if os.path.exists(result) and os.path.getmtime(result) >= max(
             os.path.getmtime(run.path("summary.json")) for run in (member, twin)):
         return
     try:
-        dynamic_force(member.folder, twin.folder, member.program)
+        if stopped:
+            member.without_force = "interrupted"
+        else:
+            dynamic_force(member.folder, twin.folder, member.program)
     except ProgramError as error:
-        member.state = f"failed: {error}"
+        member.without_force = str(error)
 
 
 def figure_of(run, figure):
@@ -313,6 +345,8 @@ def figure_of(run, figure):
         column = columns[names[0]]
         return float({"max": column.max, "min": column.min, "last": lambda: column[-1],
                       "at": lambda: columns[names[1]][column.argmax()]}[kind[1]]())
+    if run.without_force:
+        raise DataError(f"{run.name}: no '{figure}': {run.without_force}")
     with open(run.path("dynamic.json"), encoding="utf-8") as stream:
         force = json.load(stream)["forces"].get(kind[2])
     if force is None:
@@ -342,10 +376,20 @@ def report_limits(study, root, members):
     print(f"Table in {os.path.join(root, 'limit.csv')}")
 
 
-def tabulate(study, root, runs):
-    """study.csv, and the same on the terminal. @returns whether every figure of the complete runs was found."""
+def report_versions(runs, program):
+    """A line about the results that another version of the program has left."""
+    kept = [run for run in runs if run.kept]
+    present = version_of(program) if kept else None
+    others = [f"{run.name} ({run.summary.get('version', 'none')})" for run in kept if run.summary.get("version") != present]
+    if present and others:
+        print(f"{len(others)} of {len(runs)} runs, with smooth twins, were kept as other versions of the program than {present} made them: "
+              + ", ".join(others))
+
+
+def tabulate(study, root, members):
+    """study.csv, and the same on the terminal. @returns whether every run is complete and every figure was found."""
     rows, missing = [], []
-    for member, run in zip(study.members, runs):
+    for values, (run, _) in zip(study.members, members):
         figures = []
         for figure in study.figures:
             try:
@@ -353,59 +397,73 @@ def tabulate(study, root, runs):
             except DataError as error:
                 figures.append("")
                 missing.append(str(error))
-        rows.append(list(member.values()) + figures + [run.state or "not begun"])
+        rows.append(list(values.values()) + figures + [run.state or "not begun"])
     header = list(study.members[0]) + study.figures + ["state"]
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([header] + rows)
     part = os.path.join(root, "study.csv.part")
     with open(part, "w", encoding="utf-8") as stream:
         stream.write(text.getvalue())
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(os.path.join(root, "limit.csv"))  # which may be of other settings
     os.replace(part, os.path.join(root, "study.csv"))
 
     widths = [max(len(row[i]) for row in [header] + rows) for i in range(len(header) - 1)]
     print()
     for row in [header] + rows:
         print("  ".join([f"{cell:>{width}}" for cell, width in zip(row, widths)] + [row[-1]]))
+    missing += [f"{twin.name}: {twin.state or 'not begun'}" for twin in twins_of(members) if twin.state != COMPLETE]
     print("\n".join([""] + missing) if missing else "")
-    print(f"{sum(run.state == COMPLETE for run in runs)} of {len(runs)} runs complete. Table in {os.path.join(root, 'study.csv')}")
-    return not missing
+    print(f"{sum(run.state == COMPLETE for run, _ in members)} of {len(members)} runs complete. Table in {os.path.join(root, 'study.csv')}")
+    return not missing and all(run.state == COMPLETE for run, _ in members)
 
 
 def members_of(study, root, program, options=()):
     """[(run, its smooth twin or None)] of a study in a folder."""
     members, twins = [], {}
+    no_defect = study.without_defect.get("Defect/Shape") == "none"
+    scene = own_parameters(study.scene)
     for values in study.members:
-        no_defect = study.without_defect.get("Defect/Shape") == "none"
-        left = {name: value for name, value in values.items()
-                if name not in study.without_defect and not (no_defect and name.startswith("Defect/"))}
+        left = {name: value for name, value in values.items() if name not in study.without_defect
+                and not (no_defect and name.startswith("Defect/") and name != "Defect/Position (mm)")}
         name = "smooth-twin" + ("_" + folder_name(left) if left else "")
         if study.without_defect and name not in twins:
-            twins[name] = Member(study, root, name, {**study.settings, **left, **study.without_defect}, program, options)
+            settings = {**study.settings, **left, **study.without_defect}
+            has = {**scene, **settings}
+            if has.get("Peak stress/Region") == "trailing edge" and number_or_text(has.get(LENGTH, "0")) == 0 and LENGTH in values:
+                settings[LENGTH] = values[LENGTH]
+            twins[name] = Member(study, root, name, settings, program, options)
         members.append((Member(study, root, folder_name(values), {**study.settings, **values}, program, options), twins.get(name)))
     return members
 
 
 def runs_of(members):
-    """Every run once, those of the members first."""
-    return [run for run, _ in members] + list(dict.fromkeys(twin for _, twin in members if twin is not None))
+    """Every run once, smooth twins first: all others of a study are in vain if these cannot be."""
+    return twins_of(members) + [run for run, _ in members]
+
+
+def twins_of(members):
+    return list(dict.fromkeys(twin for _, twin in members if twin is not None))
 
 
 def perform(study, root, members):
-    """Every run, and the tables. @returns whether every figure of the complete runs was found @raises Interruption"""
+    """Every run, and the tables. @returns whether every run is complete and every figure was found @raises Interruption"""
     os.makedirs(root, exist_ok=True)
-    own = [run for run, _ in members]
+    interruption = None
     try:
         run_all(runs_of(members), study.processes)
-        for member, twin in members:
-            if twin is not None and member.state == COMPLETE:
-                add_dynamic_force(member, twin)
-    except Interruption:
-        tabulate(study, root, own)
-        raise
-    found = tabulate(study, root, own)
+    except Interruption as error:
+        interruption = error
+    for member, twin in members:
+        if twin is not None and member.state == COMPLETE:
+            add_dynamic_force(member, twin, stopped=interruption is not None)
+    good = tabulate(study, root, members)
     if study.limits:
         report_limits(study, root, members)
-    return found
+    report_versions(runs_of(members), members[0][0].program)
+    if interruption:
+        raise interruption
+    return good
 
 
 def study(scene, vary, *, figures=(), settings=None, combination="product", smooth_twin=None, output=None, processes=1, ranks=1,
@@ -466,6 +524,9 @@ def study(scene, vary, *, figures=(), settings=None, combination="product", smoo
                 row[figure] = float("nan")
                 warnings.warn(str(error), stacklevel=2)
         rows.append({**row, "state": run.state, "folder": run.folder})
+    for twin in twins_of(members):
+        if twin.state != COMPLETE:
+            warnings.warn(f"{twin.name}: {twin.state}", stacklevel=2)
     return frame_or_rows(rows)
 
 
@@ -494,11 +555,10 @@ def main():
             print(f"{run.name}: " + ", ".join(f"{name}={value}" for name, value in run.input["settings"].items()))
         return 0
     try:
-        found = perform(asked, root, members)
+        return 0 if perform(asked, root, members) else 1
     except Interruption:
         print("INTERRUPTED: the same command goes on")
         return 130
-    return 0 if found and all(run.state == COMPLETE for run, _ in members) else 1
 
 
 def command_line():
