@@ -232,14 +232,22 @@ namespace
     check.relative("wheel on its suspension (Hz)", modes.frequency(2), relative / (2. * pi), 1e-3);
     check.relative("wheel on its suspension: damping share", modes.damping_share(2),
                    .5 * p.suspension_damping * relative / p.suspension_stiffness, 2e-3);
-    double                    whole = 0., turning = 0.;
+    double                    whole = 0., turning = 0., off_rigid = 0., largest = 0.;
     ElasticSystem::RigidParts parts;
     // The two rigid motions may be mixed; their modal masses are 1.
     for (const unsigned int mode : {0u, 1u})
       {
-        modes.shape(mode, parts);
+        const NodalField shape = modes.shape(mode, parts);
         turning += parts.turn * parts.turn;
+        for (unsigned int i = 0; i < shape.size(); ++i)
+          {
+            const dealii::Point<3> &p = wheel.mesh.nodes[i];
+            const Vector3           rigid{parts.turn * p[2], 0., parts.up - parts.turn * p[0], 0.};
+            off_rigid = std::max(off_rigid, std::sqrt(dot(shape[i] - rigid, shape[i] - rigid)));
+            largest   = std::max(largest, std::sqrt(dot(rigid, rigid)));
+          }
       }
+    check.below("wheel: rigid motions, rim and bore off those of the hub, share", off_rigid / largest, 1e-5);
     check.relative("wheel: moment of inertia about the axle (kg m2)", 1. / turning, p.moment_of_inertia,
                    1e-4);
     const NodalField u = modes.shape(2, parts);

@@ -180,6 +180,41 @@ namespace
     check.below("given tractions: gap's rate, m/s", gap, allowed);
   }
 
+  /// A coefficient that falls with the pressure: impulse over area and time step.
+  void friction_of_pressure(tests::Check &check)
+  {
+    constexpr double     friction = 0.3, time_step = 1e-6; // s
+    std::mt19937         random(29);
+    const RandomProblem  r = make_problem(n_constraints, random);
+    Strips               whole(r.problem);
+    std::vector<Vector3> velocity = r.velocity, impulse(n_constraints, Vector3{});
+    std::vector<char>    slips;
+    PairFriction         pairs;
+    pairs.of_pressure = [](const double pressure) {
+      return 1. / (1. + pressure / 50e6);
+    };
+    solve_coulomb(r.problem, CoulombFriction(friction), solver_parameters(), whole, r.offset, velocity,
+                  impulse, slips, {}, pairs, time_step);
+    unsigned int n_slip = 0;
+    double       off = 0., least = 1., most = 0.;
+    for (unsigned int j = 0; j < n_constraints; ++j)
+      {
+        const auto  &c      = r.problem.constraints[j];
+        const double normal = dot(impulse[j], c.normal);
+        if (!slips[j] || normal <= 0.)
+          continue;
+        const double ratio  = size(impulse[j] - normal * c.normal) / normal,
+                     factor = 1. / (1. + normal / (c.area * time_step) / 50e6);
+        ++n_slip;
+        off   = std::max(off, std::abs(ratio / (friction * factor) - 1.));
+        least = std::min(least, factor);
+        most  = std::max(most, factor);
+      }
+    check.that("friction of pressure: many pairs slip", n_slip > 10);
+    check.that("friction of pressure: factors from below 0.3 to above 0.6", least < 0.3 && most > 0.6);
+    check.below("friction of pressure: share of the friction", off, 1e-4);
+  }
+
   struct Solution
   {
     std::vector<Vector3> velocity, impulse;
@@ -331,6 +366,7 @@ namespace
 
 void run_test(Check &check, const tests::Arguments &)
 {
+  friction_of_pressure(check);
   std::mt19937 random(1);
   given_tractions(check, random);
   for (const double mu : {0., 0.3, 0.8})

@@ -39,14 +39,16 @@ namespace
     return {plate, round};
   }
 
-  Result fall(const MPI_Comm comm, const double y)
+  Result fall(const MPI_Comm comm, const double y, const unsigned int slave = ContactParameters().slave_body)
   {
     const Mesh         mesh(comm, bodies(y));
     const Solid        solid(mesh, {ElasticMaterial(), ElasticMaterial()}, SolidParameters());
     DynamicsParameters parameters;
     parameters.gravity = 0.;
-    ExplicitDynamics dynamics(mesh, solid, parameters);
-    Contact          contact(mesh, ContactParameters(), std::make_shared<CoulombFriction>(0.3));
+    ExplicitDynamics  dynamics(mesh, solid, parameters);
+    ContactParameters contact_parameters;
+    contact_parameters.slave_body = slave;
+    Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.3));
     dynamics.fix_nodes(dynamics.support_nodes(0));
     dynamics.attach_contact(contact);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
@@ -86,5 +88,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check.that("near its border: touches the rim", at_border.at_rim.has_value());
   if (at_border.at_rim)
     check.absolute("near its border: where, mm", 1e3 * (*at_border.at_rim)[1], 1e3 * border, 0.01);
+  check.that("near its border, the plate as master: touches the rim",
+             fall(MPI_COMM_WORLD, 9.3e-3, 1).at_rim.has_value());
+  check.that("inside the strip, the plate as master: not at the rim", !fall(MPI_COMM_WORLD, 2e-3, 1).at_rim);
   check.that("beside the strip nothing is touched", !beside.touched && !beside.at_rim);
 }
