@@ -219,6 +219,8 @@ namespace
                      1e6 * map.height(1e-3 * x, 1e-3 * y), 1e3 * height(x, y), 1e-9);
     check.absolute("map: between the last places of a border a straight line, um",
                    1e6 * map.height(0.35e-3, 0.5e-3), 1e3 * height(0.35, 0.5), 0.5);
+    check.absolute("map: the same at its first row, um", 1e6 * map.height(3.11e-3, -2.83e-3),
+                   1e3 * height(3.11, -2.83), 0.1);
     check.absolute("map: beyond it the border's height, um", 1e6 * map.height(-5e-3, 0.5e-3),
                    1e3 * height(0., 0.5), 1e-9);
   }

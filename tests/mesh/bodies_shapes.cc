@@ -195,6 +195,16 @@ namespace
     check.absolute("inclined rail: gauge side of the top, lower by mm", -1e3 * gauge_side[2],
                    30. / std::hypot(20., 1.), 1e-9);
     check.absolute("inclined rail: nothing moves along, mm", 1e3 * foot[0], 100., 1e-12);
+
+    // A defect lies where its place is in space, not in a chart that is half as wide.
+    RailTop bumpy;
+    bumpy.height = [](const double, const double y) {
+      return 0.1 * y;
+    };
+    const auto of_defect =
+      shape_top([](const Point<3> &p) { return Point<3>(p[0], 2. * p[1], p[2]); }, bumpy, 0.04);
+    check.absolute("height of a defect at 20 mm beside the middle, mm",
+                   1e3 * of_defect(Point<3>(0., 0.01, 0.))[2], 2., 1e-12);
   }
 
   void check_sector(tests::Check &check, const double finest, const bool conical)
