@@ -61,7 +61,11 @@ class Pictured(Run):
             self.references.append(("half-space solver", self.reference, ORANGE, "-"))
         if contact_file:
             patch = read_contact(contact_file)
-            self.references.append((f"CONTACT, {patch.size_x:.2g} mm", patch, "black", "--"))
+            # A solution for another load is no answer to this run; its label says for which.
+            force = 1e-3 * (patch.pressure * patch.area).sum()  # MPa and mm2 give N
+            own = 1e-3 * self.summary["normal_force_N"]
+            load = "" if abs(force / own - 1) < 0.01 else f", {force:.0f} kN"
+            self.references.append((f"CONTACT, {patch.size_x:.2g} mm{load}", patch, "black", "--"))
 
         scale = {"semi_axis_x_m": 1e3, "semi_axis_y_m": 1e3, "max_pressure_Pa": 1e-6}
         hertz = [reference_value(self.summary, key, "Hertz") for key in scale]
