@@ -107,6 +107,17 @@ namespace
     hollow.depth = 1e-3;
     check.absolute("over a deep dip: lift, um", 1e6 * first_contact(surfaces, 0.).lift,
                    1e6 * (std::sqrt(0.46 * 0.46 - 1e-4) - 0.46), 0.5);
+
+    // A coned wheel on a rail whose defect is a plate of 0.1 mm everywhere is as much higher.
+    surfaces.tread_offset = tread_offset("cone 1:20", 0.);
+    surfaces.defect       = {};
+    const double on_rail  = first_contact(surfaces, 0.).lift;
+    surfaces.defect       = [](const double, const double) {
+      return 0.1e-3;
+    };
+    check.that("coned wheel: it does not touch in the middle", std::abs(on_rail) > 50e-6);
+    check.absolute("coned wheel on a plate: lift, um", 1e6 * first_contact(surfaces, 0.).lift,
+                   1e6 * on_rail + 100., 0.5);
   }
 
   void check_defects(tests::Check &check)

@@ -137,6 +137,20 @@ namespace
       }
   }
 
+  /// Faces that could touch take part in the contact where the body says that the other one reaches them.
+  void check_reach(tests::Check &check)
+  {
+    Body body     = tests::make_box("plate", dealii::Point<3>(), dealii::Point<3>(8., 4., 1.), {{8, 4, 1}},
+                                    {{tests::Side::top, Boundary::contact}});
+    body.in_reach = [](const dealii::Point<3> &p) {
+      return p[0] < 3.;
+    };
+    unsigned int n = 0;
+    for (const Mesh::Face &face : Mesh(MPI_COMM_SELF, {body}).faces)
+      n += face.boundary == Boundary::contact;
+    check.absolute("faces in reach of the other body", n, 12., 0.);
+  }
+
   /// Hanging nodes lie at the mean of their parents also where the surface is curved, or a rotation would
   /// strain their cells.
   double off_the_mean(const Mesh &mesh)
@@ -157,6 +171,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   check_rows(check);
   check_stretched_cell(check);
+  check_reach(check);
   for (const RailProfile &profile : {RailProfile::rail_54e1(), RailProfile::rail_60e1()})
     {
       const std::string &name = profile.name();
