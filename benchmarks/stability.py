@@ -156,9 +156,9 @@ CASES = [
          scene="tutorial/dip.prm", settings={"Defect/Depth (mm)": 0.5, "Defect/Length (mm)": 20, "Motion/Speed (km per h)": 200,
                                              "Output/Write volume": "false"},
          check=lambda summary, folder: edge_forces(folder)),
-    Case("a million steps", "error that adds up, at 1 km/h with the true density", "force steady to 0.01 %, traction 0.300 within 0.006", settings={
+    Case("a million steps", "error that adds up, at 1 km/h with the true density", "force steady to 0.1 %, what a ripple of 2 % leaves in its means; traction 0.300 within 0.006", settings={
         "Mesh/Finest cell (mm)": 2.6, "Motion/Speed (km per h)": 1, "Scene/Density scale": 1, "Motion/Rolled distance (mm)": 96,
-        "Output/History interval (mm)": 0.5}, check=steady(0.01), ways=("0.95",)),
+        "Output/History interval (mm)": 0.5}, check=steady(0.1), ways=("0.95",)),
     Case("soft ballast and stiff pads", "2 and 3000 MN/m", "carries the load within 3 %", scene="tutorial/track.prm", settings={
         "Track/Ballast stiffness (MN per m)": 2, "Track/Pad stiffness (MN per m)": 3000, "Motion/Rolled distance (mm)": 20},
          check=load(TRACK_LOAD, 3.), ways=("0.95", "0.95, 3 ranks")),
