@@ -10,6 +10,8 @@ TREAD_FAULT chooses the one that acts. `old` that ends in ';' is whole statement
   contrib/mutate.py                       build in build-mutations, try the faults not noticed yet, fill doc/mutations.md
   contrib/mutate.py --only contact-       try some of them (again)
 
+Ctrl-C ends it after the tests that run, with what was found so far in the page.
+
 A fault counts as noticed when a test near it fails or takes longer than its limit. Each test that noticed one must
 pass without any fault. A fault that no test can notice says why in `survives`.
 """
@@ -244,9 +246,17 @@ def main():
     chosen.sort(key=lambda fault: sum(name.startswith("scene.") for name in near(fault, tests)))
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         running = {pool.submit(attempt, fault, tests): fault for fault in chosen}
-        for done in concurrent.futures.as_completed(running):
-            results[running[done]["name"]] = done.result()
+        try:
+            for done in concurrent.futures.as_completed(running):
+                results[running[done]["name"]] = done.result()
+                save()
+        except KeyboardInterrupt:
+            print("interrupted: the tests that run come to their end", flush=True)
+            pool.shutdown(cancel_futures=True)
+            results |= {fault["name"]: done.result() for done, fault in running.items() if not done.cancelled()}
             save()
+            chosen = [fault for done, fault in running.items() if not done.cancelled()]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         # A test that fails anyhow notices nothing.
         noticing = sorted({results[fault["name"]]["noticed"] for fault in chosen} - {None})
         wrong = [name for name, failed in zip(noticing, pool.map(lambda name: fails(tests[name], 0), noticing)) if failed]
