@@ -130,6 +130,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("spectrum.csv: largest amplitude, distance to the first vibration in values",
                    (largest["frequency_Hz"] - contact["oscillations"][0]["frequency_Hz"]) / figures["frequency_interval_Hz"],
                    0.0, 0.51)
+    check.relative("spectrum.csv: wavelength x frequency over speed", largest["wavelength_m"] * largest["frequency_Hz"] / SPEED, 1.0, 1e-6)
     check.relative("spectrum.csv: its amplitude", largest["normal_force_N"], contact["oscillations"][0]["amplitude_N"], 0.01)
 
     execute(both + ["--window", "Hann", "--from", "-100", "--to", "100", "--output", path("section")], program=program, check=True)
@@ -186,6 +187,8 @@ with tempfile.TemporaryDirectory() as folder:
     fails("too few rows", ["--dynamic-force", path("run"), "--smooth-twin", path("short")], ["11 rows", "at least 16"])
     write(path("fast"), 2000, speed=1.4 * SPEED)
     fails("another speed", ["--dynamic-force", path("run"), "--smooth-twin", path("fast")], ["100 km/h", "140 km/h"])
+    write(path("lighter"), 2000, settings=["Vehicle/Sprung mass (kg)=9000"])
+    fails("a twin of another vehicle", ["--dynamic-force", path("run"), "--smooth-twin", path("lighter")], ["Vehicle/Sprung mass (kg)", "9000"])
     write(path("elsewhere"), 2000, shift=2.0)
     fails("a twin elsewhere", ["--dynamic-force", path("run"), "--smooth-twin", path("elsewhere")], ["elsewhere", "does not cover"])
     write(path("stopped"), 1500)
