@@ -253,9 +253,10 @@ def main():
         except KeyboardInterrupt:
             print("interrupted: the tests that run come to their end", flush=True)
             pool.shutdown(cancel_futures=True)
-            results |= {fault["name"]: done.result() for done, fault in running.items() if not done.cancelled()}
+            running = {done: fault for done, fault in running.items() if not done.cancelled()}
+            results |= {fault["name"]: done.result() for done, fault in running.items()}
             save()
-            chosen = [fault for done, fault in running.items() if not done.cancelled()]
+            chosen = list(running.values())
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         # A test that fails anyhow notices nothing.
         noticing = sorted({results[fault["name"]]["noticed"] for fault in chosen} - {None})

@@ -11,7 +11,6 @@ import os
 
 from tread import Run
 from tread.commands import command_parser, run_command
-from tread.files import is_complete
 from tread.plots import plt, save, use_style
 
 
@@ -28,7 +27,7 @@ def main():
         run = Run(folder)
         peaks = run.table("peak_stress.csv", ("depth_mm", "von_mises_MPa"))
         name = arguments.names[i] if i < len(arguments.names) else os.path.basename(os.path.normpath(folder))
-        if not is_complete(folder):
+        if run.summary.get("completed") is not True:
             name += " (interrupted)"
         line, = axis.plot(peaks["depth_mm"], peaks["von_mises_MPa"], marker="o", markersize=4, label=name)
         surface = run.summary.get("peak_surface_von_mises_from_tractions_Pa")

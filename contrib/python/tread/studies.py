@@ -322,11 +322,11 @@ def add_dynamic_force(member, twin, stopped):
     if os.path.exists(result) and os.path.getmtime(result) >= max(
             os.path.getmtime(run.path("summary.json")) for run in (member, twin)):
         return
+    if stopped:
+        member.without_force = "interrupted"
+        return
     try:
-        if stopped:
-            member.without_force = "interrupted"
-        else:
-            dynamic_force(member.folder, twin.folder, member.program)
+        dynamic_force(member.folder, twin.folder, member.program)
     except ProgramError as error:
         member.without_force = str(error)
 
