@@ -9,6 +9,7 @@
 #include "boxes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -77,6 +78,19 @@ namespace tread::tests
         scale   = std::max(scale, std::abs(alone[i]));
       }
     return dealii::Utilities::MPI::max(largest / scale, MPI_COMM_WORLD);
+  }
+
+  /// The same of the stresses of cells.
+  inline double difference(const std::vector<std::array<double, 6>> &found,
+                           const std::vector<std::array<double, 6>> &expected)
+  {
+    const auto flat = [](const std::vector<std::array<double, 6>> &stresses) {
+      std::vector<double> values;
+      for (const auto &stress : stresses)
+        values.insert(values.end(), stress.begin(), stress.end());
+      return values;
+    };
+    return difference(flat(found), flat(expected));
   }
 } // namespace tread::tests
 

@@ -204,7 +204,7 @@ namespace
         if (!slips[j] || normal <= 0.)
           continue;
         const double ratio  = size(impulse[j] - normal * c.normal) / normal,
-                     factor = 1. / (1. + normal / (c.area * time_step) / 50e6);
+                     factor = pairs.of_pressure(normal / (c.area * time_step));
         ++n_slip;
         off   = std::max(off, std::abs(ratio / (friction * factor) - 1.));
         least = std::min(least, factor);

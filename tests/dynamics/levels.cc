@@ -19,10 +19,10 @@ using dealii::Point;
 namespace
 {
   /// Cells of 10, 5 and 2.5 mm.
-  Body graded_block(const Boundary left)
+  Body graded_block(const tests::Side side, const Boundary boundary)
   {
     Body body =
-      tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}}, {{tests::Side::left, left}});
+      tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}}, {{side, boundary}});
     tests::refine_near(body, Point<3>(.08, .03, .03), .012, .0025);
     return body;
   }
@@ -34,7 +34,7 @@ namespace
     std::unique_ptr<ExplicitDynamics> dynamics;
 
     Block(const Boundary left, const unsigned int max_level, const double courant, const double damping)
-      : mesh(MPI_COMM_WORLD, {graded_block(left)})
+      : mesh(MPI_COMM_WORLD, {graded_block(tests::Side::left, left)})
       , solid(mesh, {ElasticMaterial()}, [&] {
         SolidParameters p;
         p.max_level = max_level;
@@ -153,10 +153,7 @@ namespace
   /// at.
   void hanging_at_contact(tests::Check &check)
   {
-    Body body = tests::make_box("block", Point<3>(), Point<3>(.08, .03, .03), {{8, 3, 3}},
-                                {{tests::Side::top, Boundary::contact}});
-    tests::refine_near(body, Point<3>(.08, .03, .03), .012, .0025);
-    const Mesh      mesh(MPI_COMM_WORLD, {body});
+    const Mesh      mesh(MPI_COMM_WORLD, {graded_block(tests::Side::top, Boundary::contact)});
     SolidParameters solid_parameters;
     solid_parameters.max_level = 2;
     const Solid      solid(mesh, {ElasticMaterial()}, solid_parameters);
