@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """tread --modes: files and columns for a wheel on a track, the same on one rank and on three, and bad input."""
 
+import cmath
 import csv
+import math
 import os
 import sys
 import tempfile
 
 from tread.runs import arguments_of, execute
-from tread_runner import Check, rows_of
+from tread_runner import Check, rows_of, run
 
 program = sys.argv[1]
 check = Check()
@@ -58,6 +60,17 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("wheel at 30 Hz: that of its mass, 1/(m omega^2)", low["wheel_magnitude_m_per_N"],
                    1 / (900 * (2 * 3.14159265 * low["frequency_Hz"]) ** 2), 0.05)
     check.relative("wheel at 30 Hz: in opposite phase, degrees", abs(low["wheel_phase_degrees"]), 180., 0.02)
+    check.that("the rail's motion passes a quarter of a turn behind the force at its first resonance",
+               lines[0]["rail_phase_degrees"] > -60. and min(row["rail_phase_degrees"] for row in lines) < -120.)
+    # Between equal roughness and force: the contact spring, and wheel and rail without the dents that the discs press into
+    # them, each of which is in the contact spring already (Johnson 1985, section 3.4: mean of an evenly loaded disc).
+    half_space = run(program, SCENE, os.path.join(folder, "half_space"), COARSE, more=["--reference-only"])
+    spring = 1.5 * half_space["normal_force_N"] / half_space["approach_m"]
+    dents = 2 * 16 * (1 - 0.28**2) / (3 * math.pi**2 * 15e-3 * 210e9)
+    for row in (lines[100], lines[300]):
+        moves = sum(row[f"{body}_magnitude_m_per_N"] * cmath.exp(1j * math.radians(row[f"{body}_phase_degrees"])) for body in ("wheel", "rail"))
+        check.relative(f"contact force for a roughness at {row['frequency_Hz']:.0f} Hz, kN/mm", 1e-6 * row["contact_force_N_per_m"],
+                       1e-6 / abs(1 / spring + moves - dents), 0.02)
     files = sorted(os.listdir(one))
     check.that("the files", files == sorted(["modes.csv", "modes.pvd", "parameters.prm", "receptance.csv"] +
                                             [f"modes-{k:04d}.vtu" for k in range(1, len(rows) + 1)]))

@@ -169,6 +169,23 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("aluminium wheel: lower pressure", aluminium["max_pressure_Pa"] < 0.8 * softer)
     check.relative("aluminium wheel: traction", aluminium["traction_coefficient"], 0.3, 1e-5)
 
+    # An inclined rail under bodies of unlike steel: at the middle of the surface, pressed without friction,
+    # sigma_x + sigma_y = (1 + 2 nu) sigma_z whatever the semi-axes (Johnson 1985, equation 3.64).
+    unlike = reference_only("Rail/Inclination=1:40", "Wheel/Poisson's ratio=0.2", "Contact/Friction coefficient=0",
+                            "Motion/Traction coefficient=0", output=path("unlike"))
+    with open(os.path.join(path("unlike"), "subsurface.csv"), encoding="utf-8") as stream:
+        top = {row["body"]: {key: float(row[key]) for key in ("y_mm", "xx_MPa", "yy_MPa", "zz_MPa")}
+               for row in csv.DictReader(stream) if row["line"] == "centre" and float(row["depth_mm"]) == 0.}
+    nodes = rows_of(path("unlike"), "patch.csv")
+    centre = sum(row["area_mm2"] * row["pressure_MPa"] * row["y_mm"] for row in nodes) / sum(
+        row["area_mm2"] * row["pressure_MPa"] for row in nodes)
+    for body, poisson_ratio in (("wheel", 0.2), ("rail", 0.3)):
+        stress = top[body]
+        check.relative(f"{body}: sum of the stresses along the surface over that across it",
+                       (stress["xx_MPa"] + stress["yy_MPa"]) / stress["zz_MPa"], 1. + 2. * poisson_ratio, 1e-6)
+        check.absolute(f"{body}: stresses below the first contact, mm", stress["y_mm"], 1e3 * unlike["first_contact_y_m"], 1e-6)
+    check.absolute("centre of the patch near the first contact of the inclined rail, mm", centre, top["rail"]["y_mm"], 0.6)
+
     # Bad input: one line, no files.
     def must_fail(what, arguments, words):
         output = path("bad")

@@ -19,6 +19,7 @@ SUPPORTS = range(-5, 7)
 SETTINGS = ["Motion/Start (mm)=-160", "Motion/Rolled distance (mm)=20", "Output/Supports=" + ",".join(str(i) for i in SUPPORTS),
             "Contact/Tolerance=1e-12", "Rail/Ends=absorbing"]
 LOAD = 11906. * 9.81
+BALLAST = 45e6  # N/m, a support
 
 
 def history(folder):
@@ -133,6 +134,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("3 ranks", sleeper("--cell-size", "30", "--output", path("sleeper"), ranks=3).returncode == 0)
     with open(os.path.join(path("sleeper"), "sleeper_stress.json"), encoding="utf-8") as stream:
         check.relative("3 ranks against 1: largest von Mises stress", json.load(stream)["max_von_mises_Pa"], stress["max_von_mises_Pa"], 1e-7)
+    check.that("on ballast", sleeper("--cell-size", "40", "--bottom", "ballast", "--output", path("on-ballast")).returncode == 0)
+    with open(os.path.join(path("on-ballast"), "sleeper_stress.json"), encoding="utf-8") as stream:
+        on_ballast = json.load(stream)
+    # It bends, so that the seat sinks more than a rigid half would.
+    check.relative("half a sleeper on ballast: the seat sinks by its force over the ballast's stiffness, mm",
+                   1e3 * abs(on_ballast["mean_seat_settlement_m"]), 1e3 * on_ballast["seat_force_N"] / BALLAST, 0.15)
     for words, answer in ((["--support", "99"], "--support"), (["--cell-size", "-1"], "--cell-size"), (["--bottom", "sand"], "--bottom")):
         refused = sleeper(*words)
         check.that(" ".join(words) + ": " + refused.stderr.strip(), refused.returncode == 1 and answer in refused.stderr)

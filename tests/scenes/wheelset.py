@@ -98,6 +98,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("81 shifts from -10 to 10 mm", len(points["lateral_shift_mm"]) == 81 and points["lateral_shift_mm"][0] == -10.)
     difference = points["radius_difference_mm"]
     check.absolute("radius difference is odd, um", 1e3 * max(abs(a + b) for a, b in zip(difference, reversed(difference))), 0., 0.01)
+    for wheel in ("own", "other"):
+        check.below(f"{wheel} wheel in the middle: its contact from the middle of its rail head, mm", points[f"{wheel}_y_rail_mm"][40], 10.)
+    check.absolute("own wheel: centre of the patch near that of rigid contact, mm", 1e3 * solve("right", position("right", 0)[0], program)
+                   ["patches"][0]["y_rail_m"], points["own_y_rail_mm"][40], 2.)
     check.absolute("flange angle at 8 mm, degrees", math.degrees(points["own_angle_rad"][72]), 57., 3.)
 
     # What cannot be.
