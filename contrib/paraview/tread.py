@@ -192,12 +192,16 @@ def main():
     if not pvd_files:
         sys.exit(f"tread.py: no .pvd file in {run}")
     pictures = os.path.join(run, "pictures")
+    batch = bool(arguments)
     try:
         import paraview
+        # Without a display ParaView's own Python ends with a fault of memory; pvbatch and pvpython may draw off the screen.
+        alone = batch and not os.environ.get("DISPLAY") and os.path.basename(sys.executable).startswith("python")
     except ImportError:
+        alone = True
+    if alone:
         show_with_vtk(pvd_files, pictures)
         return
-    batch = bool(arguments)
     if batch:
         os.makedirs(pictures, exist_ok=True)
     show_in_paraview(pvd_files, os.path.join(pictures, "paraview.png") if batch else None)

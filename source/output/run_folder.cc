@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/base/format.h>
 #include <tread/base/input_error.h>
 #include <tread/output/run_folder.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/crc.hpp>
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <sys/file.h>
@@ -18,13 +18,15 @@
 #include <iomanip>
 #include <iterator>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 
 namespace tread
 {
-  RunFolder::RunFolder(const std::string &path, const MPI_Comm comm)
+  RunFolder::RunFolder(const std::string &path, const MPI_Comm comm, const PictureFormat format)
     : folder(path)
     , comm(comm)
+    , picture_format(format)
     , writes_tables(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
   {
     const std::string problem = dealii::Utilities::MPI::broadcast(comm, writes_tables ? take_lock() : "", 0);
@@ -49,7 +51,7 @@ namespace tread
     std::filesystem::create_directories(folder, error);
     if (error)
       return cannot + " (" + error.message() + ")";
-    lock = open(path(".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    lock = open(path(".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (lock < 0)
       return cannot + " (" + std::strerror(errno) + ")";
 
@@ -93,7 +95,7 @@ namespace tread
       "rail_surface|strip|peak_stress(_wheel)?|rail_seats|cells|passages|dynamic|spectrum|modes|"
       "receptance)\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
       "checkpoint-[01]|checkpoint\\.last|"
-      "(volume|surface|modes)(\\.pvd|-[0-9]{4,}\\.vtu))(\\.part)?");
+      "(volume|surface|modes)(\\.pvd|\\.xdmf|\\.h5|-[0-9]{4,}\\.(vtu|h5)))(\\.part)?");
     return std::regex_match(name, own);
   }
 
@@ -115,22 +117,47 @@ namespace tread
   }
 
 
+  void RunFolder::write_through(const std::string                              &name,
+                                const std::function<void(const std::string &)> &write) const
+  {
+    const std::string temporary = path(name) + ".part";
+    try
+      {
+        // What is there is left from a run that was killed, or a trap.
+        unlink(temporary.c_str());
+        const int made = open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (made < 0 || close(made) != 0)
+          throw std::runtime_error(name);
+        write(temporary);
+        std::filesystem::rename(temporary, path(name));
+      }
+    catch (const std::exception &)
+      {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+      }
+  }
+
+
   void RunFolder::write(const std::string &name, const std::string &text) const
   {
     if (!writes_tables)
       return;
-    const std::string temporary = path(name) + ".part";
-    std::ofstream     file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    std::error_code error;
-    if (file)
-      std::filesystem::rename(temporary, path(name), error);
-    if (!file || error)
-      {
-        std::filesystem::remove(temporary, error);
-        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
-      }
+    write_through(name, [&](const std::string &temporary) {
+      std::ofstream file(temporary, std::ios::binary);
+      file << text;
+      file.close();
+      if (!file)
+        throw std::runtime_error(name);
+    });
+  }
+
+
+  std::string RunFolder::text_of(const std::string &name) const
+  {
+    std::ifstream file(path(name));
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
 
 
@@ -192,67 +219,68 @@ namespace tread
   }
 
 
-  void RunFolder::open_table(std::ofstream     &table,
-                             const std::string &name,
-                             const std::string &header,
-                             const bool         resume,
-                             const double       time) const
+  std::uint32_t checksum(const std::string &content)
   {
-    std::string kept = header + "\n";
-    if (resume)
-      {
-        std::ifstream old(path(name));
-        std::string   line;
-        std::getline(old, line);
-        const auto n_commas = [](const std::string &text) {
-          return std::count(text.begin(), text.end(), ',');
-        };
-        double last = 0., widest = 0.; // instants, and what lies between them
-        while (std::getline(old, line))
-          if (const double when = std::atof(line.c_str()); !line.empty() && when <= time)
-            {
-              if (n_commas(line) != n_commas(header))
-                throw InputError("--resume: '" + path(name) + "' has a damaged row");
-              if (last > 0.)
-                widest = std::max(widest, when - last);
-              last = when;
-              kept += line + '\n';
-            }
-        // Nothing is known of an interval of which there is no second row.
-        if (widest > 0. && time - last > 2. * widest)
-          throw InputError("--resume: '" + path(name) + "' ends at " +
-                           format("%g ms, before the checkpoint of %g ms", 1e3 * last, 1e3 * time) +
-                           ": rows are missing");
-      }
-    write(name, kept);
-    table.open(path(name), std::ios::app);
-    table << std::setprecision(12);
+    boost::crc_32_type crc;
+    crc.process_bytes(content.data(), content.size());
+    return crc.checksum();
   }
 
 
-  void RunFolder::open_histories(const bool          resume,
+  void RunFolder::open_table(const std::string &name, const std::string &header, const TableMarks *kept)
+  {
+    std::string text = header + "\n";
+    if (kept && kept->count(name) > 0)
+      {
+        const TableMark &mark = kept->at(name);
+        text                  = text_of(name).substr(0, mark.size);
+        if (text.size() != mark.size || checksum(text) != mark.checksum)
+          throw InputError("--resume: '" + path(name) +
+                           "' is not what it was when the checkpoint was made: rows are missing or changed");
+      }
+    write(name, text);
+    growing[name].open(path(name), std::ios::app);
+  }
+
+
+  void RunFolder::append_to(const std::string &name, const std::string &rows)
+  {
+    std::ofstream &table = growing.at(name);
+    table << rows << std::flush;
+    if (!table)
+      throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+  }
+
+
+  TableMarks RunFolder::marks() const
+  {
+    TableMarks marks;
+    for (const auto &[name, table] : growing)
+      {
+        const std::string text = text_of(name);
+        marks[name]            = {text.size(), checksum(text)};
+      }
+    return marks;
+  }
+
+
+  void RunFolder::open_histories(const TableMarks   *kept,
                                  const double        time,
                                  const HistoryParts &parts,
                                  const std::size_t   n_cells)
   {
     if (!writes_tables)
       return;
-    if (resume)
-      for (const bool surface : {false, true})
-        {
-          std::ifstream     collection(path(surface ? "surface.pvd" : "volume.pvd"));
-          const std::string text((std::istreambuf_iterator<char>(collection)),
-                                 std::istreambuf_iterator<char>());
-          const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
-          for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
-            if (std::stod((*i)[1]) <= time)
-              (surface ? surface_files : volume_files).emplace_back(std::stod((*i)[1]), (*i)[2]);
-        }
+    if (kept)
+      {
+        find_pictures("volume", time, volume);
+        find_pictures("surface", time, surface);
+      }
     of_history = history_columns(parts);
     of_cells   = cell_columns(n_cells);
-    open_table(history, "history.csv", heading(of_history), resume, time);
+    open_table("history.csv", heading(of_history), kept);
     if (n_cells > 0)
-      open_table(cell_history, "cells.csv", heading(of_cells), resume, time);
+      open_table("cells.csv", heading(of_cells), kept);
   }
 
 
@@ -260,26 +288,23 @@ namespace tread
   {
     if (!writes_tables)
       return;
-    const auto append_to = [&](std::ofstream &table, const Columns<HistoryRow> &columns, const char *name) {
-      write_row(table, columns, row);
-      table << std::flush;
-      if (!table)
-        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+    const auto add = [&](const char *name, const Columns<HistoryRow> &columns) {
+      std::ostringstream text;
+      text << std::setprecision(12);
+      write_row(text, columns, row);
+      append_to(name, text.str());
     };
-    append_to(history, of_history, "history.csv");
+    add("history.csv", of_history);
     if (!row.cells.empty())
-      append_to(cell_history, of_cells, "cells.csv");
+      add("cells.csv", of_cells);
   }
 
 
-  void RunFolder::open_patches(const bool resume, const double time, const unsigned int n_wheels)
+  void RunFolder::open_patches(const TableMarks *kept, const unsigned int n_wheels)
   {
-    if (!writes_tables)
-      return;
-    patch_histories.resize(n_wheels);
-    for (unsigned int wheel = 0; wheel < n_wheels; ++wheel)
-      open_table(patch_histories[wheel], table_of_wheel("patches", wheel), heading(patches_columns()), resume,
-                 time);
+    if (writes_tables)
+      for (unsigned int wheel = 0; wheel < n_wheels; ++wheel)
+        open_table(table_of_wheel("patches", wheel), heading(patches_columns()), kept);
   }
 
 
@@ -290,12 +315,10 @@ namespace tread
   {
     if (!writes_tables)
       return;
-    std::ofstream &table = patch_histories.at(wheel);
+    std::ostringstream text;
+    text << std::setprecision(12);
     for (const PatchNode &node : patch)
-      write_row(table, patches_columns(), {time, position, node});
-    table << std::flush;
-    if (!table)
-      throw std::runtime_error("cannot write '" + path(table_of_wheel("patches", wheel)) +
-                               "': is the disk full?");
+      write_row(text, patches_columns(), {time, position, node});
+    append_to(table_of_wheel("patches", wheel), text.str());
   }
 } // namespace tread

@@ -22,13 +22,26 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-15";
+    constexpr const char *layout = "tread-checkpoint-16";
 
-    unsigned int checksum(const std::string &content)
+    /// A text with its size before it.
+    std::string with_size(const std::string &text)
     {
-      boost::crc_32_type crc;
-      crc.process_bytes(content.data(), content.size());
-      return crc.checksum();
+      const std::uint64_t size = text.size();
+      return std::string(reinterpret_cast<const char *>(&size), sizeof size) + text;
+    }
+
+    /// What stands at a place of `content` with its size before it; the place moves behind it. @throws
+    /// InputError saying that it is damaged
+    std::string take_sized(const std::string &content, std::size_t &place, const std::string &damaged)
+    {
+      std::uint64_t size = 0;
+      require(content.size() - place >= sizeof size, damaged);
+      std::memcpy(&size, content.data() + place, sizeof size);
+      place += sizeof size;
+      require(content.size() - place >= size, damaged);
+      place += size;
+      return content.substr(place - size, size);
     }
   } // namespace
 
@@ -63,10 +76,10 @@ namespace tread
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       try
         {
-          const std::string   text = parameters();
-          const std::uint64_t size = text.size();
-          const std::string   content =
-            std::string(reinterpret_cast<const char *>(&size), sizeof size) + text + parts;
+          std::ostringstream marks;
+          for (const auto &[table, mark] : folder.marks())
+            marks << table << ' ' << mark.size << ' ' << mark.checksum << '\n';
+          const std::string  content = with_size(parameters()) + with_size(marks.str()) + parts;
           std::ostringstream file;
           file << layout << ' ' << content.size() << ' ' << checksum(content) << '\n' << content;
           const std::string name = "checkpoint-" + std::to_string(next_slot);
@@ -169,18 +182,21 @@ namespace tread
     name = dealii::Utilities::MPI::broadcast(comm, name, 0);
     if (name.empty())
       throw InputError("--resume: no checkpoint in '" + folder.path("") + "'");
+    require(name == "checkpoint-0" || name == "checkpoint-1",
+            "--resume: '" + folder.path("checkpoint.last") + "' is damaged");
     next_slot = name.back() == '0' ? 1 : 0;
 
     const std::string content = content_of(name),
                       damaged = "--resume: '" + folder.path(name) + "' is damaged";
-    std::uint64_t size        = 0;
-    require(content.size() >= sizeof size, damaged);
-    std::memcpy(&size, content.data(), sizeof size);
-    require(content.size() - sizeof size >= size, damaged);
-    require_same_parameters(content.substr(sizeof size, size));
+    std::size_t place         = 0;
+    require_same_parameters(take_sized(content, place, damaged));
+    std::istringstream marks(take_sized(content, place, damaged));
+    TableMark          mark;
+    for (std::string table; marks >> table >> mark.size >> mark.checksum;)
+      tables[table] = mark;
     try
       {
-        Archive archive(comm, content.substr(sizeof size + size));
+        Archive archive(comm, content.substr(place));
         simulation.serialize(archive);
         if (!archive.found_all())
           throw InputError("--resume: '" + folder.path(name) + "' belongs to another mesh");

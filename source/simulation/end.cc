@@ -484,7 +484,6 @@ namespace tread
       add_doubts(warnings);
     const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     summary.set("warnings", warnings);
-    folder.write("summary.json", summary.text());
     if (averaged)
       for (const RollingWheel &of_table : wheels)
         folder.write_patch(RunFolder::table_of_wheel("patch_averaged", of_table.number),
@@ -496,6 +495,10 @@ namespace tread
       for (const Scene::Parameter &parameter : Scene::parameters_in(folder.path("parameters.prm")))
         parameters.emplace_back(parameter.path, parameter.value);
     folder.write_hdf5(summary.text(), parameters);
+    // Last but for the pictures, which are there: it says that the run is complete.
+    folder.write("summary.json", summary.text());
+    if (completed)
+      folder.join_pictures();
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
@@ -514,15 +517,15 @@ namespace tread
           std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
                       rolled.patch_lengths, torque_released ? "torque acts" : "start",
                       rolled.lengths_to_be_steady);
+        const std::string pictures =
+          (scene.output.write_volume ? folder.list_of_pictures("volume") + ", " : "") +
+          folder.list_of_pictures("surface");
         std::printf("%s in %.1f s. Results in %s: summary.json, history.csv, run.h5%s%s\n",
                     completed                 ? "finished"
                     : end == End::interrupted ? "INTERRUPTED: stopped"
                                               : "STOPPED",
                     wall_seconds, folder.path("").c_str(),
-                    solution_taken
-                      ? (scene.output.write_volume ? ", patch.csv; for ParaView: volume.pvd, surface.pvd"
-                                                   : ", patch.csv; for ParaView: surface.pvd")
-                      : "",
+                    solution_taken ? (", patch.csv; for ParaView: " + pictures).c_str() : "",
                     end == End::interrupted ? "; go on with --resume" : "");
       }
   }

@@ -330,7 +330,7 @@ namespace tread
   bool Simulation::run(const std::string &path, const bool resume)
   {
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    RunFolder  folder(path, comm);
+    RunFolder  folder(path, comm, scene.output.pictures);
     Checkpoint checkpoint(folder, scene, comm);
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
@@ -346,9 +346,6 @@ namespace tread
       checkpoint.read(*this);
     seconds_before = wall_seconds;
 
-    std::ostringstream effective;
-    scene.print(effective, true);
-    folder.write("parameters.prm", effective.str());
     announce(progress);
     if (resume)
       progress.say(
@@ -366,13 +363,16 @@ namespace tread
           }
         folder.remove_results();
       }
+    std::ostringstream effective;
+    scene.print(effective, true);
+    folder.write("parameters.prm", effective.str());
     // Times are written with twelve digits.
-    folder.open_histories(resume, dynamics.time + 0.5 * dynamics.time_step,
+    folder.open_histories(checkpoint.tables_of_run(), dynamics.time + 0.5 * dynamics.time_step,
                           {static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
                            scene.wheelset.both_wheels, scene.recorded_supports()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.surface_interval > 0.)
-      folder.open_patches(resume, dynamics.time + 0.5 * dynamics.time_step, wheels.size());
+      folder.open_patches(checkpoint.tables_of_run(), wheels.size());
     checked_position = position();
     if (next_wheel_due && !begin_next_passage(progress))
       return false;
@@ -394,7 +394,8 @@ namespace tread
         if (!scene.output.write_volume)
           throw;
         write_volume(folder);
-        throw WentWrong(wrong.what() + std::string("; volume.pvd ends with the bodies as they were then"));
+        throw WentWrong(wrong.what() + ("; " + folder.list_of_pictures("volume")) +
+                        " ends with the bodies as they were then");
       }
     if (end == End::between_passages)
       return false;

@@ -236,7 +236,7 @@ namespace tread
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
 
-    RunFolder          folder(path, comm);
+    RunFolder          folder(path, comm, scene.output.pictures);
     std::ostringstream effective;
     scene.print(effective, true);
     folder.remove_results();
@@ -244,6 +244,7 @@ namespace tread
     const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
     folder.write_patch("patch.csv", nodes);
     folder.write_surface(nodes, half_space.element_size);
+    folder.join_pictures();
     folder.write("subsurface.csv", subsurface);
     std::string       no_transient;
     const std::string transient = transient_table(scene, estimate, no_transient);
@@ -265,6 +266,7 @@ namespace tread
                    no_transient);
     std::snprintf(text, sizeof text, "finished in %.2f s. Results in ", progress.seconds());
     progress.say(text + folder.path("") + ": summary.json, patch.csv, subsurface.csv" +
-                 (transient.empty() ? "" : ", transient.csv") + "; for ParaView: surface.pvd");
+                 (transient.empty() ? "" : ", transient.csv") +
+                 "; for ParaView: " + folder.list_of_pictures("surface"));
   }
 } // namespace tread

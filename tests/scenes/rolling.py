@@ -8,9 +8,12 @@ import re
 import subprocess
 import sys
 import tempfile
+from xml.etree import ElementTree
 
 import h5py
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from tread.files import read_summary
 from tread.runs import ROOT, arguments_of, command, environment, execute, parameters_of
@@ -22,6 +25,7 @@ check = Check()
 SCENE = "smooth-rolling.prm"
 COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"]
 SHORT = COARSE + ["Motion/Rolled distance (mm)=12"]
+AT_POINTS = ("displacement_um", "velocity_m_per_s", "pressure_MPa", "shear_MPa", "slip_m_per_s", "state")
 NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "creepage", "max_pressure_Pa", "patch_area_m2",
            "dissipated_work_J", "contact_work_on_nodes_J", "hourglass_of_internal_energy", "slip_chatter_share",
            "adhesion_share", "max_shear_Pa", "max_slip_m_per_s", "frictional_power_W", "frictional_work_J", "damping_work_J"]
@@ -53,6 +57,69 @@ def fails(name, arguments, words, ranks=1):
     lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
     if not check.that(name, result.returncode > 0 and len(lines) == 1 and all(word in lines[0] for word in words)):
         print(result.returncode, result.stderr)
+
+
+def last_picture(folder, stem):
+    """{name: values}, with points and cells, of the last picture in a list for ParaView."""
+    xdmf = os.path.join(folder, stem + ".xdmf")
+    if os.path.exists(xdmf):
+        grid = ElementTree.parse(xdmf).getroot().findall("Domain/Grid/Grid")[-1]
+        values = {}
+        for name, item in [(element.get("Name", element.tag), element.find("DataItem")) for element in grid if element.tag != "Time"]:
+            file, dataset = item.text.split(":")
+            with h5py.File(os.path.join(folder, file), "r") as data:
+                values[name] = data[dataset][:]
+            check.that(f"{stem}.xdmf: rows of {name}", item.get("Dimensions") == " ".join(map(str, values[name].shape)))
+        return values | {"points": values.pop("Geometry"), "cells": values.pop("Topology")}
+    file = ElementTree.parse(os.path.join(folder, stem + ".pvd")).getroot().findall("Collection/DataSet")[-1].get("file")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(os.path.join(folder, file))
+    reader.Update()
+    grid, points = reader.GetOutput(), reader.GetOutput().GetPointData()
+    values = {points.GetArrayName(i): vtk_to_numpy(points.GetArray(i)) for i in range(points.GetNumberOfArrays())}
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(grid.GetNumberOfCells(), -1)
+    for name in values:
+        if name not in AT_POINTS:
+            values[name] = values[name][cells[:, 0]]
+    return values | {"points": vtk_to_numpy(grid.GetPoints().GetData()), "cells": cells}
+
+
+def pictures_have_the_tables(name, folder):
+    """The last pictures against patch.csv, rail_surface.csv and rail_cells.csv, which are of the same instant."""
+    surface, volume = last_picture(folder, "surface"), last_picture(folder, "volume")
+    patch = table(folder, "patch.csv")
+    touching = surface["state"] > 0
+    # Points of a VTU file belong to one cell each. In x the table counts from the wheel, here both count from their middle.
+    places = np.unique(surface["points"][touching][:, :2].round(6), axis=0)
+    own = 1e-3 * np.column_stack([patch["x_mm"], patch["y_mm"]])
+    if check.that(f"{name}: nodes in contact", len(places) == len(own)):
+        seen, wanted = surface["points"][touching][:, :2] - [places[:, 0].mean(), 0.], own - [own[:, 0].mean(), 0.]
+        nearest = [np.linalg.norm(seen - place, axis=1).argmin() for place in wanted]
+        for what, values, of_table in (
+                ("pressure, MPa", surface["pressure_MPa"], patch["pressure_MPa"]),
+                ("state", surface["state"], [1 + (state == "slip") for state in patch["state"]]),
+                ("shear stress along, MPa", surface["shear_MPa"][:, 0], patch["shear_x_MPa"]),
+                ("slip along, m/s", surface["slip_m_per_s"][:, 0], patch["slip_x_m_per_s"]),
+                ("slip across, m/s", surface["slip_m_per_s"][:, 1], patch["slip_y_m_per_s"])):
+            check.below(f"{name}: {what}, largest difference over the largest", np.abs(values[touching][nearest] - of_table).max() / np.abs(of_table).max(), 1e-5)
+    wheel = volume["cells"][volume["body"] == 1]
+    check.that(f"{name}: the wheel's displacement is without its rolling", 10. < np.abs(volume["displacement_um"][wheel]).max() < 1000.)
+    origin = volume["points"] - 1e-6 * volume["displacement_um"]
+    rail = volume["cells"][volume["body"] == 0]
+    for file, names, places, fields in (
+            ("rail_surface.csv", ["u_x_um", "u_y_um", "u_z_um"], origin[rail.ravel()], volume["displacement_um"][rail.ravel()]),
+            ("rail_cells.csv", ["von_mises_MPa"] + [f"stress_{c}_MPa" for c in ("xx", "yy", "zz", "xy", "yz", "zx")], origin[rail].mean(axis=1),
+             np.column_stack([volume[field][volume["body"] == 0] for field in ["von_mises_MPa"] + [f"stress_{c}_MPa" for c in ("xx", "yy", "zz", "xy", "yz", "zx")]]))):
+        rows = table(folder, file)
+        wanted = 1e-3 * np.column_stack([rows[f"{axis}_mm"] for axis in "xyz"])
+        values = np.column_stack([rows[column] for column in names])
+        far = worst = 0.
+        for i in range(0, len(wanted), max(1, len(wanted) // 100)):
+            distance = np.linalg.norm(places - wanted[i], axis=1)
+            far = max(far, distance.min())
+            worst = max(worst, np.abs(fields[distance.argmin()] - values[i]).max())
+        check.below(f"{name}: places of {file} in the picture, um", 1e6 * far, 0.1)
+        check.below(f"{name}: values of {file} over the largest", worst / np.abs(values).max(), 1e-5)
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -136,11 +203,13 @@ with tempfile.TemporaryDirectory() as folder:
               ["complete", "Friction coefficient", "0.5", "0.4"])
         with open(path("other-parameters/history.csv"), encoding="utf-8") as stream:
             rows = stream.readlines()
-        for name, kept, words in (("that ends too soon", rows[:4], ["history.csv", "rows are missing"]),
-                                  ("with a row cut short", rows[:5] + [rows[5][:40] + "\n"] + rows[6:], ["history.csv", "damaged row"])):
+        for name, kept in (("that ends too soon", rows[:4]), ("without its last row", rows[:-1]), ("without a row in the middle", rows[:4] + rows[5:]),
+                           ("with a row cut short", rows[:5] + [rows[5][:40] + "\n"] + rows[6:]), ("with its heading alone", rows[:1])):
             with open(path("other-parameters/history.csv"), "w", encoding="utf-8") as stream:
                 stream.writelines(kept)
-            fails(f"a history {name} is refused", arguments_of(SCENE, settings, path("other-parameters")) + ["--resume"], words)
+            fails(f"a history {name} is refused", arguments_of(SCENE, settings, path("other-parameters")) + ["--resume"], ["history.csv", "rows are missing"])
+        os.remove(path("other-parameters/history.csv"))
+        fails("a missing history is refused", arguments_of(SCENE, settings, path("other-parameters")) + ["--resume"], ["history.csv", "rows are missing"])
         with open(path("other-parameters/history.csv"), "w", encoding="utf-8") as stream:
             stream.writelines(rows)
         fails("other parameters are refused and named",
@@ -156,6 +225,10 @@ with tempfile.TemporaryDirectory() as folder:
                 stream.write(b"another program's")
             fails(f"a {name} checkpoint is refused on all ranks in one line",
                   arguments_of(SCENE, settings, path(name)) + ["--resume"], [word], ranks=2)
+
+        with open(path("foreign/checkpoint.last"), "w", encoding="utf-8") as stream:
+            stream.write("../damaged/checkpoint-0\n")
+        fails("a checkpoint of another folder is refused", arguments_of(SCENE, settings, path("foreign")) + ["--resume"], ["checkpoint.last", "damaged"])
 
         # Every group of steps ends a row of the history, so every interruption comes at the end of a row.
         every = COARSE + ["Motion/Rolled distance (mm)=20", "Scene/Density scale=1", "Output/History interval (mm)=0.001",
@@ -400,7 +473,9 @@ with tempfile.TemporaryDirectory() as folder:
                 check.that(f"{name}: can be read", execute([scene, "--print-parameters"], program=program).returncode == 0)
 
     elif what == "files":
-        run(program, "smooth-rolling.prm", path("files"), SHORT + ["Output/Surface interval (mm)=4", "Output/Volume interval (mm)=6"], 2)
+        run(program, "smooth-rolling.prm", path("files"), SHORT + [
+            "Output/Surface interval (mm)=4", "Output/Volume interval (mm)=6", "Output/Table depth (mm)=10"], 2)
+        pictures_have_the_tables("VTU", path("files"))
         reader = script("paraview/tread.py", path("files"))
         print(reader.stdout, reader.stderr)
         check.that("the VTU files open in VTK", reader.returncode == 0)
@@ -438,7 +513,13 @@ with tempfile.TemporaryDirectory() as folder:
         check.below("run.h5: its size over that of the tables", os.path.getsize(path("files/run.h5"))
                     / sum(os.path.getsize(os.path.join(path("files"), name + ".csv")) for name in names), 1.)
         one_row = run(program, "smooth-rolling.prm", path("one-row"), COARSE + [
-            "Motion/Rolled distance (mm)=4", "Output/History interval (mm)=100", "Output/Write volume=false"], 2)
+            "Motion/Rolled distance (mm)=4", "Output/History interval (mm)=100", "Output/Pictures=xdmf", "Output/Volume interval (mm)=2",
+            "Output/Table depth (mm)=10"], 2)
+        check.that("XDMF: all of the pictures in two files", sorted(entry for entry in os.listdir(path("one-row")) if entry.startswith(("volume", "surface")))
+                   == ["surface.h5", "surface.xdmf", "volume.h5", "volume.xdmf"])
+        with h5py.File(path("one-row/volume.h5"), "r") as pictures:
+            check.that("XDMF: groups by number, one for the instant that is due twice", list(pictures) == ["0000", "0001"] and all("points" in group for group in pictures.values()))
+        pictures_have_the_tables("XDMF", path("one-row"))
         rows = rows_of(path("one-row"), "history.csv")
         check.that("a long history interval ends with the run", len(rows) == 1 and rows[0]["position_m"] > 0.)
         check.that("4 mm are called too short to be steady", one_row["long_enough_to_be_steady"] is False)
@@ -453,19 +534,38 @@ with tempfile.TemporaryDirectory() as folder:
             check.that(f"{name}: the pictures are drawn",
                        plot.returncode == 0 and len(os.listdir(os.path.join(path(name), "pictures"))) >= 5)
 
-        # A disk that is full when one file is written.
+        # No room for one file.
         short = COARSE + ["Motion/Rolled distance (mm)=4"]
         for name, ranks in (("volume-0000.vtu", 2), ("surface.pvd", 1), ("summary.json", 2), ("reference_patch.csv", 1), ("run.h5", 2)):
             output = path("full-" + name)
-            os.mkdir(output)
-            os.symlink("/dev/full", os.path.join(output, name + ".part"))
-            fails(f"disk full at {name}", arguments_of(SCENE, short, output), ["cannot write", name], ranks)
-            check.that(f"disk full at {name}: nothing half written stays",
-                       not [entry for entry in os.listdir(output) if entry.endswith(".part") or entry == name])
-            check.that(f"disk full at {name}: what was written before stays", "history.csv" in os.listdir(output))
-        output = path("full-checkpoint")
+            os.makedirs(os.path.join(output, name + ".part"))
+            fails(f"no room for {name}", arguments_of(SCENE, short, output), ["cannot write", name], ranks)
+            check.that(f"no room for {name}: nothing half written stays, nor a summary that calls the run complete",
+                       not {name, "summary.json"} & set(os.listdir(output)))
+            check.that(f"no room for {name}: what was written before stays", "history.csv" in os.listdir(output))
+        # Links in the folder are not followed.
+        output, outside = path("links"), path("outside")
         os.mkdir(output)
-        os.symlink("/dev/full", os.path.join(output, "checkpoint-0.part"))
+        with open(outside, "w", encoding="utf-8") as stream:
+            stream.write("kept")
+        links = ["history.csv.part", "run.h5.part", "summary.json.part", "volume-0000.vtu.part", "parameters.prm.part", "patch.csv"]
+        for name in links:
+            os.symlink(outside, os.path.join(output, name))
+        run(program, SCENE, output, short)
+        with open(outside, encoding="utf-8") as stream:
+            check.that("what links in the folder point to is left alone", stream.read() == "kept")
+        check.that("and the results are files", not any(os.path.islink(os.path.join(output, name.removesuffix(".part"))) for name in links))
+        os.symlink(outside, os.path.join(path("one-row"), ".lock"))
+        fails("a lock that is a link is refused", arguments_of(SCENE, short, path("one-row")), ["cannot write into"])
+        # A start that fails leaves the parameters of the tables that are there.
+        with open(os.path.join(output, "parameters.prm"), encoding="utf-8") as stream:
+            before = stream.read()
+        fails("a start that fails", arguments_of(SCENE, short + ["Start/Largest number of iterations=5"], output), ["equilibrium"])
+        with open(os.path.join(output, "parameters.prm"), encoding="utf-8") as stream:
+            check.that("a start that fails leaves the parameters of the tables that are there", stream.read() == before)
+
+        output = path("full-checkpoint")
+        os.makedirs(os.path.join(output, "checkpoint-0.part"))
         process, errors = interrupt(output, SHORT)
         check.that("no room for the checkpoint: said", process.returncode == 2 and "checkpoint-0" in errors)
         check.that("no room for the checkpoint: the summary is there", read_summary(output)["completed"] is False)

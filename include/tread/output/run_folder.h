@@ -6,11 +6,14 @@
 #include <tread/analysis/rail_stress.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/output/columns.h>
+#include <tread/output/picture.h>
 #include <tread/output/records.h>
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -20,14 +23,26 @@
 
 namespace tread
 {
+  /// How far a table that grows had been written when a checkpoint was made.
+  struct TableMark
+  {
+    std::uint64_t size;     ///< bytes
+    std::uint32_t checksum; ///< CRC-32 of these
+  };
+  using TableMarks = std::map<std::string, TableMark>; ///< by the name of the file
+
+  /// CRC-32 of some bytes.
+  std::uint32_t checksum(const std::string &content);
+
   /// The folder of a run and the files in it, all written by rank 0.
-  /// Every write is checked: a full disk is an error, not a short file.
+  /// Every write is checked: a full disk is an error, not a short file. No link in the folder is followed, so
+  /// that nothing is written outside.
   class RunFolder
   {
   public:
-    /// Make the folder and lock it. @throws std::runtime_error with one line, on all ranks, if it cannot be
-    /// written or another run writes into it.
-    RunFolder(const std::string &path, const MPI_Comm comm);
+    /// Make the folder and lock it. @param format of pictures. @throws std::runtime_error with one line, on
+    /// all ranks, if it cannot be written or another run writes into it.
+    RunFolder(const std::string &path, const MPI_Comm comm, const PictureFormat format = PictureFormat::vtu);
     ~RunFolder();
     RunFolder(const RunFolder &)            = delete;
     RunFolder &operator=(const RunFolder &) = delete;
@@ -95,16 +110,20 @@ namespace tread
     /// rail_seats.csv: one row for each part of a recorded support's pad.
     void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
 
-    /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue after the last
-    /// row not later than time. @param parts that the rows contain
-    void open_histories(const bool          resume,
+    /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue where they
+    /// were at the checkpoint, and the lists of pictures after those not later than time. @param kept of the
+    /// checkpoint; null: a new run. @param parts that the rows contain. @throws InputError if the tables are
+    /// not what they were
+    void open_histories(const TableMarks   *kept,
                         const double        time,
                         const HistoryParts &parts,
                         const std::size_t   n_cells);
     void append(const HistoryRow &row);
 
     /// Likewise one patches.csv for each wheel: the patch at chosen instants.
-    void open_patches(const bool resume, const double time, const unsigned int n_wheels);
+    void open_patches(const TableMarks *kept, const unsigned int n_wheels);
+    /// How far these tables have grown. On rank 0.
+    TableMarks marks() const;
     /// @param wheel its number, from 0; @param position of the wheel, m
     void append_patch(const unsigned int            wheel,
                       const double                  time,
@@ -118,36 +137,58 @@ namespace tread
     /// Write a body's contact surface with pressure, shear, slip and state. Collective.
     void write_surface(const ExplicitDynamics &dynamics, const Contact &contact, const unsigned int body);
 
-    /// Write the square elements of a half-space solution with the same fields.
+    /// Write the square elements of a half-space solution with the same fields. Collective.
     void write_surface(const std::vector<PatchNode> &elements, const double element_size);
+
+    /// Name of the list of pictures of the volume or the surface.
+    std::string list_of_pictures(const std::string &stem) const
+    {
+      return stem + (picture_format == PictureFormat::vtu ? ".pvd" : ".xdmf");
+    }
+
+    /// At the end of a run: put pictures of HDF5 into one file for the volume and one for the surface. Until
+    /// then each has its own, so that a run that is killed while it writes one loses no other.
+    void join_pictures() const;
 
   private:
     /// Whether a file of this name is a result of a run.
     static bool is_own(const std::string &name);
     /// On rank 0: one of the tables that grow row by row.
-    void open_table(std::ofstream     &table,
-                    const std::string &name,
-                    const std::string &header,
-                    const bool         resume,
-                    const double       time) const;
+    void open_table(const std::string &name, const std::string &header, const TableMarks *kept);
+    /// Add rows to one of them, on the disk at once. @throws std::runtime_error
+    void append_to(const std::string &name, const std::string &rows);
 
     /// On rank 0. @returns an error in one line; empty if the folder is this run's.
     std::string take_lock();
 
-    /// Write a picture and the list of all pictures with their times.
-    void add_picture(const std::string                           &stem,
-                     const std::string                           &pieces,
-                     const double                                 time,
-                     std::vector<std::pair<double, std::string>> &files) const;
+    /// Write a file by this, given a temporary name, so that it is either complete or absent. @throws
+    /// std::runtime_error if it throws
+    void write_through(const std::string &name, const std::function<void(const std::string &)> &write) const;
+    /// All of a file of the folder.
+    std::string text_of(const std::string &name) const;
 
-    std::string                                 folder;
-    MPI_Comm                                    comm;
-    bool                                        writes_tables;
-    int                                         lock = -1; ///< file descriptor
-    std::ofstream                               history, cell_history;
-    std::vector<std::ofstream>                  patch_histories; ///< of the wheels
-    Columns<HistoryRow>                         of_history, of_cells;
-    std::vector<std::pair<double, std::string>> volume_files, surface_files;
+    /// Pictures with their times (s) and files, and of HDF5 their descriptions.
+    struct Series
+    {
+      std::vector<std::pair<double, std::string>> files;
+      std::vector<std::string>                    grids;
+    };
+    /// Write a picture and the list of all of its series. Collective. @param of_rank its part
+    void add_picture(const std::string &stem,
+                     const Picture     &of_rank,
+                     const double       time,
+                     Series            &series) const;
+    /// Those of the run that is resumed, up to a time. On rank 0.
+    void find_pictures(const std::string &stem, const double time, Series &series) const;
+
+    std::string                          folder;
+    MPI_Comm                             comm;
+    PictureFormat                        picture_format;
+    bool                                 writes_tables;
+    int                                  lock = -1; ///< file descriptor
+    std::map<std::string, std::ofstream> growing;   ///< tables by their names
+    Columns<HistoryRow>                  of_history, of_cells;
+    Series                               volume, surface;
   };
 } // namespace tread
 

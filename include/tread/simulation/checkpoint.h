@@ -18,8 +18,8 @@ namespace tread
   /// stored by position, so a run may resume on any number of ranks. On the same number of ranks it continues
   /// to the last bit as if it had not been interrupted.
   ///
-  /// A file is one line (layout, number of bytes that follow, their CRC-32), the parameters of the run, and
-  /// what each rank stored.
+  /// A file is one line (layout, number of bytes that follow, their CRC-32), the parameters of the run, how
+  /// far its tables had grown, and what each rank stored.
   class Checkpoint
   {
   public:
@@ -31,6 +31,11 @@ namespace tread
     /// Collective. @throws InputError with one line, on all ranks, if there is no checkpoint, if it is
     /// damaged or was written by another version, or if it belongs to other parameters.
     void read(Simulation &simulation);
+    /// How far the tables of the run had grown. Null unless it has been read.
+    const TableMarks *tables_of_run() const
+    {
+      return tables.empty() ? nullptr : &tables;
+    }
 
     /// Of a complete run, which has no checkpoint to go on from. Collective. @throws InputError if it has
     /// other parameters.
@@ -48,6 +53,7 @@ namespace tread
     const Scene     &scene;
     MPI_Comm         comm;
     unsigned int     next_slot = 0;
+    TableMarks       tables;
   };
 } // namespace tread
 

@@ -3,6 +3,18 @@
 
 namespace tread
 {
+  template <>
+  const std::vector<Choice<PictureFormat>> &choices()
+  {
+    static const std::vector<Choice<PictureFormat>> list{
+      {PictureFormat::vtu, "vtu", "a file each, listed in .pvd, with the values of cells at their corners."},
+      {PictureFormat::xdmf, "xdmf",
+       "listed in .xdmf, with data in HDF5: smaller, values of cells as such, all of a run in "
+       "volume.h5 and surface.h5 at its end."}};
+    return list;
+  }
+
+
   void OutputSection::declare(dealii::ParameterHandler &handler)
   {
     using dealii::Patterns::Double;
@@ -39,6 +51,7 @@ namespace tread
       "contact path down to this depth, and rail_surface.csv the displacement of its surface. 0: neither.",
       Double(0.));
     section.add("Write volume", write_volume, "Whether pictures of the bodies are written at all.");
+    section.choose("Pictures", pictures, "Format of the pictures for ParaView.");
     section.add("Checkpoint interval (minutes)", checkpoint_interval,
                 "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.",
                 Double(0.));

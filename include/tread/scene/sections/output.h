@@ -2,10 +2,14 @@
 #ifndef tread_scene_sections_output_h
 #define tread_scene_sections_output_h
 
+#include <tread/output/picture.h>
 #include <tread/scene/section.h>
 
 namespace tread
 {
+  template <>
+  const std::vector<Choice<PictureFormat>> &choices();
+
   /// Section `Output`. SI units.
   struct OutputSection
   {
@@ -17,6 +21,7 @@ namespace tread
     double           surface_interval = 0., volume_interval = 0.; ///< 0: the solution instant only
     double           table_depth         = 0.;                    ///< 0: no tables of cells
     bool             write_volume        = true;
+    PictureFormat    pictures            = PictureFormat::vtu;
     double           checkpoint_interval = 600.; ///< wall time, s; 0: only when interrupted
 
     void declare(dealii::ParameterHandler &handler);

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The pictures of a run: what is in them, and the lists of them.
+#include <tread/output/run_folder.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <regex>
+#include <sstream>
+
+namespace tread
+{
+  namespace
+  {
+    /// A field of a picture: its name with the unit, and its values as they are written, by what it is asked
+    /// for at a point, or of a cell. A new field is one line in a list.
+    template <typename Value, typename At>
+    struct Field
+    {
+      std::string                      name;
+      std::function<Value(const At &)> value;
+    };
+
+    template <typename At>
+    using Vectors = std::vector<Field<Vector3, At>>;
+    template <typename At>
+    using Scalars = std::vector<Field<double, At>>;
+
+    template <typename At>
+    void add_fields(Picture               &picture,
+                    const std::vector<At> &places,
+                    const bool             at_points,
+                    const Vectors<At>     &vectors,
+                    const Scalars<At>     &scalars)
+    {
+      for (const auto &field : vectors)
+        {
+          Picture::Field added{field.name, 3, at_points, {}};
+          for (const At &at : places)
+            {
+              const Vector3 value = field.value(at);
+              for (unsigned int d = 0; d < 3; ++d)
+                added.values.push_back(value[d]);
+            }
+          picture.fields.push_back(std::move(added));
+        }
+      for (const auto &field : scalars)
+        {
+          Picture::Field added{field.name, 1, at_points, {}};
+          for (const At &at : places)
+            added.values.push_back(field.value(at));
+          picture.fields.push_back(std::move(added));
+        }
+    }
+
+    struct SurfaceValues
+    {
+      double  pressure = 0., state = 0.; // MPa; 0 apart, 1 adhesion, 2 slip
+      Vector3 shear{}, slip{};           // MPa, m/s
+    };
+
+    void add_surface_fields(Picture &picture, const std::vector<SurfaceValues> &values, const bool at_points)
+    {
+      using S = SurfaceValues;
+      static const Vectors<S> vectors{{"shear_MPa",
+                                       [](const S &s) {
+                                         return s.shear;
+                                       }},
+                                      {"slip_m_per_s", [](const S &s) {
+                                         return s.slip;
+                                       }}};
+      static const Scalars<S> scalars{{"pressure_MPa",
+                                       [](const S &s) {
+                                         return s.pressure;
+                                       }},
+                                      {"state", [](const S &s) {
+                                         return s.state;
+                                       }}};
+      add_fields(picture, values, at_points, vectors, scalars);
+    }
+
+    void add_point(Picture &picture, const Vector3 place)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        picture.points.push_back(place[d]);
+    }
+
+    std::string numbered(const std::string &stem, const std::size_t number, const std::string &ending)
+    {
+      char text[64];
+      std::snprintf(text, sizeof text, "%s-%04zu.%s", stem.c_str(), number, ending.c_str());
+      return text;
+    }
+
+    /// The points of some of a mesh's nodes, which get numbers as they are met.
+    class PointsOfNodes
+    {
+    public:
+      PointsOfNodes(const ExplicitDynamics &dynamics, Picture &picture)
+        : dynamics(dynamics)
+        , picture(picture)
+        , number(dynamics.mesh.nodes.size(), -1)
+      {
+      }
+
+      void add_corner(const unsigned int node)
+      {
+        if (number[node] < 0)
+          {
+            number[node] = nodes.size();
+            nodes.push_back(node);
+            add_point(picture, dynamics.position(node));
+          }
+        picture.corners.push_back(number[node]);
+      }
+
+      std::vector<unsigned int> nodes;
+
+    private:
+      const ExplicitDynamics &dynamics;
+      Picture                &picture;
+      std::vector<int>        number;
+    };
+  } // namespace
+
+
+  void RunFolder::add_picture(const std::string &stem,
+                              const Picture     &of_rank,
+                              const double       time,
+                              Series            &series) const
+  {
+    // One of the same instant is the same picture: ParaView shows neither, or both.
+    if (!series.files.empty() && series.files.back().first == time)
+      {
+        series.files.pop_back();
+        if (!series.grids.empty())
+          series.grids.pop_back();
+      }
+    const std::size_t number = series.files.size();
+    if (picture_format == PictureFormat::vtu)
+      {
+        const std::string name = numbered(stem, number, "vtu"), pieces = gather(vtu_piece(of_rank));
+        series.files.emplace_back(time, name);
+        if (!writes_tables)
+          return;
+        std::ostringstream vtu, collection;
+        dealii::DataOutBase::write_vtu_header(vtu, dealii::DataOutBase::VtkFlags());
+        vtu << pieces;
+        dealii::DataOutBase::write_vtu_footer(vtu);
+        write(name, vtu.str());
+        dealii::DataOutBase::write_pvd_record(collection, series.files);
+        write(stem + ".pvd", collection.str());
+        return;
+      }
+    const std::string          name = numbered(stem, number, "h5");
+    const std::vector<Picture> all  = dealii::Utilities::MPI::gather(comm, of_rank, 0);
+    series.files.emplace_back(time, name);
+    if (!writes_tables)
+      return;
+    Picture picture = of_rank;
+    for (std::size_t rank = 1; rank < all.size(); ++rank)
+      picture.add(all[rank]);
+    write_through(name, [&](const std::string &path) { write_hdf5_picture(path, picture); });
+    series.grids.push_back(xdmf_grid(picture, name.substr(0, name.size() - 3), name + ":/", time));
+    write(stem + ".xdmf", xdmf_collection(stem, series.grids));
+  }
+
+
+  void RunFolder::find_pictures(const std::string &stem, const double time, Series &series) const
+  {
+    if (picture_format == PictureFormat::vtu)
+      {
+        const std::string text = text_of(stem + ".pvd");
+        const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
+        for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
+          if (std::stod((*i)[1]) <= time)
+            series.files.emplace_back(std::stod((*i)[1]), (*i)[2]);
+        return;
+      }
+    for (const auto &[when, grid] : xdmf_grids(text_of(stem + ".xdmf")))
+      if (when <= time)
+        {
+          series.files.emplace_back(when, numbered(stem, series.files.size(), "h5"));
+          series.grids.push_back(grid);
+        }
+  }
+
+
+  void RunFolder::join_pictures() const
+  {
+    if (!writes_tables || picture_format == PictureFormat::vtu)
+      return;
+    for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
+      {
+        if (series->files.empty())
+          continue;
+        const std::string        joined = std::string(stem) + ".h5";
+        std::vector<std::string> paths, grids;
+        for (std::size_t i = 0; i < series->files.size(); ++i)
+          {
+            const std::string alone = series->files[i].second + ":/",
+                              group = joined + ":/" + alone.substr(alone.rfind('-') + 1, 4) + "/";
+            paths.push_back(path(series->files[i].second));
+            std::string grid = series->grids[i];
+            for (std::size_t at = grid.find(alone); at != std::string::npos; at = grid.find(alone, at))
+              grid.replace(at, alone.size(), group);
+            grids.push_back(grid);
+          }
+        write_through(joined, [&](const std::string &path) { join_hdf5_pictures(path, paths); });
+        write(std::string(stem) + ".xdmf", xdmf_collection(stem, grids));
+        for (const std::string &alone : paths)
+          std::filesystem::remove(alone);
+      }
+  }
+
+
+  void RunFolder::write_volume(const ExplicitDynamics                         &dynamics,
+                               const std::map<unsigned int, const WheelHub *> &hubs)
+  {
+    const Mesh                              &mesh = dynamics.mesh;
+    const std::vector<std::array<double, 6>> stress =
+      dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
+    const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+
+    Picture       picture;
+    PointsOfNodes points(dynamics, picture);
+    for (const Mesh::Cell &cell : mesh.cells)
+      for (const unsigned int node : cell.nodes)
+        points.add_corner(node);
+
+    const Vectors<unsigned int> of_nodes{
+      {"displacement_um", // without the hub's rigid motion
+       [&](const unsigned int i) {
+         Vector3 rigid{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
+         if (const auto wheel = hubs.find(mesh.node_bodies[i]); wheel != hubs.end())
+           rigid = wheel->second->position_of(rigid - wheel->second->start());
+         return 1e6 * (dynamics.position(i) - rigid);
+       }},
+      {"velocity_m_per_s", [&](const unsigned int i) {
+         return dynamics.v[i];
+       }}};
+    Scalars<unsigned int> of_cells{{"von_mises_MPa",
+                                    [&](const unsigned int c) {
+                                      return 1e-6 * von_mises(stress[c]);
+                                    }},
+                                   {"mean_stress_MPa",
+                                    [&](const unsigned int c) {
+                                      return 1e-6 / 3. * (stress[c][0] + stress[c][1] + stress[c][2]);
+                                    }},
+                                   {"body", [&](const unsigned int c) {
+                                      return double(mesh.cells[c].body);
+                                    }}};
+    constexpr const char *components[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (unsigned int k = 0; k < 6; ++k)
+      of_cells.push_back({std::string("stress_") + components[k] + "_MPa", [&, k](const unsigned int c) {
+                            return 1e-6 * stress[c][k];
+                          }});
+    // The same fields on all ranks.
+    if (dealii::Utilities::MPI::logical_or(!dynamics.history.values.empty(), comm))
+      of_cells.push_back({"equivalent_plastic_strain_percent", [&](const unsigned int c) {
+                            return strain.empty() ? 0. : 100. * strain[c];
+                          }});
+    std::vector<unsigned int> cells(mesh.cells.size());
+    std::iota(cells.begin(), cells.end(), 0u);
+    add_fields(picture, points.nodes, true, of_nodes, {});
+    add_fields(picture, cells, false, {}, of_cells);
+    add_picture("volume", picture, dynamics.time, volume);
+  }
+
+
+  void RunFolder::write_surface(const ExplicitDynamics &dynamics,
+                                const Contact          &contact,
+                                const unsigned int      body)
+  {
+    const Mesh                &mesh = dynamics.mesh;
+    std::vector<SurfaceValues> of_nodes(mesh.nodes.size());
+    for (const ContactNodeState &state : contact.active_nodes())
+      if (const int node = contact.surfaces.nodes[state.node].local; node >= 0)
+        {
+          const double normal = dot(state.impulse, state.normal),
+                       scale  = 1e-6 / (state.area * dynamics.time_step);
+          of_nodes[node]      = {scale * normal, state.adhesion ? 1. : 2.,
+                                 scale * (state.impulse - normal * state.normal), state.slip};
+        }
+    // Those of the mesh: contact leaves out faces with an edge that hangs.
+    Picture picture;
+    picture.n_corners = 4;
+    PointsOfNodes points(dynamics, picture);
+    for (const Mesh::Face &face : mesh.faces)
+      if (face.body == body && face.boundary == Boundary::contact)
+        for (const unsigned int v : {0, 1, 3, 2}) // from the counter-clockwise order
+          points.add_corner(face.nodes[v]);
+    std::vector<SurfaceValues> values;
+    for (const unsigned int node : points.nodes)
+      values.push_back(of_nodes[node]);
+    add_surface_fields(picture, values, true);
+    add_picture("surface", picture, dynamics.time, surface);
+  }
+
+
+  void RunFolder::write_surface(const std::vector<PatchNode> &elements, const double element_size)
+  {
+    Picture picture;
+    picture.n_corners = 4;
+    std::vector<SurfaceValues> values;
+    if (writes_tables) // all ranks know all of them
+      for (const PatchNode &element : elements)
+        {
+          values.emplace_back();
+          values.back().pressure = 1e-6 * element.pressure;
+          values.back().state    = element.adhesion ? 1. : 2.;
+          for (unsigned int d = 0; d < 2; ++d)
+            {
+              values.back().shear[d] = 1e-6 * element.shear[d];
+              values.back().slip[d]  = element.slip[d];
+            }
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              picture.corners.push_back(picture.n_points());
+              add_point(picture, element.position + Vector3{(v % 2 - 0.5) * element_size,
+                                                            (v / 2 - 0.5) * element_size, 0., 0.});
+            }
+        }
+    add_surface_fields(picture, values, false);
+    add_picture("surface", picture, 0., surface);
+  }
+} // namespace tread

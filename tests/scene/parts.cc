@@ -1,0 +1,720 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the parts of a simulation are given by the parameters of a scene. Every parameter has a value of its
+// own, so that an exchange is noticed; expected are the values as they stand in the parameters, in SI units,
+// and closed forms.
+#include <tread/geometry/contact_points.h>
+#include <tread/geometry/rail_profile.h>
+#include <tread/reference/hertz.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/parts.h>
+#include <tread/scene/wheelset_case.h>
+#include <tread/scene/wheelset_summary.h>
+
+#include <deal.II/base/numbers.h>
+
+#include "check.h"
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  using Settings = std::vector<std::string>;
+
+  /// A scene does not move: its parameters are bound to its sections.
+  std::unique_ptr<Scene> scene_of(const Settings &settings, const Settings &more = {})
+  {
+    Settings all = settings;
+    all.insert(all.end(), more.begin(), more.end());
+    auto scene = std::make_unique<Scene>();
+    scene->read("", all);
+    return scene;
+  }
+
+  /// For profiles and maps; is there as long as the object.
+  struct TemporaryFolder
+  {
+    const std::string path =
+      (std::filesystem::temp_directory_path() / ("tread-scene-parts-" + std::to_string(getpid()))).string();
+
+    TemporaryFolder()
+    {
+      std::filesystem::create_directories(path);
+    }
+    ~TemporaryFolder()
+    {
+      std::filesystem::remove_all(path);
+    }
+
+    /// @returns where it is
+    std::string write(const std::string &name, const std::string &text) const
+    {
+      std::ofstream(path + "/" + name) << text;
+      return path + "/" + name;
+    }
+  };
+
+  constexpr double round_off = 1e-12;
+  const Settings   block{"Rail/Shape=block"};
+
+
+  void check_numerics(tests::Check &check)
+  {
+    const auto scene = scene_of(
+      block, {"Scene/Density scale=4", "Scene/Reproducible=true", "Solid/Hourglass coefficient=0.7",
+              "Solid/Linear bulk viscosity=0.07", "Solid/Quadratic bulk viscosity=1.3",
+              "Solid/Stiffness damping (time steps)=0.21", "Solid/Mass damping (1 per s)=31",
+              "Time stepping/Courant number=0.83", "Time stepping/Levels=3", "Contact/Tolerance=3e-7",
+              "Contact/Largest number of sweeps=77", "Watchdogs/Stop at strain=0.37",
+              "Watchdogs/Stop at node speed (m per s)=812", "Vehicle/Gravity (m per s2)=9.7"});
+
+    const SolidParameters solid = solid_parameters(*scene);
+    check.relative("solid: hourglass coefficient", solid.hourglass_coefficient, 0.7, 0.);
+    check.relative("solid: linear bulk viscosity", solid.linear_bulk_viscosity, 0.07, 0.);
+    check.relative("solid: quadratic bulk viscosity", solid.quadratic_bulk_viscosity, 1.3, 0.);
+    check.relative("solid: density scale", solid.density_scale, 4., 0.);
+    check.absolute("solid: the highest of three levels", solid.max_level, 2, 0.);
+    check.that("solid: reproducible", solid.reproducible);
+    check.that("solid: usual element", solid.element == "one-point");
+
+    const DynamicsParameters dynamics = dynamics_parameters(*scene);
+    check.relative("dynamics: Courant number", dynamics.courant_number, 0.83, 0.);
+    check.relative("dynamics: damping in time steps", dynamics.damping_steps, 0.21, 0.);
+    check.relative("dynamics: mass damping, 1/s", dynamics.mass_damping, 31., 0.);
+    check.relative("dynamics: density scale", dynamics.density_scale, 4., 0.);
+    check.relative("dynamics: gravity, m/s2", dynamics.gravity, 9.7, 0.);
+    check.relative("dynamics: largest strain", dynamics.largest_strain, 0.37, 0.);
+    check.relative("dynamics: largest speed, m/s", dynamics.largest_speed, 812., 0.);
+
+    const ContactParameters contact = contact_parameters(*scene);
+    check.relative("contact: tolerance", contact.solver.tolerance, 3e-7, 0.);
+    check.absolute("contact: sweeps", contact.solver.max_sweeps, 77, 0.);
+    check.that("contact: reproducible", contact.reproducible);
+
+    const auto other = scene_of(block, {"Solid/Element=fully-integrated"});
+    check.that("solid: the element that is named", solid_parameters(*other).element == "fully-integrated");
+    check.that("solid and contact: not reproducible unless it is wanted",
+               !solid_parameters(*other).reproducible && !contact_parameters(*other).reproducible);
+    check.absolute("solid: one level", solid_parameters(*other).max_level, 0, 0.);
+  }
+
+
+  const Settings vehicle{"Wheel/Mass (kg)=911",
+                         "Wheel/Moment of inertia (kg m2)=61",
+                         "Vehicle/Sprung mass (kg)=7300",
+                         "Vehicle/Suspension stiffness (kN per m)=1170",
+                         "Vehicle/Suspension damping (N s per m)=3100",
+                         "Vehicle/Gravity (m per s2)=9.7"};
+
+  /// @param n_wheels of the hub, each with its share of the vehicle
+  void check_hub(tests::Check &check, const std::string &name, const WheelHubParameters &hub, const double n)
+  {
+    check.relative(name + "mass, kg", hub.mass, n * 911., round_off);
+    check.relative(name + "moment of inertia, kg m2", hub.moment_of_inertia, n * 61., round_off);
+    check.relative(name + "sprung mass, kg", hub.sprung_mass, n * 7300., round_off);
+    check.relative(name + "suspension stiffness, kN/m", 1e-3 * hub.suspension_stiffness, n * 1170.,
+                   round_off);
+    check.relative(name + "suspension damping, N s/m", hub.suspension_damping, n * 3100., round_off);
+    check.relative(name + "gravity, m/s2", hub.gravity, 9.7, 0.);
+  }
+
+
+  /// Several wheels on one rail, each with a drive of its own.
+  void check_wheels(tests::Check &check)
+  {
+    Settings three = vehicle;
+    three.insert(three.end(), {"Motion/Traction coefficient=0.3", "Further wheels/Distances (mm)=1000,2300"});
+    const auto own = scene_of(block, three);
+    check_hub(check, "hub: ", hub_parameters(*own), 1.);
+    check.below("hub: no inertia about other axes",
+                hub_parameters(*own).yaw_inertia + hub_parameters(*own).roll_inertia, 0.);
+    check.relative("static load of a wheel, kN", 1e-3 * own->static_load(), 79.6467, round_off);
+    three.push_back("Further wheels/Traction coefficients=0.1,-0.2");
+    const auto others = scene_of(block, three);
+    for (unsigned int k = 0; k < 3; ++k)
+      {
+        const std::string name     = "wheel " + std::to_string(k + 1) + ": ";
+        constexpr double  of_own[] = {0.3, 0.1, -0.2}, behind[] = {0., 1., 2.3};
+        check.relative(name + "traction coefficient of the first wheel", own->traction_coefficient(k), 0.3,
+                       0.);
+        check.relative(name + "its own traction coefficient", others->traction_coefficient(k), of_own[k], 0.);
+        check.absolute(name + "begins this far behind the first, m", own->path_begin(0) - own->path_begin(k),
+                       behind[k], round_off);
+      }
+  }
+
+
+  void check_materials(tests::Check &check)
+  {
+    const Settings steel{"Young's modulus (GPa)=200", "Yield stress (MPa)=410", "Tangent modulus (GPa)=20"};
+    Settings       rail{"Rail/Shape=block"};
+    for (const std::string &line : steel)
+      rail.push_back("Rail/" + line);
+    // Both branches of the bi-linear line: 1/Et = 1/E + 1/H, with which H = 200/9 GPa; of 40 GPa H = 50 GPa.
+    const double hardening = 200e9 / 9.;
+    {
+      const auto            scene     = scene_of(rail, {"Rail/Hardening=isotropic"});
+      const PlasticMaterial isotropic = scene->rail.material.plastic(410e6, 20e9);
+      check.relative("isotropic hardening: yield stress, MPa", 1e-6 * isotropic.yield_stress, 410.,
+                     round_off);
+      check.relative("isotropic hardening: modulus, GPa", 1e-9 * isotropic.isotropic_modulus,
+                     1e-9 * hardening, round_off);
+      check.that("isotropic hardening: no backstress", isotropic.backstresses.empty());
+    }
+    {
+      const auto            scene     = scene_of(rail, {"Rail/Hardening=kinematic"});
+      const PlasticMaterial kinematic = scene->rail.material.plastic(410e6, 20e9);
+      check.below("kinematic hardening: none of the yield stress, GPa", 1e-9 * kinematic.isotropic_modulus,
+                  0.);
+      check.absolute("kinematic hardening: backstresses", kinematic.backstresses.size(), 1, 0.);
+      if (!kinematic.backstresses.empty())
+        {
+          check.relative("kinematic hardening: modulus, GPa", 1e-9 * kinematic.backstresses[0].modulus,
+                         1e-9 * hardening, round_off);
+          check.below("kinematic hardening: no recovery", kinematic.backstresses[0].recovery, 0.);
+        }
+    }
+    {
+      const auto scene =
+        scene_of(rail, {"Rail/Hardening=Armstrong-Frederick", "Rail/Backstress moduli (GPa)=61,7",
+                        "Rail/Backstress recoveries=310,11"});
+      const PlasticMaterial ratchets = scene->rail.material.plastic(410e6, 20e9);
+      check.below("Armstrong-Frederick: none of the yield stress, GPa", 1e-9 * ratchets.isotropic_modulus,
+                  0.);
+      check.absolute("Armstrong-Frederick: backstresses", ratchets.backstresses.size(), 2, 0.);
+      if (ratchets.backstresses.size() == 2)
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const std::string name = "Armstrong-Frederick: " + std::to_string(i + 1) + ". ";
+            check.relative(name + "modulus, GPa", 1e-9 * ratchets.backstresses[i].modulus, i ? 7. : 61.,
+                           round_off);
+            check.relative(name + "recovery", ratchets.backstresses[i].recovery, i ? 11. : 310., 0.);
+          }
+    }
+  }
+
+
+  /// Cells that may yield, on both bodies and to both sides, and a weld in the rail.
+  void check_plastic_zones(tests::Check &check)
+  {
+    const auto scene = scene_of(
+      block, {"Rail/Young's modulus (GPa)=200", "Rail/Yield stress (MPa)=410",
+              "Rail/Tangent modulus (GPa)=20", "Rail/Plastic depth (mm)=6", "Rail/Plastic half width (mm)=7",
+              "Rail/Plastic zones=-30:-20:4:300:40", "Wheel/Young's modulus (GPa)=210",
+              "Wheel/Yield stress (MPa)=520", "Wheel/Tangent modulus (GPa)=21", "Wheel/Plastic depth (mm)=5",
+              "Wheel/Plastic half width (mm)=8", "Motion/Start (mm)=-50", "Motion/Rolled distance (mm)=60"});
+    const auto   zones = plastic_zones(*scene);
+    const double mm    = 1e-3;
+    // By the yield stress of the zone that a cell is in, MPa; 0: it stays elastic.
+    const auto in_rail = [&](const double x, const double y, const double depth) {
+      const int zone = zone_at(zones, rail_body, Point<3>(mm * x, mm * y, -mm * depth));
+      return zone < 0 ? 0. : 1e-6 * zones[zone].material.yield_stress;
+    };
+    // Along the tread, from where it touches at the start.
+    const auto in_wheel = [&](const double arc, const double y, const double depth) {
+      constexpr double radius = 460., start = -50.; // mm
+      const double     angle = arc / radius, r = radius - depth;
+      const Point<3>   p(mm * (start + r * std::sin(angle)), mm * y,
+                         scene->axle_height() - mm * r * std::cos(angle));
+      const int        zone = zone_at(zones, wheel_body(0), p);
+      return zone < 0 ? 0. : 1e-6 * zones[zone].material.yield_stress;
+    };
+    struct At
+    {
+      const char *place;
+      double      along, beside, depth, yield_rail, yield_wheel;
+    };
+    // The weld is 4 mm deep and from x = -30 to -20 mm; below it is the rail.
+    for (const At &at : std::vector<At>{{"in the middle", 0., 0., 3., 410., 520.},
+                                        {"6.9 mm to the gauge side", 0., -6.9, 3., 410., 520.},
+                                        {"6.9 mm to the field side", 0., 6.9, 3., 410., 520.},
+                                        {"7.1 mm to the gauge side", 0., -7.1, 3., 0., 520.},
+                                        {"7.1 mm to the field side", 0., 7.1, 3., 0., 520.},
+                                        {"8.1 mm to the gauge side", 0., -8.1, 3., 0., 0.},
+                                        {"8.1 mm to the field side", 0., 8.1, 3., 0., 0.},
+                                        {"4.9 mm deep", 0., 0., 4.9, 410., 520.},
+                                        {"5.9 mm deep", 0., 0., 5.9, 410., 0.},
+                                        {"6.1 mm deep", 0., 0., 6.1, 0., 0.},
+                                        {"at -29 mm", -29., 0., 3., 300., 0.},
+                                        {"at -21 mm", -21., 0., 3., 300., 0.},
+                                        {"at -19 mm", -19., 0., 3., 410., 0.},
+                                        {"at -31 mm", -31., 0., 3., 410., 0.},
+                                        {"at -25 mm, 4.5 mm deep", -25., 0., 4.5, 410., 0.},
+                                        {"at 55 mm", 55., 0., 3., 0., 520.},
+                                        {"at -80 mm", -80., 0., 3., 0., 0.},
+                                        {"at 90 mm", 90., 0., 3., 0., 0.}})
+      {
+        check.absolute("yield stress in the rail " + std::string(at.place) + ", MPa",
+                       in_rail(at.along, at.beside, at.depth), at.yield_rail, 1e-9);
+        check.absolute("yield stress in the wheel " + std::string(at.place) + ", MPa",
+                       in_wheel(at.along, at.beside, at.depth), at.yield_wheel, 1e-9);
+      }
+    const auto modulus = [&](const unsigned int body, const Point<3> &p) {
+      const int zone = zone_at(zones, body, p);
+      return zone < 0 ? 0. : 1e-9 * zones[zone].material.isotropic_modulus;
+    };
+    check.relative("the weld's own hardening, GPa", modulus(rail_body, Point<3>(-25e-3, 0., -3e-3)), 50.,
+                   1e-9);
+    check.relative("that of the rail beside it, GPa", modulus(rail_body, Point<3>(0., 0., -3e-3)), 200. / 9.,
+                   1e-9);
+    check.relative("that of the wheel, GPa", modulus(wheel_body(0), Point<3>(-50e-3, 0., 3e-3)), 70. / 3.,
+                   1e-9);
+  }
+
+
+  const Settings on_track{"Rail/Shape=full section",
+                          "Rail/Inclination=1:20",
+                          "Wheel/Tread profile=cone 1:20",
+                          "Scene/Quasi-static=false",
+                          "Track/Foundation=two-layer",
+                          "Track/Sleepers=solid",
+                          "Track/Sleeper spacing (m)=0.61",
+                          "Track/Support 0 (mm)=50",
+                          "Track/Pad stiffness (MN per m)=610",
+                          "Track/Pad damping (kN s per m)=21",
+                          "Track/Pads pull=false",
+                          "Track/Pad length (mm)=130",
+                          "Track/Pad width (mm)=120",
+                          "Track/Points along=5",
+                          "Track/Points across=3",
+                          "Track/Sleeper mass (kg)=171",
+                          "Track/Sleeper length (m)=2.6",
+                          "Track/Sleeper width (mm)=260",
+                          "Track/Rail distance (mm)=1510",
+                          "Track/Sleeper Young's modulus (GPa)=41",
+                          "Track/Sleeper Poisson's ratio=0.21",
+                          "Track/Sleeper density (kg per m3)=2450",
+                          "Track/Ballast stiffness (MN per m)=47",
+                          "Track/Ballast damping (kN s per m)=33",
+                          "Rail/Young's modulus (GPa)=207",
+                          "Rail/Poisson's ratio=0.28",
+                          "Rail/Density (kg per m3)=7810",
+                          "Wheel/Young's modulus (GPa)=205",
+                          "Wheel/Poisson's ratio=0.29",
+                          "Wheel/Density (kg per m3)=7790",
+                          "Rail/Begin (mm)=-2050",
+                          "Rail/Length (mm)=4100",
+                          "Rail/Ends=absorbing",
+                          "Rail/Absorbing length (m)=0.9",
+                          "Motion/Start (mm)=-20",
+                          "Motion/Rolled distance (mm)=40"};
+
+  void check_springs(tests::Check                   &check,
+                     const std::string              &name,
+                     const TrackParameters::Springs &springs,
+                     const TrackParameters::Springs &expected)
+  {
+    check.relative(name + "pad stiffness, MN/m", 1e-6 * springs.pad_stiffness, 1e-6 * expected.pad_stiffness,
+                   round_off);
+    check.relative(name + "ballast stiffness, MN/m", 1e-6 * springs.ballast_stiffness,
+                   1e-6 * expected.ballast_stiffness, round_off);
+    check.relative(name + "pad damping, kN s/m", 1e-3 * springs.pad_damping, 1e-3 * expected.pad_damping,
+                   round_off);
+    check.relative(name + "ballast damping, kN s/m", 1e-3 * springs.ballast_damping,
+                   1e-3 * expected.ballast_damping, round_off);
+    check.absolute(name + "gap below, mm", 1e3 * springs.ballast_gap, 1e3 * expected.ballast_gap, round_off);
+  }
+
+  void check_track(tests::Check &check, const TemporaryFolder &folder)
+  {
+    const std::string file  = folder.write("supports.csv", "support,pad_stiffness_MN_per_m,ballast_gap_mm\n"
+                                                            "2,333,1.5\n");
+    const auto        scene = scene_of(on_track, {"Track/Support file=" + file});
+
+    // Middles of the sleepers at 50 mm + 610 mm times the number that are on the rail.
+    const std::vector<double> positions = scene->support_positions();
+    check.absolute("track: supports", positions.size(), 7, 0.);
+    check.absolute("track: number of the first", scene->first_support(), -3, 0.);
+    check.absolute("track: place of the first, mm", 1e3 * positions.front(), -1780., 1e-9);
+    check.absolute("track: place of the last, mm", 1e3 * positions.back(), 1880., 1e-9);
+    check.that("track: supports beside the path are recorded",
+               scene->recorded_supports() == std::vector<int>({-1, 0}));
+
+    const TrackParameters track = scene->track_parameters();
+    check_springs(check, "track: ", track.springs, {610e6, 47e6, 21e3, 33e3, 0.});
+    check.absolute("track: supports that differ", track.exceptions.size(), 1, 0.);
+    check_springs(check, "track: support 2, the sixth on the rail: ", track.springs_of(5),
+                  {333e6, 47e6, 21e3, 33e3, 1.5e-3});
+    check.that("track: pads do not pull", !track.pads_pull);
+    check.relative("track: pad length, mm", 1e3 * track.pad_length, 130., round_off);
+    check.relative("track: pad width, mm", 1e3 * track.pad_width, 120., round_off);
+    check.absolute("track: points along", track.points_along, 5, 0.);
+    check.absolute("track: points across", track.points_across, 3, 0.);
+    check.that("track: two layers", track.two_layers);
+    check.relative("track: sleeper mass, kg", track.sleeper_mass, 171., 0.);
+    // A rail of 159 mm that leans to the gauge side by 1:20 has its foot to the field side of its top.
+    check.relative("track: middle of the pads, mm", 1e3 * track.pad_middle, 159. / std::sqrt(401.), 1e-9);
+    check.relative("track: base of the rail, mm", 1e3 * scene->base_middle()[2],
+                   -159. * 20. / std::sqrt(401.), 1e-9);
+
+    const AbsorbingEnds ends = scene->absorbing_ends();
+    check.relative("absorbing ends: length, m", ends.length, 0.9, round_off);
+    check.relative("absorbing ends: from, m", ends.begin, -2.05, round_off);
+    check.relative("absorbing ends: to, m", ends.end, 2.05, round_off);
+    check.relative("absorbing ends: speed of shear waves, m/s", ends.shear_speed,
+                   std::sqrt(207e9 / (2. * 1.28) / 7810.), round_off);
+
+    // Half a spacing ahead of a support; the last one has the end of the rail there.
+    check.relative("mid-span ahead of support 1, mm", 1e3 * mid_span_beside(*scene, 1), 965., round_off);
+    check.relative("mid-span ahead of support -2, mm", 1e3 * mid_span_beside(*scene, -2), -865., round_off);
+    check.relative("the rail's end ahead of support 3, mm", 1e3 * mid_span_beside(*scene, 3), 2050.,
+                   round_off);
+
+    const std::vector<SolidSleeper> sleepers = solid_sleepers(*scene);
+    check.absolute("sleepers", sleepers.size(), 7, 0.);
+    check.absolute("sleepers: body of the third, behind rail and wheel", sleepers[2].body, 4, 0.);
+    check.relative("sleepers: from the middle of the track, mm", 1e3 * sleepers[2].y_begin, -755., round_off);
+    check.relative("sleepers: to the end, mm", 1e3 * sleepers[2].y_end, 545., round_off);
+    check.relative("sleepers: width, mm", 1e3 * sleepers[2].width, 260., round_off);
+    check.relative("sleepers: mass of half of one by its size, kg",
+                   2450. * scene->track.solid_sleeper_height() * (sleepers[2].y_end - sleepers[2].y_begin) *
+                     sleepers[2].width,
+                   171., round_off);
+
+    const std::vector<ElasticMaterial> list = materials(*scene);
+    check.absolute("materials: rail, wheel, sleepers", list.size(), 9, 0.);
+    constexpr double young[] = {207., 205., 41.}, poisson[] = {0.28, 0.29, 0.21},
+                     density[] = {7810., 7790., 2450.};
+    for (const std::size_t body : {0, 1, 2, 8})
+      {
+        const std::string name = "material of body " + std::to_string(body) + ": ";
+        const std::size_t kind = std::min<std::size_t>(body, 2);
+        check.relative(name + "Young's modulus, GPa", 1e-9 * list[body].young_modulus, young[kind],
+                       round_off);
+        check.relative(name + "Poisson's ratio", list[body].poisson_ratio, poisson[kind], 0.);
+        check.relative(name + "density, kg/m3", list[body].density, density[kind], 0.);
+      }
+
+    const auto plain =
+      scene_of(on_track, {"Track/Pads pull=true", "Track/Sleepers=mass", "Track/Foundation=one-layer",
+                          "Rail/Ends=symmetric", "Output/Supports=-3,2"});
+    check.that("track: pads pull", plain->track_parameters().pads_pull);
+    check.that("track: one layer", !plain->track_parameters().two_layers);
+    check.that("track: none of the supports differs", plain->track_parameters().exceptions.empty());
+    check.below("symmetric ends absorb nothing, m", plain->absorbing_ends().length, 0.);
+    check.that("track: supports that are named are recorded",
+               plain->recorded_supports() == std::vector<int>({-3, 2}));
+    check.that("rigid sleepers are no bodies", solid_sleepers(*plain).empty());
+    check.absolute("materials: rail, wheel", materials(*plain).size(), 2, 0.);
+  }
+
+
+  /// Height (mm) over the rail's profile at a place (mm).
+  double height(const Scene &scene, const double x, const double y)
+  {
+    return 1e3 * scene.rail_height()(1e-3 * x, 1e-3 * y);
+  }
+
+  void check_dips(tests::Check &check)
+  {
+    const Settings dip{"Defect/Shape=dip",      "Defect/Position (mm)=-5", "Defect/Length (mm)=20",
+                       "Defect/Depth (mm)=0.3", "Motion/Start (mm)=-30",   "Motion/Rolled distance (mm)=60"};
+    const auto     scene =
+      scene_of(dip, {"Defect/Width (mm)=12", "Defect/Lateral position (mm)=5",
+                     "Defect/Rounded leading edge (mm)=2", "Defect/Rounded trailing edge (mm)=4"});
+    constexpr double picometre = 1e-9; // mm
+    check.absolute("dip: deepest, mm", height(*scene, 5., 5.), -0.3, picometre);
+    check.absolute("dip: half of the way to its side, mm", height(*scene, 5., 8.), -0.3 * 0.75, picometre);
+    check.absolute("dip: the same to the other side, mm", height(*scene, 5., 2.), -0.3 * 0.75, picometre);
+    check.absolute("dip: beyond its width, mm", height(*scene, 5., 13.), 0., picometre);
+    check.absolute("dip: the same to the other side, mm", height(*scene, 5., -3.), 0., picometre);
+    check.absolute("dip: not on the gauge side, mm", height(*scene, 5., -5.), 0., picometre);
+    // A parabola that takes a kink of the slope s over the length R passes s R/8 below it; s is four depths
+    // over the length.
+    check.absolute("dip: at the rounded leading edge, mm", height(*scene, -5., 5.), -0.06 * 2. / 8.,
+                   picometre);
+    check.absolute("dip: at the rounded trailing edge, mm", height(*scene, 15., 5.), -0.06 * 4. / 8.,
+                   picometre);
+    check.absolute("dip: where the rounding is over, mm", height(*scene, 17.5, 5.), 0., picometre);
+
+    // As wide as it is long, with sharp edges, twice.
+    const auto round = scene_of(dip, {"Defect/Repeated at (mm)=30"});
+    check.absolute("round dip: half of the way to its side, mm", height(*round, 5., -5.), -0.3 * 0.75,
+                   picometre);
+    check.absolute("round dip: its edge, mm", height(*round, 15., 0.), 0., picometre);
+    check.absolute("round dip: the second, mm", height(*round, 40., 0.), -0.3, picometre);
+
+    // From the middle to a semi-axis behind the trailing edge.
+    const auto         peaks  = scene_of(dip, {"Peak stress/Region=trailing edge"});
+    const Scene::Range region = peaks->peak_range();
+    check.absolute("peaks: from the middle of the dip, mm", 1e3 * region.begin, 5., 1e-9);
+    check.absolute("peaks: to a semi-axis behind its end, mm", 1e3 * region.end,
+                   15. + 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_x, 1e-9);
+    const auto         chosen = scene_of(dip, {"Peak stress/Region=range", "Peak stress/From (mm)=3",
+                                               "Peak stress/To (mm)=17", "Peak stress/Half width (mm)=4"});
+    const Scene::Range range  = chosen->peak_range();
+    check.absolute("peaks: from, mm", 1e3 * range.begin, 3., 1e-9);
+    check.absolute("peaks: to, mm", 1e3 * range.end, 17., 1e-9);
+    check.absolute("peaks: half width, mm", 1e3 * chosen->peak_half_width(), 4., 1e-9);
+  }
+
+
+  void check_profiles(tests::Check &check, const TemporaryFolder &folder)
+  {
+    // 40 mm long, deepest by 0.2 mm a quarter of the way from its beginning.
+    const std::string file = folder.write("profile.txt", "0 0\n10 -0.2\n20 -0.1\n30 -0.05\n40 0\n");
+    const Settings    profile{"Defect/Shape=profile",          "Defect/Profile file=" + file,
+                           "Defect/Position (mm)=-20",      "Defect/Width (mm)=20",
+                           "Motion/Start (mm)=-30",         "Motion/Rolled distance (mm)=60",
+                           "Defect/Lateral position (mm)=3"};
+    constexpr double  picometre = 1e-9; // mm
+    const auto        as_it_is  = scene_of(profile);
+    check.absolute("profile: deepest, mm", height(*as_it_is, -10., 3.), -0.2, picometre);
+    check.absolute("profile: behind it, mm", height(*as_it_is, 0., 3.), -0.1, picometre);
+    check.absolute("profile: its end, mm", height(*as_it_is, 20., 3.), 0., picometre);
+    check.absolute("profile: half of the way to its side, mm", height(*as_it_is, -10., 8.), -0.15, picometre);
+    check.absolute("profile: the same to the other side, mm", height(*as_it_is, -10., -2.), -0.15, picometre);
+    check.absolute("profile: beyond its width, mm", height(*as_it_is, -10., -7.5), 0., picometre);
+
+    const auto other = scene_of(profile, {"Defect/Reversed=true", "Defect/Length (mm)=48",
+                                          "Defect/Depth (mm)=0.5", "Defect/Lateral law=uniform"});
+    check.absolute("profile from its other end, longer and deeper: deepest, mm", height(*other, 16., 3.),
+                   -0.5, picometre);
+    check.absolute("profile from its other end: in the middle, mm", height(*other, 4., 3.), -0.25, picometre);
+    check.absolute("profile from its other end: a quarter before, mm", height(*other, -8., 3.), -0.125,
+                   picometre);
+    check.absolute("uniform profile: 20 mm to the gauge side, mm", height(*other, 16., -20.), -0.5,
+                   picometre);
+    check.absolute("uniform profile: 20 mm to the field side, mm", height(*other, 16., 20.), -0.5, picometre);
+  }
+
+
+  void check_maps(tests::Check &check, const TemporaryFolder &folder)
+  {
+    // Deepest towards its end on the gauge side; a shallow place on the field side.
+    std::string text = "x_mm,y_mm,z_mm\n";
+    for (int x = 0; x <= 40; x += 4)
+      for (int y = -8; y <= 12; y += 2)
+        text += std::to_string(x) + "," + std::to_string(y) + "," +
+                (x == 32 && y == -4  ? "-0.3\n"
+                 : x == 12 && y == 6 ? "-0.1\n"
+                                     : "0\n");
+    const Settings   map{"Defect/Shape=map", "Defect/Profile file=" + folder.write("map.csv", text),
+                       "Defect/Position (mm)=-20", "Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60"};
+    constexpr double picometre = 1e-9; // mm
+    const auto       as_it_is  = scene_of(map);
+    check.absolute("map: deepest, on the gauge side, mm", height(*as_it_is, 12., -4.), -0.3, picometre);
+    check.absolute("map: the other place, mm", height(*as_it_is, -8., 6.), -0.1, picometre);
+    check.absolute("map: where a mirrored one were deepest, mm", height(*as_it_is, 12., 8.), 0., picometre);
+    check.absolute("map: where a reversed one were deepest, mm", height(*as_it_is, -12., -4.), 0., picometre);
+
+    const auto other = scene_of(map, {"Defect/Reversed=true", "Defect/Length (mm)=48",
+                                      "Defect/Depth (mm)=0.6", "Defect/Lateral position (mm)=3"});
+    check.absolute("map from its other end, longer and deeper, 3 mm beside: deepest, mm",
+                   height(*other, -20. + 9.6, -1.), -0.6, picometre);
+    check.absolute("map from its other end: the other place, mm", height(*other, -20. + 33.6, 9.), -0.2,
+                   picometre);
+  }
+
+
+  void check_surfaces(tests::Check &check, const TemporaryFolder &folder)
+  {
+    for (const auto &[name, slope] :
+         {std::pair("none", 0.), std::pair("1:40", 0.025), std::pair("1:20", 0.05)})
+      check.absolute("inclination " + std::string(name),
+                     std::tan(scene_of({"Rail/Inclination=" + std::string(name)})->rail.angle()), slope,
+                     round_off);
+
+    // The running circle lies 3 mm to the field side; the cone is thicker towards the gauge side.
+    const auto beside =
+      scene_of({"Rail/Inclination=1:20", "Wheel/Tread profile=cone 1:20", "Wheel/Lateral position (mm)=3"});
+    const auto &offset = beside->surfaces().tread_offset;
+    check.absolute("tread on its running circle, mm", 1e3 * offset(3e-3), 0., 1e-9);
+    check.absolute("tread 10 mm to the field side of it, mm", 1e3 * offset(13e-3), -0.5, 1e-9);
+    check.absolute("tread 10 mm to the gauge side of it, mm", 1e3 * offset(-7e-3), 0.5, 1e-9);
+
+    // A head worn by a thousandth of the distance from its middle, measured up to 27 mm.
+    const RailProfile  profile = RailProfile::rail_54e1();
+    std::ostringstream points;
+    points << std::setprecision(12);
+    for (int y = -27; y <= 27; ++y)
+      points << y << ' ' << 1e3 * profile.z_top(1e-3 * y) - 1e-3 * std::abs(y) << '\n';
+    const auto       worn      = scene_of({"Rail/Measured head=" + folder.write("head.txt", points.str())});
+    constexpr double picometre = 1e-8; // mm, of a file with 12 digits
+    check.absolute("measured head: 20 mm to the field side, mm", height(*worn, 0., 20.), -0.02, picometre);
+    check.absolute("measured head: 20 mm to the gauge side, mm", height(*worn, 0., -20.), -0.02, picometre);
+    // It fades over 5 mm beside what was measured.
+    check.absolute("measured head: half of it 2.5 mm beside, mm", height(*worn, 0., 29.5), -0.0135,
+                   picometre);
+    check.absolute("measured head: the same to the gauge side, mm", height(*worn, 0., -29.5), -0.0135,
+                   picometre);
+    check.absolute("measured head: nothing 5 mm beside, mm", height(*worn, 0., 32.5), 0., picometre);
+    check.that("a new rail has no heights", !beside->rail_height());
+
+    // Depth counts from the crown of 300 mm radius, at x, y.
+    const auto                  cells     = scene_of({"Output/Cells=-3,8,2;5,-4,3.5"});
+    const std::vector<Point<3>> points_of = cells->recorded_cells();
+    const std::vector<Point<3>> expected{{-3., 8., std::sqrt(300. * 300. - 64.) - 300. - 2.},
+                                         {5., -4., std::sqrt(300. * 300. - 16.) - 300. - 3.5}};
+    check.absolute("cells", points_of.size(), 2, 0.);
+    for (unsigned int i = 0; i < std::min<std::size_t>(points_of.size(), 2); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        check.absolute("cell " + std::to_string(i + 1) + ": " + "xyz"[d] + ", mm", 1e3 * points_of[i][d],
+                       expected[i][d], 1e-9);
+  }
+
+
+  void check_mesh(tests::Check &check)
+  {
+    // A load that doubles or triples makes the patch wider by its cube root.
+    const auto   quasi_static = scene_of(block), dynamic = scene_of(block, {"Scene/Quasi-static=false"});
+    const double wider = dynamic->fine_half_width() / quasi_static->fine_half_width();
+    check.relative("fine half width without impacts: as the patch needs, mm",
+                   1e3 * quasi_static->fine_half_width(), 1e3 * quasi_static->needed_half_width(), round_off);
+    check.that("fine half width with them: there is room for twice the load", wider > std::cbrt(2.));
+    check.that("fine half width with them: not for more than three times the load", wider < std::cbrt(3.));
+    check.relative("fine half width as it is given, mm",
+                   1e3 * scene_of(block, {"Mesh/Fine half width (mm)=11"})->fine_half_width(), 11.,
+                   round_off);
+
+    // Cubes from 10 mm before to 30 mm behind the leading edge, elsewhere cells of twice the length.
+    const auto scene =
+      scene_of(block, {"Mesh/Finest cell (mm)=1", "Mesh/Path cell (mm)=2", "Mesh/Fine from (mm)=-10",
+                       "Mesh/Fine to (mm)=30", "Defect/Position (mm)=5", "Motion/Start (mm)=-60",
+                       "Motion/Rolled distance (mm)=100"});
+    const std::vector<Body> bodies = make_bodies(*scene);
+    for (const double x : {-58., -40., -7., -3., 15., 33., 37.})
+      {
+        const double expected = x > -5. && x < 35. ? 1. : 2.;
+        // Rolling takes the wheel from x = -60 mm on.
+        const double      radius = scene->wheel.radius, angle = 1e-3 * (x + 60.) / radius, depth = 0.1e-3;
+        const std::string at = "largest cell at x = " + std::to_string(int(x)) + " mm, mm: ";
+        check.relative(at + "rail", 1e3 * bodies[0].wanted_cell_size(Point<3>(1e-3 * x, 0., -depth)),
+                       expected, round_off);
+        check.relative(at + "wheel where it touches there",
+                       1e3 * bodies[1].wanted_cell_size(
+                               Point<3>(-60e-3 + (radius - depth) * std::sin(angle), 0.,
+                                        scene->axle_height() - (radius - depth) * std::cos(angle))),
+                       expected, round_off);
+      }
+  }
+
+
+  void check_half_space(tests::Check &check)
+  {
+    // A cone that becomes thinner to the field side.
+    const auto scene = scene_of(
+      {"Rail/Inclination=1:20", "Wheel/Tread profile=cone 1:20", "Motion/Lateral creepage=0.0011",
+       "Motion/Spin (1 per m)=0.13", "Motion/Speed (km per h)=72", "Motion/Traction coefficient=0.17",
+       "Contact/Friction coefficient=0.43", "Wheel/Young's modulus (GPa)=205", "Wheel/Poisson's ratio=0.29",
+       "Rail/Young's modulus (GPa)=207", "Rail/Poisson's ratio=0.28"});
+    const reference::RollingCase c       = half_space_case(*scene);
+    const double                 rolling = scene->rolling_radius();
+    check.relative("half-space: radius 10 mm to the field side, relative", c.radius_change(10e-3),
+                   -0.5e-3 / rolling, 1e-6);
+    check.relative("half-space: radius 10 mm to the gauge side, relative", c.radius_change(-10e-3),
+                   0.5e-3 / rolling, 1e-6);
+    check.relative("half-space: Young's modulus of the wheel, GPa", 1e-9 * c.wheel.young, 205., round_off);
+    check.relative("half-space: Young's modulus of the rail, GPa", 1e-9 * c.rail.young, 207., round_off);
+    check.relative("half-space: Poisson's ratio of the wheel", c.wheel.poisson, 0.29, 0.);
+    check.relative("half-space: Poisson's ratio of the rail", c.rail.poisson, 0.28, 0.);
+    check.relative("half-space: lateral creepage", c.lateral_creepage, 0.0011, 0.);
+    check.relative("half-space: spin, 1/m", c.spin, 0.13, 0.);
+    check.relative("half-space: speed, m/s", c.speed, 20., round_off);
+    check.relative("half-space: friction", c.friction, 0.43, 0.);
+    check.relative("half-space: traction coefficient", c.traction_coefficient, 0.17, 0.);
+    check.that("half-space: the force is prescribed", c.prescribe_force);
+    check.relative("half-space: load, kN", 1e-3 * c.normal_force, 1e-3 * scene->static_load(), 0.);
+
+    // A wheel and a crown of the same radius touch like a sphere on a plane. Below the pressure p a surface
+    // is strained by -(1 + nu)(1 - 2 nu) p/E along x and y together, half of it along x; the mean of p
+    // weighted with p is three quarters of the largest. A rail of twice the stiffness is strained half as
+    // much, and thus by more than the wheel.
+    const auto   unlike = scene_of({"Rail/Shape=block", "Rail/Crown radius (mm)=460", "Wheel/Radius (mm)=460",
+                                    "Rail/Young's modulus (GPa)=400", "Rail/Poisson's ratio=0.2",
+                                    "Wheel/Young's modulus (GPa)=200", "Wheel/Poisson's ratio=0.3"});
+    const double modulus = 1. / ((1. - 0.04) / 400e9 + (1. - 0.09) / 200e9), radius_of_both = 0.46; // Pa, m
+    const double pressure = std::cbrt(6. * unlike->static_load() * modulus * modulus /
+                                      (std::pow(dealii::numbers::PI, 3) * radius_of_both * radius_of_both));
+    const double of_rail  = -1.2 * 0.6 / 400e9 * 0.375 * pressure,
+                 of_wheel = -1.3 * 0.4 / 200e9 * 0.375 * pressure;
+    check.relative("unlike materials: stretch of the rail less the wheel's, 1e-6",
+                   1e6 * half_space_stretch(*unlike), 1e6 * (of_rail - of_wheel), 1e-6);
+    check.below("like materials: stretch, 1e-6", 1e6 * half_space_stretch(*scene_of(block)), round_off);
+  }
+
+
+  /// Both wheels of a wheelset.
+  void check_wheelset(tests::Check &check)
+  {
+    Settings settings{"Rail/Inclination=1:40",          "Wheel/Tread profile=S1002",
+                      "Wheelset/Both wheels=true",      "Wheelset/Lateral shift (mm)=2",
+                      "Guidance/Kind=springs",          "Guidance/Yaw inertia (kg m2)=47",
+                      "Contact/Friction coefficient=0", "Motion/Creepage=0"};
+    settings.insert(settings.end(), vehicle.begin(), vehicle.end());
+    const auto               scene = scene_of(settings);
+    const WheelHubParameters hub   = hub_parameters(*scene);
+    check_hub(check, "hub of both wheels: ", hub, 2.);
+    check.relative("hub of both wheels: yaw inertia, kg m2", hub.yaw_inertia, 47., 0.);
+    check.relative("hub of both wheels: roll inertia, kg m2", hub.roll_inertia, 47., 0.);
+
+    // How it rolls while it moves across: from where rigid wheels touch a little to both sides.
+    constexpr double speed = 0.03, step = 0.2e-3; // m/s, m
+    WheelRolling     rolling = wheel_rolling(*scene);
+    rolling.across_speed     = speed;
+    // Fine enough for where wheel and rail touch, which is all that counts here.
+    rolling.element_x = rolling.element_y = 1e-3;
+    const WheelsetPosition position       = scene->wheelset.position();
+    const PlacedWheel      wheel(*scene, position, rolling);
+    WheelsetPosition       left = position, right = position;
+    left.shift -= step;
+    right.shift += step;
+    const WheelsetPosition before = touching_wheelset(wheel.surfaces, left).position,
+                           behind = touching_wheelset(wheel.surfaces, right).position;
+    // Elastic wheels touch on an area over which the slopes change.
+    check.relative("both wheels: roll rate, mrad/s", 1e3 * wheel.rise().roll_rate,
+                   1e3 * speed * (behind.roll - before.roll) / (2. * step), 0.015);
+  }
+
+
+  void check_figures_of_patches(tests::Check &check)
+  {
+    // The rails' tops lie 750 mm beside the middle; both contacts are 4 mm from them, to the gauge side.
+    std::vector<WheelPatch> patches(2);
+    patches[0].region.reference  = {{1e-3, 746e-3, -0.2e-3}};
+    patches[1].region.reference  = {{2e-3, -746e-3, -0.3e-3}};
+    patches[1].is_of_other_wheel = true;
+    const auto figures           = patches_as_json(patches, 750e-3);
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        const std::string name = i == 0 ? "patch of the own wheel: " : "patch of the other wheel: ";
+        check.that(name + "whose", figures[i]["wheel"] == (i == 0 ? "own" : "other"));
+        check.relative(name + "y in the track, mm", 1e3 * figures[i]["y_m"].get<double>(),
+                       i == 0 ? 746. : -746., round_off);
+        check.relative(name + "y from the middle of its rail, mm", 1e3 * figures[i]["y_rail_m"].get<double>(),
+                       -4., 1e-9);
+        check.relative(name + "x, mm", 1e3 * figures[i]["x_m"].get<double>(), i == 0 ? 1. : 2., round_off);
+        check.relative(name + "z, mm", 1e3 * figures[i]["z_m"].get<double>(), i == 0 ? -0.2 : -0.3,
+                       round_off);
+      }
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  const TemporaryFolder folder;
+  check_numerics(check);
+  check_wheels(check);
+  check_materials(check);
+  check_plastic_zones(check);
+  check_track(check, folder);
+  check_dips(check);
+  check_profiles(check, folder);
+  check_maps(check, folder);
+  check_surfaces(check, folder);
+  check_mesh(check);
+  check_half_space(check);
+  check_wheelset(check);
+  check_figures_of_patches(check);
+}

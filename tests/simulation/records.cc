@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run keeps of its way: extremes of the forces, ripples of the force at its end, the mean of the
+// patch, and what the cost of a run is estimated from.
+#include <tread/simulation/force_ripple.h>
+#include <tread/simulation/impact_record.h>
+#include <tread/simulation/rolling_wheel.h>
+#include <tread/simulation/simulation.h>
+
+#include <deal.II/base/numbers.h>
+
+#include "check.h"
+#include "reopened.h"
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace tread;
+
+namespace
+{
+  /// A row of the history with two supports. @param x place of the wheel, m; @param force on it, N
+  HistoryRow row_of(const double               x,
+                    const double               force,
+                    const std::vector<double> &pads    = {},
+                    const std::vector<double> &ballast = {})
+  {
+    HistoryRow row{};
+    row.time     = x / 20.;
+    row.position = x;
+    row.wheels.resize(1);
+    row.wheels.front().force = Vector3{0.31 * force, 0.07 * force, force, 0.};
+    for (std::size_t i = 0; i < pads.size(); ++i)
+      row.supports.push_back({pads[i], ballast[i], 1e6, 1e5, -1e-3, -2e-3});
+    return row;
+  }
+
+  constexpr double static_load = 80e3; // N
+
+  nlohmann::json figures(const ImpactRecord &record)
+  {
+    Summary summary;
+    record.add_to(summary, static_load);
+    return nlohmann::json::parse(summary.text());
+  }
+
+  /// One extreme of the summary.
+  void check_extreme(tests::Check         &check,
+                     const nlohmann::json &of,
+                     const std::string    &name,
+                     const double          force,
+                     const double          x,
+                     const bool            at_end)
+  {
+    check.relative(name + ", kN", 1e-3 * of.value(name + "_N", 0.), force, 1e-12);
+    check.relative(name + ": place of the wheel, mm", 1e3 * of.value(name + "_x_m", 0.), x, 1e-12);
+    check.that(name + (at_end ? " is that of the end" : " is a peak on the way"),
+               of.value(name + "_at_end", !at_end) == at_end);
+  }
+
+
+  void check_impacts(tests::Check &check)
+  {
+    // The wheel leaves the rail in the third and the fourth interval, of 2 and 3 ms.
+    const std::vector<int> supports{-3, 8};
+    ImpactRecord           record;
+    record.add(row_of(1e-3, 81e3, {21e3, 11e3}, {17e3, 9e3}), 1e-3, supports);
+    record.add(row_of(2e-3, 151e3, {23e3, 12e3}, {16e3, 29e3}), 1.5e-3, supports);
+    record.add(row_of(3e-3, 0., {22e3, 41e3}, {15e3, 8e3}), 2e-3, supports);
+    record.add(row_of(4e-3, 0., {19e3, 13e3}, {14e3, 7e3}), 3e-3, supports);
+    record.add(row_of(5e-3, 97e3, {18e3, 14e3}, {13e3, 6e3}), 4e-3, supports);
+    const nlohmann::json all = figures(record);
+    check_extreme(check, all, "largest_normal_force", 151., 2., false);
+    check.relative("largest_normal_force_over_static", all["largest_normal_force_over_static"].get<double>(),
+                   151. / 80., 1e-12);
+    check.below("least_normal_force of a wheel that leaves the rail, kN",
+                1e-3 * all["least_normal_force_N"].get<double>(), 0.);
+    check.relative("least_normal_force: where it is reached first, mm",
+                   1e3 * all["least_normal_force_x_m"].get<double>(), 3., 1e-12);
+    check.relative("airborne_s: time in the air, ms", 1e3 * all["airborne_s"].get<double>(), 5., 1e-12);
+    check_extreme(check, all, "largest_pad_force", 41., 3., false);
+    check.absolute("largest_pad_force_support", all["largest_pad_force_support"].get<double>(), 8., 0.);
+    check_extreme(check, all, "largest_ballast_force", 29., 2., false);
+    check.absolute("largest_ballast_force_support", all["largest_ballast_force_support"].get<double>(), 8.,
+                   0.);
+    const std::string lines = record.lines(static_load);
+    check.that("in words: time in the air", lines.find("in the air for 5.000 ms") != std::string::npos);
+    check.that("in words: the support", lines.find("29.00 kN, at support 8,") != std::string::npos);
+    check.that("in words: all are peaks", lines.find("no peak") == std::string::npos);
+
+    // Forces that still grow, or fall, when the run ends.
+    ImpactRecord growing;
+    growing.add(row_of(1e-3, 81e3, {21e3}, {17e3}), 1e-3, {-3});
+    growing.add(row_of(2e-3, 77e3, {19e3}, {18e3}), 1e-3, {-3});
+    const nlohmann::json of = figures(growing);
+    check_extreme(check, of, "largest_normal_force", 81., 1., false);
+    check_extreme(check, of, "least_normal_force", 77., 2., true);
+    check_extreme(check, of, "largest_pad_force", 21., 1., false);
+    check_extreme(check, of, "largest_ballast_force", 18., 2., true);
+    check.absolute("largest_ballast_force_support of one", of["largest_ballast_force_support"].get<double>(),
+                   -3., 0.);
+    check.below("airborne_s: never", of["airborne_s"].get<double>(), 0.);
+    check.that("in words: the end is no peak",
+               growing.lines(static_load).find("the end of the run, no peak") != std::string::npos);
+
+    ImpactRecord without;
+    without.add(row_of(1e-3, 81e3), 1e-3, {});
+    check.that("without supports nothing is said of them", !figures(without).contains("largest_pad_force_N"));
+    check.that("nothing is said where nothing was recorded",
+               figures(ImpactRecord()).empty() && ImpactRecord().lines(static_load).empty());
+
+    // A run that is resumed remembers.
+    Archive stored(MPI_COMM_SELF);
+    record.serialize(stored);
+    Archive      opened(MPI_COMM_SELF, tests::parts_of(stored, MPI_COMM_SELF));
+    ImpactRecord again;
+    again.serialize(opened);
+    check.that("resumed: the same figures", figures(again) == all);
+  }
+
+
+  /// Sines over whole turns about straight lines, of which the fit takes less the more turns there are.
+  void check_ripple(tests::Check &check)
+  {
+    constexpr unsigned int n = 4000, turns = 40;
+    constexpr double       normal = 80e3, along = 0.03, across = 0.04; // N; amplitudes over the normal force
+    const auto             ripple = [&](const double share_x, const double share_y) {
+      ForceRipple record;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double x = 0.3 + 0.01 * i / n, sine = std::sin(2. * dealii::numbers::PI * turns * i / n);
+          record.add(x, normal * Vector3{0.2 + 3. * (x - 0.3) + share_x * sine,
+                                         -0.1 - 2. * (x - 0.3) + share_y * sine, 1., 0.});
+        }
+      return record.share();
+    };
+    check.below("ripple of forces that grow in a straight line", ripple(0., 0.), 1e-6);
+    check.relative("ripple of a sine along the rail", ripple(along, 0.), along, 1e-3);
+    check.relative("ripple of a sine across it", ripple(0., across), across, 1e-3);
+    check.relative("ripple of both", ripple(along, across), 0.05, 1e-3);
+  }
+
+
+  /// A wheel whose normal force falls by more than it rises, and the mean of its patch.
+  void check_wheel(tests::Check &check)
+  {
+    Scene scene;
+    scene.read("", {"Rail/Shape=block"});
+    RollingWheel wheel(scene, 0);
+    for (const double force : {100e3, 70e3, 104e3, 90e3})
+      wheel.add_to_last_force(Vector3{0.1 * force, 0., force, 0.});
+    const double mean = wheel.mean_last_force(4)[2];
+    check.relative("mean force at the end, kN", 1e-3 * mean, 91., 1e-12);
+    check.relative("ripple of a normal force that falls", wheel.ripple(mean), 21. / 91., 1e-12);
+    RollingWheel rising(scene, 0);
+    for (const double force : {90e3, 88e3, 113e3})
+      rising.add_to_last_force(Vector3{0., 0., force, 0.});
+    check.relative("ripple of a normal force that rises", rising.ripple(97e3), 16. / 97., 1e-12);
+
+    // Steps before and after the run is resumed make one mean.
+    ContactNodeState state{};
+    state.normal   = Vector3{0., 0., 1., 0.};
+    state.area     = 1e-6;
+    const auto add = [&](RollingWheel &to, const double pressure) {
+      constexpr double time_step = 1e-7;
+      state.impulse              = Vector3{0., 0., pressure * state.area * time_step, 0.};
+      to.average.add({state}, 0., time_step);
+    };
+    add(wheel, 500e6);
+    Archive stored(MPI_COMM_SELF);
+    wheel.serialize(stored);
+    Archive      opened(MPI_COMM_SELF, tests::parts_of(stored, MPI_COMM_SELF));
+    RollingWheel again(scene, 0);
+    again.serialize(opened);
+    add(again, 900e6);
+    check.absolute("averaged patch, resumed: steps", again.average.n_steps(), 2, 0.);
+    check.relative("averaged patch, resumed: pressure, MPa", 1e-6 * again.average.measures().max_pressure,
+                   700., 1e-12);
+    check.relative("resumed: mean force at the end, kN", 1e-3 * again.mean_last_force(4)[2], 91., 1e-12);
+    check.relative("resumed: its ripple", again.ripple(mean), 21. / 91., 1e-12);
+  }
+
+
+  /// What a call prints.
+  template <typename Call>
+  std::string printed(const Call &call)
+  {
+    const std::string name =
+      (std::filesystem::temp_directory_path() / ("tread-estimate-" + std::to_string(getpid()))).string();
+    std::fflush(stdout);
+    const int   screen = dup(STDOUT_FILENO);
+    std::FILE  *file   = std::fopen(name.c_str(), "w+");
+    std::string text;
+    if (screen < 0 || file == nullptr)
+      return text;
+    dup2(fileno(file), STDOUT_FILENO);
+    call();
+    std::fflush(stdout);
+    dup2(screen, STDOUT_FILENO);
+    close(screen);
+    std::fclose(file);
+    {
+      std::ifstream stream(name);
+      text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    }
+    std::filesystem::remove(name);
+    return text;
+  }
+
+  /// With the scale s of the density a run needs 1/sqrt(s) of the steps. What the start takes is the same: it
+  /// drops out of differences.
+  void check_estimate(tests::Check &check)
+  {
+    Scene scene;
+    scene.read("",
+               {"Rail/Shape=block", "Mesh/Finest cell (mm)=2.5", "Mesh/Fine half width (mm)=10",
+                "Motion/Speed (km per h)=0.1", "Motion/Rolled distance (mm)=10", "Scene/Density scale=4"});
+    Simulation        simulation(scene, MPI_COMM_SELF);
+    const std::string text    = printed([&] { simulation.estimate(); });
+    const auto        seconds = [&](const std::string &scale) {
+      const std::string line = "'Density scale' " + scale + ": s";
+      const std::size_t at   = text.find(line);
+      return at == std::string::npos ? 0. : std::atof(text.c_str() + at + line.size());
+    };
+    const double like_true = seconds("   1"), four = seconds("   4"), much = seconds("  25");
+    std::printf("%s", text.c_str());
+    check.that("estimate: a run with the true density lasts longest", like_true > four && four > much);
+    // Whole seconds are printed: each difference may be off by one.
+    const double whole_seconds = 1. / std::abs(like_true - four) + 1. / std::abs(four - much);
+    check.relative("estimate: saved by a density scale of 4 over that of 25 instead of 4",
+                   (like_true - four) / (four - much), (1. - 1. / 2.) / (1. / 2. - 1. / 5.), whole_seconds);
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  check_impacts(check);
+  check_ripple(check);
+  check_wheel(check);
+  check_estimate(check);
+}
