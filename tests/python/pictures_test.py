@@ -175,7 +175,7 @@ class Comparison(OfRuns):
 
     def test_equal_runs(self):
         a = self.write_run("a", {"wall_s": 1.0, "patches_like": [{"force_N": 2.0}], "reference": {"creepage": {"value": 3.0}}})
-        b = self.write_run("b", {"wall_s": 2.0, "patches_like": [{"force_N": 2.0}], "reference": {"creepage": {"value": 4.0}}})
+        self.write_run("b", {"wall_s": 2.0, "patches_like": [{"force_N": 2.0}], "reference": {"creepage": {"value": 4.0}}})
         rows = self.rows(a, "b")
         self.assertEqual({row["difference"] for row in rows.values()}, {0})
         self.assertIn("patches_like/1/force_N", rows)

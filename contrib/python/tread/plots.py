@@ -23,9 +23,10 @@ BLUE, SKY, ORANGE, GREEN, RED, PURPLE, YELLOW = (
     "#0072B2", "#56B4E9", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#F0E442")
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, "black")  # of lines, one after the other
 ADHESION, SLIP, GREY, GRID = "#A9CBE3", "#F3B77E", "#666666", "#E3E3E3"
-STYLE = {"font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10, "axes.titlelocation": "left", "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "axes.labelsize": 10, "legend.fontsize": 8.5,
-         "axes.grid": True, "axes.axisbelow": True, "grid.color": GRID, "grid.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False,
-         "legend.frameon": False, "lines.linewidth": 1.4, "savefig.dpi": 120, "savefig.bbox": "tight"}
+STYLE = {"font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10, "axes.titlelocation": "left", "axes.labelsize": 10,
+         "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False,
+         "axes.spines.right": False, "grid.color": GRID, "grid.linewidth": 0.7, "legend.frameon": False, "legend.fontsize": 8.5,
+         "lines.linewidth": 1.4, "savefig.dpi": 120, "savefig.bbox": "tight"}
 
 
 def use_style(more: Mapping[str, object] | None = None) -> None:

@@ -40,12 +40,13 @@ def draw_forces(run: Run) -> Figure:
             if name in history:
                 plot_passages(axis, x, x, 1e-3 * history[name], color=colour, ls=style, **single,
                               label=f"{text}\n(at the end {round(1e-3 * history[name][-1], 2) + 0.0:.2f} kN)")
-    span_at_least(axes[0], 1e-3 * history["normal_force_N"], 0.02, 0.1)
     axes[0].set_ylabel("vertical force [kN]" if wheelset else "normal force [kN]")
     axes[1].set_ylabel("force on\nthe wheel [kN]")
-    static = static_load(run)
-    if is_dynamic(run) and static is not None:
+    static = static_load(run) if is_dynamic(run) else None
+    if static is not None:
         axes[0].axhline(static, color="black", ls=":", lw=1.1, label=f"static load {static:.1f} kN")
+    loads = [values for name, values in history.items() if name.endswith("normal_force_N") and not name.startswith("other_")]
+    span_at_least(axes[0], np.append([] if static is None else static, 1e-3 * np.concatenate(loads)), 0.02, 0.1)
     for axis, name, factor, text, colour in ((axes[2], "traction_coefficient", 1.0, "traction\ncoefficient [-]", PURPLE),
                                              (axes[3], "creepage", 100.0, "creepage [%]", ORANGE)):
         axis.set_ylabel(text)

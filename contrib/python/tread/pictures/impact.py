@@ -317,7 +317,7 @@ def zimmermann(run: Impact) -> list[tuple[float, dict[int, tuple[float, float]]]
     run = run.twin or run
     p = run.parameters
     names = ["Track/Sleeper spacing (m)", "Track/Support 0 (mm)", "Track/Pad stiffness (MN per m)", "Rail/Young's modulus (GPa)"]
-    if (not run.supports("pad") or p.get("Track/Foundation") == "rigid" or any(name not in p for name in names)
+    if (not run.supports("pad") or "wheel_2_normal_force_N" in run.history or p.get("Track/Foundation") == "rigid" or any(name not in p for name in names)
             or p.get("Rail/Profile") not in SECOND_MOMENT):
         return None
     spacing, origin, pad, young = (float(p[name]) for name in names)
@@ -339,6 +339,8 @@ def zimmermann(run: Impact) -> list[tuple[float, dict[int, tuple[float, float]]]
 
 
 def draw_zimmermann(run: Impact) -> Figure | None:
+    if run.twin is None and extents_of_defects(run.parameters):
+        return None
     instants = zimmermann(run)
     if instants is None:
         return None
@@ -360,7 +362,7 @@ def zimmermann_table(run: Impact) -> str:
     """What draw_zimmermann() draws, as a table in Markdown. @raises DataError"""
     instants = zimmermann(run)
     if instants is None:
-        raise DataError(f"{run.folder}: no supports of a known rail in history.csv and parameters.prm")
+        raise DataError(f"{run.folder}: no supports of a known rail under a single wheel in history.csv and parameters.prm")
     lines = ["| wheel at | support | share of the contact force | Zimmermann | difference |", "|---|---|---|---|---|"]
     for at, shares in instants:
         for n, (own, theory) in shares.items():
