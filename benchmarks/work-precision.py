@@ -14,7 +14,7 @@ import os
 
 from tread.commands import command_parser, run_command
 from tread.measured_runs import available_ranks, contact_measures, in_turn, run_scene, steps_seconds
-from tread.plots import BLUE, GREEN, GRID, ORANGE, PURPLE, RED, SKY, YELLOW, plt, save
+from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, YELLOW, save, subplots, use_style
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
 
@@ -84,7 +84,8 @@ def table(found):
 
 
 def draw(found, file):
-    figure, axes = plt.subplots(1, len(DRAWN), figsize=(4.4 * len(DRAWN), 4.6), sharex=True)
+    use_style()
+    figure, axes = subplots(1, len(DRAWN), figsize=(4.4 * len(DRAWN), 4.6), sharex=True)
     for axis, (key, label, factor, unit) in zip(axes, DRAWN):
         for name, (_, colour, marker) in SETTINGS.items():
             points = [(summary["seconds"], abs(factor * measures[key]), size)
@@ -100,12 +101,10 @@ def draw(found, file):
         for numbers in (axis.xaxis, axis.yaxis):
             numbers.set_major_formatter("{x:g}")
             numbers.set_minor_formatter(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "235" else "")
-        axis.grid(True, which="both", color=GRID, lw=0.6)
-        axis.spines[["top", "right"]].set_visible(False)
-    axes[0].set_title("difference from CONTACT; to the left and down is better", fontsize=9, loc="left")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, frameon=False, fontsize=9)
-    figure.tight_layout(rect=(0, 0.12, 1, 1))
-    save(figure, file, dpi=130)
+        axis.grid(True, which="both")
+    axes[0].set_title("difference from CONTACT; to the left and down is better")
+    axes[len(axes) // 2].legend(*axes[0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4)
+    save(figure, file)
 
 
 def main():

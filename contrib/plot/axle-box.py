@@ -15,6 +15,7 @@ import json
 import os
 
 import numpy as np
+from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch as Swatch
 from matplotlib.patheffects import Normal, Stroke
@@ -22,7 +23,7 @@ from matplotlib.patheffects import Normal, Stroke
 from tread.commands import command_parser, run_command
 from tread.defects import extent_of_defect
 from tread.files import DataError, Error
-from tread.plots import BLUE, GREEN, ORANGE, RED, plt, save, use_style
+from tread.plots import BLUE, GREEN, ORANGE, RED, save, subplots, use_style
 from tread.runs import Run
 from tread.wavelets import NOISE_95, Scalogram, band_pass, evenly_spaced
 
@@ -155,9 +156,8 @@ def label_maxima(figure, axis, dominant):
 
 
 def draw(box, figures):
-    use_style({"legend.fontsize": 8, "lines.linewidth": 1.2})
-    figure, axes = plt.subplots(2, 2, figsize=(11, 7), sharex="col", sharey="row", width_ratios=(4, 1), height_ratios=(1, 1.6),
-                                constrained_layout=True)
+    use_style()
+    figure, axes = subplots(2, 2, figsize=(12, 7), sharex="col", sharey="row", width_ratios=(4, 1.2), height_ratios=(1, 1.6))
     above, map_axis, beside = axes[0, 0], axes[1, 0], axes[1, 1]
     axes[0, 1].axis("off")
     beside.xaxis.set_tick_params(labelbottom=True)
@@ -165,13 +165,13 @@ def draw(box, figures):
     if box.twin_run is not None:
         above.plot(box.x, box.twin, color=ORANGE, label="smooth twin")
     above.plot(box.x, box.own, color=BLUE, label="with the defect" if box.defect else "axle box")
-    above.set(ylabel="acceleration [m/s2]", title=f"axle box at {3.6 * box.speed:.0f} km/h, {box.band[0]:g} to {box.band[1]:g} Hz")
+    above.set(ylabel="acceleration [m/s$^2$], + up", title=f"axle box at {3.6 * box.speed:.0f} km/h, {box.band[0]:g} to {box.band[1]:g} Hz")
 
     # Half octaves of power: what stands out and what is still there.
     top = float(np.max(scalogram.power, initial=4))
     levels = 2.0 ** np.arange(-2, np.log2(top) + 0.5, 0.5)
     filled = map_axis.contourf(box.x, scalogram.frequency, scalogram.power, levels=levels, cmap="viridis", extend="both",
-                               norm=plt.matplotlib.colors.LogNorm(levels[0], levels[-1]))
+                               norm=LogNorm(levels[0], levels[-1]))
     map_axis.contour(box.x, scalogram.frequency, scalogram.power, levels=[NOISE_95], colors="white", linewidths=0.9)
     cone = np.clip(scalogram.edge, scalogram.frequency[0], scalogram.frequency[-1])
     map_axis.fill_between(box.x, scalogram.frequency[0], cone, facecolor="#FFFFFF80", edgecolor="white", hatch="//", lw=0)
@@ -227,7 +227,7 @@ def main():
     box = AxleBox(Run(arguments.run), arguments.smooth_twin and Run(arguments.smooth_twin), arguments.band, arguments.begin, arguments.end)
     picture = arguments.output or box.run.path("axle-box.png")
     figures = box.figures()
-    save(draw(box, figures), picture, dpi=110)
+    save(draw(box, figures), picture)
     with open(os.path.splitext(picture)[0] + ".json", "w", encoding="utf-8") as stream:
         json.dump(figures, stream, indent=2)
     print(text_of(figures))

@@ -10,7 +10,7 @@ import os
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, plt, save, use_style
+from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, save, subplots, use_style
 from tread.runs import ROOT
 
 # A wheel with its flange from the back of it outwards, mm: points of S1002, z up from the running circle.
@@ -97,10 +97,10 @@ def main():
     rail = np.loadtxt(os.path.join(ROOT, "prm", "curves", "profiles", "uic60-manchester.txt"))[::6] * (1, -1)
     use_style({"axes.grid": False, "axes.spines.left": False, "axes.spines.bottom": False, "xtick.bottom": False, "ytick.left": False,
                "xtick.labelbottom": False, "ytick.labelleft": False})
-    figure, axes = plt.subplots(1, 2, figsize=(13, 4.4), gridspec_kw={"width_ratios": (2.3, 1)}, constrained_layout=True)
+    figure, axes = subplots(1, 2, figsize=(13, 4.4), width_ratios=(2.3, 1))
     from_behind(axes[0], rail)
     from_above(axes[1])
-    save(figure, arguments.picture, dpi=110)
+    save(figure, arguments.picture)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import numpy as np
 
 from tread.commands import command_parser, run_command
 from tread.files import read_table
-from tread.plots import BLUE, GREEN, RED, plt, save, use_style
+from tread.plots import BLUE, GREEN, RED, legend_beside, save, subplots, use_style
 from tread.runs import ROOT, run
 
 SCENE = "curves/klingel.prm"
@@ -68,26 +68,26 @@ def write_profiles():
 
 
 def draw(history, wave, picture):
-    use_style({"legend.fontsize": 9})
+    use_style()
     x = history["position_m"] - history["position_m"][0]
-    figure, axes = plt.subplots(1, 2, figsize=(10, 3.8), constrained_layout=True)
-    axes[0].plot(x, 1e3 * history["lateral_shift_m"], color=BLUE, label="lateral shift, mm")
+    figure, axes = subplots(1, 2, figsize=(14, 3.8))
+    axes[0].plot(x, 1e3 * history["lateral_shift_m"], color=BLUE, label="lateral shift [mm]")
     start = history["lateral_shift_m"][0]
     for name, style in (("with roll", "--"), ("cones", ":")):
         length = wavelengths()[name]
         axes[0].plot(x, 1e3 * start * np.cos(2. * np.pi * x / length), color="black", linestyle=style,
                      label=f"no slip, {name}: {length:.2f} m")
-    axes[0].plot(x, 1e3 * history["yaw_rad"], color=RED, label="yaw, mrad")
-    axes[0].set(xlabel="rolled distance, m", title=f"wavelength {wave:.3f} m")
-    axes[0].legend()
+    axes[0].plot(x, 1e3 * history["yaw_rad"], color=RED, label="yaw [mrad]")
+    axes[0].set(xlabel="rolled distance [m]", title=f"wavelength {wave:.3f} m")
+    legend_beside(axes[0])
     own = history["normal_force_N"] - history["other_normal_force_N"]
     axes[1].plot(x, 1e-3 * own, color=BLUE, label="own wheel, vertical")
     axes[1].plot(x, 1e-3 * history["other_normal_force_N"], color=RED, label="other wheel, vertical")
     axes[1].plot(x, 1e-3 * history["longitudinal_force_N"], color=GREEN, label="longitudinal, both")
     axes[1].plot(x, 1e-3 * history["lateral_force_N"], color="black", label="lateral, both")
-    axes[1].set(xlabel="rolled distance, m", ylabel="force on the wheel, kN")
-    axes[1].legend()
-    save(figure, picture, dpi=110)
+    axes[1].set(xlabel="rolled distance [m]", ylabel="force on the wheel [kN]")
+    legend_beside(axes[1])
+    save(figure, picture)
 
 
 def main():

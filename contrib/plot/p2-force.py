@@ -298,17 +298,17 @@ def main():
               f"{1e-3 * model_values[model_place > x[0]].min():.1f}, {1e-3 * model_values.max():.1f} | "
               f"at most {1e-3 * abs(off).max():.2f}, RMS {1e-3 * np.sqrt(np.mean(off**2)):.2f} kN | | |")
     if arguments.picture:
-        from tread.plots import BLUE, GRID, RED, plt, save
+        from tread.plots import BLUE, RED, legend_beside, save, subplots, use_style
 
-        figure, axis = plt.subplots(figsize=(8, 3.6))
+        use_style()
+        figure, axis = subplots(figsize=(10, 3.8))
         axis.plot(1e3 * (x - wheel.joint), 1e-3 * force, color=BLUE, label="cells")
         shown = beam_x > x[0]
         axis.plot(1e3 * (beam_x[shown] - wheel.joint), 1e-3 * beam_force[shown], "--", color=RED, label="lumped model")
         axis.axhline(1e-3 * formula, color="grey", linewidth=0.8, label="Jenkins' formula")
-        axis.set(xlabel="wheel behind the joint, mm", ylabel="normal force, kN")
-        axis.grid(True, color=GRID)
-        axis.legend(frameon=False)
-        save(figure, arguments.picture, dpi=120, bbox_inches="tight")
+        axis.set(xlabel="wheel behind the joint [mm]", ylabel="normal force [kN]")
+        legend_beside(axis)
+        save(figure, arguments.picture)
 
 
 if __name__ == "__main__":

@@ -7,12 +7,9 @@
 Each file has columns x and z in mm; lines that start with # are passed over.
 """
 
-import os
-
-import numpy as np
-
 from tread.commands import command_parser, run_command
-from tread.plots import plt, save
+from tread.pictures.mesh import draw_defects
+from tread.plots import save, use_style
 
 
 def main():
@@ -20,16 +17,8 @@ def main():
     parser.add_argument("files", nargs="+")
     parser.add_argument("--output", default="defects.png")
     arguments = parser.parse_args()
-    figure, axis = plt.subplots(figsize=(7, 3))
-    for path in arguments.files:
-        x, z = np.loadtxt(path, unpack=True)
-        axis.plot(x, z, label=os.path.splitext(os.path.basename(path))[0])
-    axis.set_xlabel("x from the leading edge, mm")
-    axis.set_ylabel("z, mm")
-    axis.grid(linewidth=0.3)
-    axis.legend()
-    figure.tight_layout()
-    save(figure, arguments.output, dpi=110)
+    use_style()
+    save(draw_defects(arguments.files), arguments.output)
 
 
 if __name__ == "__main__":

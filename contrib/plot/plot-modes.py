@@ -15,7 +15,7 @@ import numpy as np
 
 from tread.commands import command_parser, run_command
 from tread.files import DataError, read_table
-from tread.plots import BLUE, GREEN, RED, plt, save, use_style
+from tread.plots import BLUE, GREEN, RED, save, subplots, use_style
 
 
 def mark(text):
@@ -54,14 +54,14 @@ def main():
         return
     table = read_table(os.path.join(arguments.folder, "receptance.csv"), ("frequency_Hz",))
     frequency = np.array(table["frequency_Hz"])
-    use_style({"legend.fontsize": 9})
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
+    use_style()
+    figure, axes = subplots(1, 2, figsize=(11, 4.2))
     for name, colour in (("rail", BLUE), ("wheel", RED)):
         axes[0].semilogy(frequency, 1e9 * np.array(table[f"{name}_magnitude_m_per_N"]), color=colour, label=name)
-    axes[0].set(xlabel="frequency, Hz", ylabel="receptance, nm/N", ylim=(0.02, 100))
+    axes[0].set(xlabel="frequency [Hz]", ylabel="receptance [nm/N]", ylim=(0.02, 100))
     axes[0].legend(loc="upper center")
     axes[1].plot(frequency, 1e-6 * np.array(table["contact_force_N_per_m"]), color=GREEN)
-    axes[1].set(xlabel="frequency, Hz", ylabel="contact force over roughness, N/um", ylim=(0, None))
+    axes[1].set(xlabel="frequency [Hz]", ylabel="contact force over roughness [N/µm]", ylim=(0, None))
     marks = sorted(arguments.mark)
     for i, (at, name) in enumerate(marks):
         # Above its line, away from a neighbour.
@@ -71,7 +71,7 @@ def main():
             axis.axvline(at, color="0.4", linestyle=":", linewidth=1)
             axis.annotate(name, (at, 1), xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points", rotation=90,
                           ha="left" if before else "right" if behind else "center", va="bottom", fontsize=8, color="0.3")
-    save(figure, arguments.picture, dpi=110, bbox_inches="tight")
+    save(figure, arguments.picture)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import re
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.plots import BLUE, GREEN, RED, SKY, plt, save, use_style
+from tread.plots import BLUE, GREEN, RED, SKY, save, subplots, use_style
 from tread.files import DataError, read_table
 
 PLACES = {"sleeper": "over a sleeper", "mid_span": "at mid-span"}
@@ -54,8 +54,8 @@ def main():
         print(f"| {PLACES[place]} | {FORCES[force]} | {MODELS[model]} | {row} |")
     if not arguments.picture:
         return
-    use_style({"axes.titlesize": "large", "legend.fontsize": 8})
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    use_style()
+    figure, axes = subplots(1, 2, figsize=(11, 4.5), sharey=True)
     for axis, place in zip(axes, PLACES):
         for model, style in STYLES.items():
             if (place, "section", model) in columns:
@@ -65,7 +65,7 @@ def main():
         axis.set(title=PLACES[place], xlabel="frequency [Hz]", xlim=(100, frequency[-1]))
         axis.legend(loc="lower left")
     axes[0].set_ylabel("receptance [nm/N]")
-    save(figure, arguments.picture, dpi=110, bbox_inches="tight")
+    save(figure, arguments.picture)
 
 
 if __name__ == "__main__":

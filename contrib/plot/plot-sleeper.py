@@ -14,7 +14,7 @@ import numpy as np
 
 from tread.commands import command_parser, run_command
 from tread.files import DataError
-from tread.plots import plt, save, use_style
+from tread.plots import save, subplots, use_style
 
 
 def section(path):
@@ -46,22 +46,22 @@ def main():
     parser.add_argument("--names", nargs="*", default=[], help="of the folders, for the headings")
     parser.add_argument("--output", default="sleeper.png")
     arguments = parser.parse_args()
-    use_style({})
+    use_style()
     sections = [section(os.path.join(folder, "sleeper_stress.vtu")) for folder in arguments.folders]
     top = max(values.max() for *_, values in sections)
-    figure, axes = plt.subplots(len(sections), 1, figsize=(9, 1.8 * len(sections)), squeeze=False, sharex=True, layout="constrained")
+    figure, axes = subplots(len(sections), 1, figsize=(9, 1.8 * len(sections)), squeeze=False, sharex=True)
     for i, (folder, (y, z, cells, values)) in enumerate(zip(arguments.folders, sections)):
         with open(os.path.join(folder, "sleeper_stress.json"), encoding="utf-8") as stream:
             answer = json.load(stream)
         axis = axes[i, 0]
         drawn = axis.tricontourf(y, z, cells, values, levels=np.linspace(0., 1.001 * top, 21), cmap="turbo")
-        axis.set(aspect="equal", ylabel="z, mm")
+        axis.set(aspect="equal", ylabel="z [mm]")
         name = arguments.names[i] + ": " if i < len(arguments.names) else ""
         axis.set_title(f"{name}{1e-3 * answer['seat_force_N']:.1f} kN on the rail seat, von Mises up to "
-                       f"{1e-6 * answer['max_von_mises_Pa']:.2f} MPa, bottom {answer['bottom']}", fontsize=10)
-    axes[-1, 0].set_xlabel("along the sleeper, outwards from the middle of the rail seat, mm")
-    figure.colorbar(drawn, ax=axes[:, 0].tolist(), label="von Mises stress, MPa", ticks=np.arange(0., top + 1e-9, 1. if top < 12. else 5.))
-    save(figure, arguments.output, dpi=110)
+                       f"{1e-6 * answer['max_von_mises_Pa']:.2f} MPa, bottom {answer['bottom']}")
+    axes[-1, 0].set_xlabel("along the sleeper, outwards from the middle of the rail seat [mm]")
+    figure.colorbar(drawn, ax=axes[:, 0].tolist(), label="von Mises stress [MPa]", ticks=np.arange(0., top + 1e-9, 1. if top < 12. else 5.))
+    save(figure, arguments.output)
 
 
 if __name__ == "__main__":

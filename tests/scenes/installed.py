@@ -58,6 +58,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("Python: installed scene and library", words[:1] == ["reference"] and words[1].startswith(prefix) and words[2] == "True")
     said("tread-study", f"{shared}/prm/studies/friction.study", "--dry-run")
     said("tread-check-scene", f"{shared}/prm/smooth-rolling.prm")
+    said("tread-compare-runs", "included", "included")
     said("tread-contact-inp", f"{shared}/contrib/contact-data/thesis.inp", "--output", "thesis")
     said(f"{shared}/contrib/plot/plot-run.py", "--help")
 

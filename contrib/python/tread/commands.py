@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What commands have in common. Import it first: it says in one line that a Python without numpy will not do."""
 
+from __future__ import annotations
+
 import argparse
 import importlib.util
 import os
 import sys
+from collections.abc import Callable
 
 from .files import Error
 
@@ -14,11 +17,22 @@ if importlib.util.find_spec("numpy") is None:
     sys.exit(f"{NAME}: {sys.executable} has no numpy; /usr/bin/python3 has it (contrib/install-debian.sh)")
 
 
-def command_parser(description):
+def one_line(kind, error, trace) -> None:
+    """What goes wrong before run_command(), such as at the import of pictures without matplotlib."""
+    if issubclass(kind, Error):
+        print(f"{NAME}: {error}", file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = one_line
+
+
+def command_parser(description: str) -> argparse.ArgumentParser:
     return argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
-def run_command(main):
+def run_command(main: Callable[[], int | None]) -> None:
     """End with the exit code that main() returns, none being 0, or with what went wrong on one line."""
     try:
         sys.exit(main())

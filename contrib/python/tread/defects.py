@@ -1,24 +1,30 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the defect of a run lies on the rail."""
+"""Where the defects of a run lie on the rail."""
+
+from __future__ import annotations
 
 import glob
 import os
+from collections.abc import Mapping
 
 from .runs import ROOT
 
 
-def profile_length(name):
-    """Length of a profile's file in mm, looked for here and beside the shipped scenes; None if it is not found."""
-    places = [name, *glob.glob(os.path.join(ROOT, "prm", "*", name))]
-    for path in places:
+def profile_length(name: str) -> float | None:
+    """Length of a profile's or a map's file in mm, looked for here and beside the shipped scenes; None if it is not found or not understood."""
+    for path in [name, *glob.glob(os.path.join(ROOT, "prm", "*", name))]:
         if os.path.isfile(path):
             with open(path, encoding="utf-8") as stream:
-                x = [float(line.split()[0]) for line in stream if line.strip() and not line.startswith("#")]
-            return max(x) - min(x)
+                lines = [line.replace(",", " ").split() for line in stream if line.strip() and not line.startswith("#")]
+            try:
+                x = [float(words[0]) for words in lines if words[0] != "x_mm"]  # the first row of a map has names
+            except ValueError:
+                return None
+            return max(x) - min(x) if x else None
     return None
 
 
-def extent_of_defect(parameters):
+def extent_of_defect(parameters: Mapping[str, str]) -> tuple[float, float | None] | None:
     """(leading edge, trailing edge) in mm by a run's parameters; the second is None if its profile is not at hand. None without
     a defect."""
     if parameters.get("Defect/Shape", "none") == "none":
@@ -27,3 +33,12 @@ def extent_of_defect(parameters):
     if length <= 0:
         length = profile_length(parameters.get("Defect/Profile file", ""))
     return begin, None if length is None else begin + length
+
+
+def extents_of_defects(parameters: Mapping[str, str]) -> list[tuple[float, float | None]]:
+    """Those of extent_of_defect(), of the defect and of its repetitions."""
+    first = extent_of_defect(parameters)
+    if first is None:
+        return []
+    begins = [first[0], *(float(word) for word in parameters.get("Defect/Repeated at (mm)", "").split(",") if word.strip())]
+    return [(begin, None if first[1] is None else begin + first[1] - first[0]) for begin in begins]

@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Contact patches: patch.csv of a run, and surface files of CONTACT."""
 
+from __future__ import annotations
+
+from typing import NamedTuple
+
 import numpy as np
 
 from .files import DataError, read_table
 
 
 class Patch:
-    """Tractions and slip of the nodes (or elements) of a contact patch. mm, MPa, m/s.
+    """Tractions and slip of the nodes (or elements) of a contact patch, each a (nodes in contact,) array in the units of `units`.
 
     Shear is that on the wheel, slip that of the wheel's surface relative to the rail's.
     """
 
+    units = {"x": "mm", "y": "mm", "pressure": "MPa", "shear_x": "MPa", "shear_y": "MPa", "slip_x": "m/s", "slip_y": "m/s", "area": "mm2",
+             "shear": "MPa", "slip": "m/s"}
     fields = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y")
 
-    def __init__(self, path, table, names):
+    def __init__(self, path: str, table: dict[str, np.ndarray], names: tuple[str, ...]):
         self.path = path
         self.x, self.y = table["x_mm"], table["y_mm"]
         for field, name in zip(self.fields, names):
@@ -36,28 +42,28 @@ class Patch:
         self.area = np.full(len(self.x), self.size_x * self.size_y) if area is None else area[inside]
 
     @property
-    def shear(self):
+    def shear(self) -> np.ndarray:
         return np.hypot(self.shear_x, self.shear_y)
 
     @property
-    def slip(self):
+    def slip(self) -> np.ndarray:
         return np.hypot(self.slip_x, self.slip_y)
 
     @property
-    def adhesion_share(self):
+    def adhesion_share(self) -> float:
         return self.area[self.adhesion].sum() / self.area.sum()
 
-    def centroid(self):
+    def centroid(self) -> tuple[float, float]:
         """Centre of pressure."""
         weight = self.pressure * self.area
         return (weight * self.x).sum() / weight.sum(), (weight * self.y).sum() / weight.sum()
 
-    def friction_coefficient(self):
+    def friction_coefficient(self) -> float | None:
         """What the slipping nodes that carry load say; None without any."""
         loaded = ~self.adhesion & (self.pressure > 0.2 * self.pressure.max())
         return float(np.median(self.shear[loaded] / self.pressure[loaded])) if loaded.any() else None
 
-    def grid(self, values):
+    def grid(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(x lines, y lines, values[y, x]) on the grid of the nodes, with one empty line around."""
         columns, x0, n_x = grid_index(self.x, self.size_x)
         rows, y0, n_y = grid_index(self.y, self.size_y)
@@ -65,7 +71,7 @@ class Patch:
         result[rows, columns] = values
         return x0 + self.size_x * np.arange(n_x), y0 + self.size_y * np.arange(n_y), result
 
-    def sampled(self, values, x, y):
+    def sampled(self, values: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Bilinear interpolation between the nodes at the points (x, y); zero outside the patch."""
         gx, gy, grid = self.grid(values)
         grid = np.nan_to_num(grid)
@@ -78,7 +84,15 @@ class Patch:
         return np.where(outside, 0.0, value)
 
 
-def spacing(values):
+class Instant(NamedTuple):
+    """A patch on the way; its x counts along the rail."""
+
+    time_s: float
+    position_mm: float  # of the wheel
+    patch: Patch
+
+
+def spacing(values: np.ndarray) -> float:
     """The distance of the grid lines to which the coordinates belong."""
     points = np.unique(np.round(values, 6))
     gaps = np.diff(points)
@@ -90,21 +104,20 @@ def spacing(values):
     return float(extent / max(1, round(extent / np.median(np.diff(lines)))))
 
 
-def grid_index(values, size):
+def grid_index(values: np.ndarray, size: float) -> tuple[np.ndarray, float, int]:
     index = np.round((values - values.min()) / size).astype(int)
     offset = float(np.mean(values - size * index))
     return index + 1, offset - size, index.max() + 3
 
 
-def read_patch(path):
+def read_patch(path: str) -> Patch:
     """patch.csv of a run, or a file with the same columns."""
     names = ("pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s")
     return Patch(path, read_table(path, ("x_mm", "y_mm", "state") + names), names)
 
 
-def read_patches(path):
-    """patches.csv of a run: [(time in s, position of the wheel in mm, Patch)], x of the patches along the rail. Instants without
-    contact have none. @raises DataError"""
+def read_patches(path: str) -> list[Instant]:
+    """patches.csv of a run; instants without contact are left out. @raises DataError"""
     names = ("pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s")
     table = read_table(path, ("time_s", "position_mm", "x_mm", "y_mm", "state") + names)
     if not len(table["time_s"]):
@@ -112,11 +125,11 @@ def read_patches(path):
     table["x_mm"] = table["x_mm"] + table["position_mm"]
     _, first = np.unique(table["time_s"], return_index=True)
     bounds = [*sorted(first), len(table["time_s"])]
-    return [(table["time_s"][begin], table["position_mm"][begin], Patch(path, {name: values[begin:end] for name, values in table.items()}, names))
+    return [Instant(table["time_s"][begin], table["position_mm"][begin], Patch(path, {name: values[begin:end] for name, values in table.items()}, names))
             for begin, end in zip(bounds, bounds[1:])]
 
 
-def read_contact(path):
+def read_contact(path: str) -> Patch:
     """A surface file of CONTACT: elements that are not listed carry no traction."""
     names = ("pn_MPa", "px_MPa", "py_MPa", "sx_m_s", "sy_m_s")
     return Patch(path, read_table(path, ("x_mm", "y_mm", "pn_MPa", "px_MPa", "sx_m_s", "state")), names)

@@ -5,17 +5,29 @@
 
     run = tread.run("prm/smooth-rolling.prm", {"Mesh/Finest cell (mm)": 1.3}, ranks=2, output="results/coarse")
     run.summary["normal_force_N"], run.history["position_m"], run.patch.pressure
+    run.frame()                                           # history.csv as a data frame
+    [(instant.position_mm, instant.patch.pressure.max()) for instant in run.patches]
+    run.pictures()
 
 numpy is imported where columns are read: without it programs can be started, and commands say in one line that it is missing.
 """
+
+from __future__ import annotations
 
 import functools
 import os
 import shutil
 import signal
 import subprocess
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from .files import Error, frame_or_rows, parameters_in, read_parameters, read_summary, read_table
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from .patches import Instant, Patch
 
 # This file is contrib/python/tread/runs.py, to which folders of commands have links; in an installed package its place says nothing.
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.realpath(__file__)), *3 * [os.pardir]))
@@ -30,18 +42,18 @@ class ProgramError(Error):
     """The program ended with an exit code that is not 0: 1 for wrong input, 2 for a failure, 130 when interrupted. The message
     is the line the program itself says why in."""
 
-    def __init__(self, message, exit_code):
+    def __init__(self, message: str, exit_code: int):
         super().__init__(message)
         self.exit_code = exit_code
 
 
-def own_line(text):
+def own_line(text: str) -> str | None:
     """The last line in which the program says what went wrong, without its name; None if there is none."""
     said = [line.strip() for line in text.splitlines() if line.startswith("tread: ")]
     return said[-1][len("tread: "):] if said else None
 
 
-def environment(**more):
+def environment(**more: str) -> dict[str, str]:
     """The variables of this process with those that runs need, as contrib/environment.sh sets and explains them, and more."""
     settings = {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
                 "OMPI_MCA_pml": "ob1"}
@@ -50,25 +62,25 @@ def environment(**more):
     return {**os.environ, **settings, **more}
 
 
-def command(arguments, ranks=1, program=PROGRAM):
+def command(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM) -> list[str]:
     """The program on so many ranks; one rank needs no mpirun."""
     launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
     return [*launch, program, *arguments]
 
 
-def scene_path(scene):
+def scene_path(scene: str | os.PathLike) -> str:
     """A path from the current folder, or else from prm/ of the source tree or of the installed program."""
     scene = os.fspath(scene)
     shipped = os.path.join(ROOT, "prm", scene)
     return shipped if not os.path.exists(scene) and os.path.exists(shipped) else scene
 
 
-def text_of(value):
+def text_of(value: object) -> str:
     """A value as parameter files have it."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def arguments_of(scene, settings=(), output=None):
+def arguments_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequence[str] = (), output: str | None = None) -> list[str]:
     """What follows the program's name. @param scene a path from the current folder, or from prm/ of the source tree
     @param settings {"Section/Name": value}, or a list of "Section/Name=value" """
     if hasattr(settings, "items"):
@@ -79,12 +91,12 @@ def arguments_of(scene, settings=(), output=None):
     return arguments + (["--output", output] if output else [])
 
 
-def execute(arguments, ranks=1, program=PROGRAM, **options):
+def execute(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM, **options) -> subprocess.CompletedProcess:
     """The ended process (subprocess.CompletedProcess), whatever its exit code, with what it wrote as text."""
     return subprocess.run(command(arguments, ranks, program), **{"env": environment(), "capture_output": True, "text": True, **options})
 
 
-def must_end_well(result):
+def must_end_well(result: subprocess.CompletedProcess) -> subprocess.CompletedProcess:
     """@raises ProgramError unless the exit code of an ended process is 0"""
     if result.returncode:
         last = result.stderr.strip().splitlines()[-1:] or ["it said nothing"]
@@ -93,7 +105,8 @@ def must_end_well(result):
     return result
 
 
-def run(scene, settings=None, *, ranks=1, output=None, options=(), program=PROGRAM, show=False):
+def run(scene: str | os.PathLike, settings: Mapping[str, object] | None = None, *, ranks: int = 1, output: str | os.PathLike | None = None,
+        options: Sequence[str] = (), program: str = PROGRAM, show: bool = False) -> Run:
     """Roll a scene to its end.
 
     scene     path of a parameter file, from the current folder or from prm/ of the source tree
@@ -125,14 +138,14 @@ def run(scene, settings=None, *, ranks=1, output=None, options=(), program=PROGR
     return Run(output)
 
 
-def version_of(program=PROGRAM):
+def version_of(program: str = PROGRAM) -> str | None:
     """As summary.json has it; None of a program that does not tell."""
     asked = execute(["--version"], program=program)
     name, _, version = asked.stdout.strip().partition(" ")
     return version if asked.returncode == 0 and name == "tread" else None
 
 
-def dynamic_force(folder, twin, program=PROGRAM):
+def dynamic_force(folder: str, twin: str, program: str = PROGRAM) -> None:
     """Write dynamic.csv, spectrum.csv and dynamic.json: what a defect adds to the forces of the run in a folder, beside its
     smooth twin in another."""
     must_end_well(execute(["--dynamic-force", folder, "--smooth-twin", twin], program=program))
@@ -141,54 +154,72 @@ def dynamic_force(folder, twin, program=PROGRAM):
 class Run:
     """What a run left in its folder. Files are read when they are asked for, once. @raises DataError"""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | os.PathLike):
         self.folder = os.fspath(folder)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"{type(self).__name__}({self.folder!r})"
 
-    def path(self, name):
+    def path(self, name: str) -> str:
         return os.path.join(self.folder, name)
 
-    def has(self, name):
+    def has(self, name: str) -> bool:
         return os.path.exists(self.path(name))
 
-    def table(self, name, required=(), text=("state",)):
+    def table(self, name: str, required: Sequence[str] = (), text: Sequence[str] = ("state",)) -> dict[str, np.ndarray]:
         """{column: (rows,) array} of a CSV file in the folder; names of columns state their units."""
         return read_table(self.path(name), required, text)
 
-    def frame(self, name="history.csv"):
+    def frame(self, name: str = "history.csv"):
         """A table of the folder as a pandas DataFrame with the columns of table(), or where pandas is not installed as a list of
         dicts, one for each row."""
         table = self.table(name)
         return frame_or_rows([dict(zip(table, row)) for row in zip(*(column.tolist() for column in table.values()))], list(table))
 
     @functools.cached_property
-    def summary(self):
+    def summary(self) -> dict:
         """The figures of summary.json: SI, units in their names."""
         return read_summary(self.folder)
 
     @functools.cached_property
-    def history(self):
+    def history(self) -> dict[str, np.ndarray]:
         """{column: (rows,) array} of history.csv: SI, such as time_s, position_m, normal_force_N; a row is the mean over the
         interval that ends with it."""
         return self.table("history.csv")
 
     @functools.cached_property
-    def patch(self):
+    def patch(self) -> Patch:
         """The contact patch at the end, a patches.Patch: x, y (mm), pressure, shear_x, shear_y (MPa), slip_x, slip_y (m/s),
-        area (mm2), adhesion (bool), each a (nodes in contact,) array."""
+        area (mm2), adhesion (bool), each a (nodes in contact,) array. x counts from the wheel."""
         from .patches import read_patch  # which needs numpy
 
         return read_patch(self.path("patch.csv"))
 
     @functools.cached_property
-    def parameters(self):
+    def patches(self) -> list[Instant]:
+        """The contact patch on the way, of a scene with 'Output/Surface interval (mm)': for each instant of patches.csv (time_s,
+        position_mm of the wheel, patch), x of the patch along the rail."""
+        from .patches import read_patches
+
+        return read_patches(self.path("patches.csv"))
+
+    @functools.cached_property
+    def parameters(self) -> dict[str, str]:
         """{"Section/Name": text} of parameters.prm; empty if there is none."""
         return read_parameters(self.path("parameters.prm"))
 
+    def pictures(self, folder: str | os.PathLike | None = None, contact: str | None = None) -> list[str]:
+        """Draw all pictures for which the run has the data. @returns their paths @raises Error without matplotlib
 
-def parameters_of(scene, settings=(), program=PROGRAM):
+        folder   of the pictures; by default pictures/ in the run's folder
+        contact  surface file of CONTACT to draw beside the patch
+        """
+        from .pictures import all_figures, save_all
+
+        return save_all(all_figures(self, contact), os.fspath(folder) if folder else self.path("pictures"))
+
+
+def parameters_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequence[str] = (), program: str = PROGRAM) -> dict[str, str]:
     """{"Section/Name": text} of all parameters of a scene, as the program understands it."""
     asked = must_end_well(execute([*arguments_of(scene, settings), "--print-parameters"], program=program))
     return parameters_in(asked.stdout.splitlines())

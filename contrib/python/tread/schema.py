@@ -235,3 +235,27 @@ def nearest(name: str, known: dict[str, dict]) -> str | None:
     own = name.split("/", 1)[-1]
     elsewhere = [path for path in known if path.split("/", 1)[1] == own]
     return next(iter(elsewhere or difflib.get_close_matches(name, known, 1)), None)
+
+
+def check_scenes() -> int:
+    from .commands import command_parser
+
+    parser = command_parser("""Check parameter files without the program, for editors: FILE:LINE: what is wrong, such as an unknown parameter or a value out of range.
+
+Files that a scene includes are checked too. What only the program can tell, such as a mesh that does not fit, it says with --dry-run.
+The exit code is 1 if anything is wrong.
+""")
+    parser.add_argument("scenes", metavar="SCENE.prm", nargs="+")
+    wrong = False
+    for scene in parser.parse_args().scenes:
+        for file, line, what in scene_errors(scene):
+            print(f"{file}:{line}: {what}")
+            wrong = True
+    return 1 if wrong else 0
+
+
+def command_line() -> None:
+    """What contrib/check-scene.py and tread-check-scene do."""
+    from .commands import run_command
+
+    run_command(check_scenes)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What `tread --contact-points` left: where both wheels of a wheelset touch over the lateral shift."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..plots import BLUE, GREEN, RED, subplots
+from ..runs import Run
+
+
+def broken(shift: np.ndarray, values: np.ndarray, jump: float) -> tuple[np.ndarray, np.ndarray]:
+    """The line with gaps where the contact jumps by more than so much from one shift to the next."""
+    at = np.flatnonzero(np.abs(np.diff(values)) > jump) + 1
+    return np.insert(shift, at, np.nan), np.insert(values, at, np.nan)
+
+
+def draw_contact_points(run: Run) -> Figure:
+    table = run.table("contact_points.csv", ("lateral_shift_mm", "radius_difference_mm"))
+    shift = table["lateral_shift_mm"]
+    figure, axes = subplots(2, 2, figsize=(11, 7.4), sharex=True)
+    for side, colour in (("own", BLUE), ("other", RED)):
+        axes[0, 0].plot(*broken(shift, table[f"{side}_y_wheel_mm"], 2.), color=colour, label=f"{side} wheel, on its profile")
+        axes[0, 0].plot(*broken(shift, table[f"{side}_y_rail_mm"], 2.), color=colour, ls="--", label=f"{side} wheel, on the rail")
+        axes[0, 1].plot(*broken(shift, np.degrees(table[f"{side}_angle_rad"]), 8.), color=colour, label=f"{side} wheel")
+    axes[0, 0].set(ylabel="y of the contact [mm], + to the field side", title="where they touch; flange and gauge side at y < 0")
+    axes[0, 1].set(ylabel="contact angle [degrees]", title="+ where the rail falls to the gauge side, as at the flange")
+    axes[1, 0].plot(*broken(shift, table["radius_difference_mm"], 2.), color=GREEN)
+    axes[1, 0].set(xlabel="lateral shift of the wheelset [mm],\n+ own flange to its rail", ylabel="rolling radius difference [mm],\nown less other wheel")
+    one_side = (shift > 0) & np.isfinite(table["equivalent_conicity"])
+    axes[1, 1].plot(shift[one_side], table["equivalent_conicity"][one_side], color=GREEN)
+    axes[1, 1].set(xlabel="amplitude of the lateral motion [mm]", ylabel="equivalent conicity [-]", ylim=(0, 1.1 * table["equivalent_conicity"][one_side].max(initial=0.1)))
+    for axis in axes[0]:
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.02), ncol=2)
+    return figure
+
+
+def figures(run: Run) -> Iterator[tuple[str, Figure]]:
+    if run.has("contact_points.csv"):
+        yield "contact-points", draw_contact_points(run)

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The mesh of a run, and profiles of defects."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+from ..plots import GREY, legend_beside, name_sides, rolling_arrow, shade_defects, subplots
+from ..runs import Run
+from ..vtu import read_pieces
+
+VOLUME = "volume-0000.vtu"
+RAIL, WHEEL = 0, 1
+RAIL_COLOUR, WHEEL_COLOUR = "#dce6f0", "#f3e6d3"
+
+
+def read_cells(path: str) -> tuple[np.ndarray, np.ndarray]:
+    """Reference positions of the cells' corners in mm, (cells, 8, 3) in VTK's order, and the cells' bodies. @raises DataError"""
+    positions, bodies = [], []
+    for points, cells, fields in read_pieces(path):
+        cells = cells.reshape(-1, 8)
+        positions.append((points - 1e-3 * fields["displacement_um"].reshape(-1, 3))[cells])
+        bodies.append(fields["body"][cells[:, 0]])
+    return np.concatenate(positions), np.concatenate(bodies).round().astype(int)
+
+
+def cut_across(cells: np.ndarray, x: float) -> np.ndarray:
+    """The cells cut at x: quadrilaterals (y, z). Edges along the path join corners 0-1, 3-2, 4-5 and 7-6."""
+    low, high = cells[:, (0, 3, 7, 4)], cells[:, (1, 2, 6, 5)]
+    inside = (low[:, :, 0].min(1) <= x) & (high[:, :, 0].max(1) > x)
+    low, high = low[inside], high[inside]
+    share = np.clip((x - low[:, :, :1]) / (high[:, :, :1] - low[:, :, :1]), 0., 1.)
+    return (low + share * (high - low))[:, :, 1:]
+
+
+def along_middle(cells: np.ndarray) -> np.ndarray:
+    """Sides of cells at y = 0: quadrilaterals (x, z)."""
+    sides = cells[:, (0, 1, 5, 4)]
+    return sides[abs(cells[:, (0, 4), 1]).max(1) < 0.12 * np.maximum(1., abs(cells[:, (0, 4), 2]).max(1))][:, :, (0, 2)]
+
+
+def draw_cells(axis, polygons: np.ndarray, colour: str, name: str | None = None) -> None:
+    """Cells, and the name of their body in the middle of those that are shown."""
+    axis.add_collection(PolyCollection(polygons, facecolors=colour, edgecolors="black", linewidths=0.3))
+    (left, right), (low, high) = axis.get_xlim(), axis.get_ylim()
+    corners = polygons.reshape(-1, 2)
+    corners = corners[(corners[:, 0] > left) & (corners[:, 0] < right) & (corners[:, 1] > low) & (corners[:, 1] < high)]
+    if name and len(corners):
+        axis.text(*(0.5 * (corners.min(0) + corners.max(0))), name, ha="center", va="center", weight="bold",
+                  bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 2})
+
+
+def draw_section(rail: np.ndarray, wheel: np.ndarray) -> Figure:
+    """Rail and wheel cut across the path, where the smallest cells are, and the rail at its end."""
+    length = rail[:, 1, 0] - rail[:, 0, 0]
+    finest = np.median(rail[length < 1.01 * length.min()][:, 0, 0])
+    figure, axes = subplots(1, 2, figsize=(11, 2 + 5 * (80 - rail[:, :, 2].min()) / 160), sharey=True)
+    for axis, x, name in ((axes[0], finest + 0.3 * length.min(), "where cells are finest"), (axes[1], rail[:, :, 0].max() - 0.1, "at the end of the rail")):
+        axis.set(xlim=(-80, 80), ylim=(rail[:, :, 2].min() - 20, 60), aspect="equal", title=f"cut at x = {x:.0f} mm, {name}", xlabel="y [mm]")
+        for cells, colour, body in ((rail, RAIL_COLOUR, "rail"), (wheel, WHEEL_COLOUR, "wheel")):
+            draw_cells(axis, cut_across(cells, x), colour, body)
+        axis.grid(False)
+        name_sides(axis)
+    axes[0].set_ylabel("z [mm], up from the rail's top")
+    return figure
+
+
+def draw_path(run: Run, rail: np.ndarray, begin: float | None = None, end: float | None = None) -> Figure:
+    """The rail's cells under the middle of the path, and the height of its top."""
+    begin = rail[:, :, 0].min() if begin is None else begin
+    end = rail[:, :, 0].max() if end is None else end
+    figure, axes = subplots(2, 1, figsize=(10, 5.6), sharex=True)
+    axes[0].set(xlim=(begin, end), ylim=(-40, 2), ylabel="z [mm]", title="rail cut along y = 0, upper 40 mm")
+    draw_cells(axes[0], along_middle(rail), RAIL_COLOUR)
+    axes[0].grid(False)
+    rolling_arrow(axes[0])
+    top = rail[:, (4, 5)][abs(rail[:, (4, 5), 1]).max(1) < 0.05]
+    highest = {}
+    for edge in top:
+        x = round(edge[0, 0], 1)
+        highest[x] = max(highest.get(x, edge), edge, key=lambda e: e[0, 2])
+    for edge in highest.values():
+        axes[1].plot(edge[:, 0], 1e3 * edge[:, 2], "k.-", lw=0.8, ms=3)
+    for axis in axes:
+        shade_defects(axis, run.parameters, named=axis is axes[0])
+    legend_beside(axes[0])
+    axes[1].set(ylabel="height of the rail's top\nat y = 0 [µm]", xlabel="x [mm]")
+    return figure
+
+
+def draw_defects(paths: Sequence[str]) -> Figure:
+    """Longitudinal profiles of defects, from files with columns x and z in mm."""
+    figure, axis = subplots(figsize=(10, 3.6))
+    for path in paths:
+        x, z = np.loadtxt(path, unpack=True)
+        axis.plot(x, z, label=os.path.splitext(os.path.basename(path))[0])
+    axis.axhline(0, color=GREY, lw=1, ls=":", label="smooth rail")
+    axis.margins(y=0.12)
+    axis.text(0.5, 0.97, "wheel", transform=axis.transAxes, ha="center", va="top", color=GREY)
+    axis.text(0.02, 0.03, "rail", transform=axis.transAxes, ha="left", va="bottom", color=GREY)
+    axis.set(xlabel="x from the leading edge [mm]", ylabel="z [mm], up; not to scale", title="profiles along the rail")
+    rolling_arrow(axis)
+    legend_beside(axis)
+    return figure
+
+
+def figures(run: Run, begin: float | None = None, end: float | None = None) -> Iterator[tuple[str, Figure]]:
+    if run.has(VOLUME):
+        cells, bodies = read_cells(run.path(VOLUME))
+        rail, wheel = cells[bodies == RAIL], cells[bodies == WHEEL]
+        yield "section", draw_section(rail, wheel)
+        if "patches" not in run.summary:  # the lines of the mesh of a wheelset in a position do not keep to y = 0
+            yield "path", draw_path(run, rail, begin, end)

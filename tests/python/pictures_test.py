@@ -1,0 +1,230 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of runs and the comparison of two runs, with runs that are written here.
+
+    tests/python/pictures_test.py
+"""
+
+import base64
+import csv
+import glob
+import json
+import os
+import re
+import subprocess
+import sys
+import unittest
+import zlib
+from unittest import mock
+
+import matplotlib
+import numpy as np
+
+import tread
+from package_test import InFolder, write
+from tread import plots
+from tread.defects import extents_of_defects
+from tread.pictures import history, impact, mesh
+from tread.runs import ROOT
+from tread.vtu import read_pieces
+
+PATCH = "x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state"
+
+
+def patch_rows(scale=1.0):
+    """Hertz's pressure on 6 by 4 mm, whose trailing third slips."""
+    rows = []
+    for x in np.arange(-6, 6.01, 0.5):
+        for y in np.arange(-4, 4.01, 0.5):
+            square = 1 - (x / 6) ** 2 - (y / 4) ** 2
+            if square > 0:
+                p, slips = 1000 * scale * np.sqrt(square), x < -2
+                rows.append(f"{x},{y},0,0.25,{p},{0.3 * p if slips else 0.1 * p},{0.01 * p},{0.2 * scale if slips else 0},0,{'slip' if slips else 'adhesion'}")
+    return rows
+
+
+class OfRuns(InFolder):
+    def write_run(self, name, summary=None, positions=np.arange(-100.0, 80.1, 1.0), passages=1, parameters="", scale=1.0):
+        """A run whose normal force is 100 kN, and 1 kN more with each passage."""
+        rows, time = [], 0.0
+        for passage in range(passages):
+            for x in positions:
+                time += 1e-4
+                rows.append(f"{time},{1e-3 * x},{1e3 * (100 + passage)},3e4,0,0.3,0.003,0,1,1,0.1,0.2,0,0.01,0.0001")
+        write(self.path(name, "history.csv"), "time_s,position_m,normal_force_N,longitudinal_force_N,lateral_force_N,traction_coefficient,creepage,"
+              "external_work_J,kinetic_energy_J,internal_energy_J,hourglass_energy_J,frictional_work_J,contact_loss_J,damping_work_J,energy_residual_J\n"
+              + "\n".join(rows) + "\n")
+        write(self.path(name, "patch.csv"), "\n".join([PATCH, *patch_rows(scale)]) + "\n")
+        figures = {"completed": True, "normal_force_N": 1e5 * scale, "traction_coefficient": 0.3, "creepage": 0.003, "friction_coefficient": 0.3}
+        write(self.path(name, "summary.json"), json.dumps({**figures, **(summary or {})}))
+        write(self.path(name, "parameters.prm"), parameters)
+        return tread.Run(self.path(name))
+
+
+DYNAMIC = {"largest_normal_force_N": 151e3, "largest_normal_force_x_m": 0.012, "largest_normal_force_over_static": 1.51,
+           "least_normal_force_N": 62e3, "least_normal_force_x_m": -0.03, "least_normal_force_over_static": 0.62}
+TWO_DIPS = "subsection Defect\n set Shape = dip\n set Position (mm) = 20\n set Length (mm) = 30\n set Repeated at (mm) = 60\nend\n"
+
+
+def spans(axis):
+    """What is shaded over the abscissa."""
+    return [(patch.get_xy()[:, 0].min(), patch.get_xy()[:, 0].max()) for patch in axis.patches if hasattr(patch, "get_xy") and np.ndim(patch.get_xy()) == 2]
+
+
+class Pictures(OfRuns):
+    def test_passages_break_lines(self):
+        run = self.write_run("run", passages=3)
+        figure = history.draw_forces(run)
+        lines = [line for line in figure.axes[0].lines if line.get_color() == plots.BLUE]
+        self.assertEqual(len(lines), 3)
+        for passage, line in enumerate(lines):
+            self.assertGreater(np.diff(line.get_xdata()).min(), 0)
+            np.testing.assert_allclose(line.get_ydata(), 100 + passage)
+        self.assertEqual([line.get_alpha() for line in lines], [1 / 3, 2 / 3, 1])
+        self.assertIn("3 passages", figure.axes[0].get_title())
+        self.assertEqual(plots.passages(np.array([1., 2., 2., 3.])), [slice(0, 4)])  # a wheel that stands still is no new one
+
+    def test_defects_are_shaded_and_the_approach_is_cut(self):
+        run = self.write_run("run", DYNAMIC, parameters=TWO_DIPS)
+        figure = history.draw_forces(run)
+        for axis in figure.axes:
+            self.assertEqual(spans(axis), [(20, 50), (60, 90)])
+        x = figure.axes[0].lines[0].get_xdata()
+        self.assertEqual((x.min(), x.max()), (5, 80))  # from 20 to the end and a quarter of it before
+        self.assertIn("history.csv begins at -100 mm", figure.axes[-1].get_xlabel())
+        title = figure.axes[0].get_title()
+        self.assertEqual(title, "largest normal force 151.0 kN with the wheel at 12.0 mm, 1.51 of the static load\n"
+                                "least normal force 62.0 kN with the wheel at -30.0 mm, 0.62 of the static load")
+        contact = impact.draw_contact_force(impact.Impact(run.folder))
+        self.assertEqual(spans(contact.axes[0]), [(20, 50), (60, 90)])
+        # A wheel that has not come to the defect is drawn on all its way.
+        self.assertTrue(plots.shown_rows(np.arange(-100.0, 10.0), run.parameters).all())
+
+    def test_where_defects_are(self):
+        self.assertEqual(extents_of_defects({"Defect/Shape": "none", "Defect/Position (mm)": "0"}), [])
+        write(self.path("map.csv"), "x_mm,y_mm,z_mm\n0,0,0\n40,0,0\n")
+        map_of = {"Defect/Shape": "map", "Defect/Position (mm)": "-5", "Defect/Length (mm)": "0", "Defect/Profile file": "map.csv"}
+        self.assertEqual(extents_of_defects(map_of), [(-5, 35)])
+        self.assertEqual(extents_of_defects({**map_of, "Defect/Profile file": "none", "Defect/Repeated at (mm)": "100"}), [(-5, None), (100, None)])
+
+    def test_one_call_draws_what_is_there(self):
+        run = self.write_run("run")
+        style = dict(matplotlib.rcParams)
+        paths = run.pictures()
+        self.assertEqual(paths, [self.path("run", "pictures", f"{name}.png") for name in ("axis", "map", "vectors", "forces", "energies")])
+        self.assertEqual(dict(matplotlib.rcParams), style)
+        os.remove(self.path("run", "history.csv"))
+        self.assertEqual([os.path.basename(path) for path in tread.Run("run").pictures("elsewhere")], ["axis.png", "map.png", "vectors.png"])
+        self.assertEqual(sorted(os.listdir("elsewhere")), ["axis.png", "map.png", "vectors.png"])
+        dynamic = self.write_run("dynamic", DYNAMIC, parameters=TWO_DIPS)
+        self.assertIn(self.path("dynamic", "pictures", "contact-force.png"), dynamic.pictures())
+
+    def test_without_matplotlib(self):
+        self.write_run("run")
+        write(self.path("without", "matplotlib", "__init__.py"), "raise ImportError\n")
+        for command in ("plot-run.py", "plot-peaks.py"):  # which ask for it late, and at once
+            result = subprocess.run([os.path.join(ROOT, "contrib", "plot", command), "run"], env={**os.environ, "PYTHONPATH": self.path("without")},
+                                    capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+            self.assertRegex(result.stderr, f"^{command}: pictures need matplotlib")
+
+    def test_bodies_and_sides_are_named(self):
+        corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], float)
+        cell = (corners - (0, 0.5, 0))[None] * 10
+        figure = mesh.draw_section(cell - (0, 0, 10), cell)
+        texts = [text.get_text() for text in figure.axes[0].texts]
+        self.assertEqual(texts[:2], ["rail", "wheel"])
+        self.assertTrue("gauge side" in texts[2] and "field side" in texts[3])
+        (left, _), (right, _) = (text.get_position() for text in figure.axes[0].texts[2:])
+        self.assertLess(left, right)  # the flange is at y < 0
+        self.assertLess(figure.axes[0].texts[0].get_position()[1], figure.axes[0].texts[1].get_position()[1])
+        np.testing.assert_allclose(mesh.cut_across(cell, 5.0)[0], [(-5, 0), (5, 0), (5, 10), (-5, 10)])
+
+    def test_files_for_paraview(self):
+        def packed(values):
+            data = zlib.compress(values.tobytes())
+            header = np.array([1, values.nbytes, values.nbytes, len(data)], np.uint32).tobytes()
+            return (base64.b64encode(header) + base64.b64encode(data)).decode()
+
+        points, pressure = np.arange(6, dtype=np.float32).reshape(2, 3), np.array([5, 7], np.float32)
+        write(self.path("one.vtu"), '<VTKFile><UnstructuredGrid><Piece NumberOfPoints="2"><Points><DataArray type="Float32" format="binary">'
+              f'{packed(points)}</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1</DataArray></Cells>'
+              f'<PointData><DataArray type="Float32" Name="pressure_MPa" format="binary">{packed(pressure)}</DataArray></PointData></Piece>'
+              "</UnstructuredGrid></VTKFile>")
+        (found, cells, fields), = read_pieces("one.vtu")
+        np.testing.assert_array_equal(found, 1e3 * points)
+        self.assertEqual((cells.tolist(), fields["pressure_MPa"].tolist()), ([0, 1], [5, 7]))
+        with self.assertRaisesRegex(tread.DataError, "none.vtu: No such file"):
+            list(read_pieces("none.vtu"))
+
+
+class Patches(OfRuns):
+    def test_patches_on_the_way(self):
+        run = self.write_run("run")
+        rows = [f"{1e-3 * position},{position},{row}" for position in (-20, 10) for row in patch_rows()]
+        write(self.path("run", "patches.csv"), "\n".join([f"time_s,position_mm,{PATCH}", *rows]) + "\n")
+        self.assertEqual([(instant.time_s, instant.position_mm) for instant in run.patches], [(-0.02, -20), (0.01, 10)])
+        np.testing.assert_allclose(run.patches[1].patch.x, run.patch.x + 10)  # along the rail
+        self.assertEqual((run.patch.units["pressure"], run.patch.units["slip_x"]), ("MPa", "m/s"))
+
+
+class Comparison(OfRuns):
+    def rows(self, a, b):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            return {row["name"]: row for row in tread.compare(a, b)}
+
+    def test_equal_runs(self):
+        a = self.write_run("a", {"wall_s": 1.0, "patches_like": [{"force_N": 2.0}], "reference": {"creepage": {"value": 3.0}}})
+        self.write_run("b", {"wall_s": 2.0, "patches_like": [{"force_N": 2.0}], "reference": {"creepage": {"value": 4.0}}})
+        rows = self.rows(a, "b")
+        self.assertEqual({row["difference"] for row in rows.values()}, {0})
+        self.assertIn("patches_like/1/force_N", rows)
+        self.assertFalse([name for name in rows if name.startswith(("wall_s", "reference", "completed"))])
+        self.assertTrue({"patch_pressure_rms_MPa", "patch_shear_x_rms_MPa", "patch_slip_x_rms_m_per_s"} <= set(rows))
+
+    def test_what_was_put_in_comes_out(self):
+        a, b = self.write_run("a", {"zero": 0.0}), self.write_run("b", {"zero": 0.5}, scale=1.1)
+        rows = self.rows(a, b)
+        self.assertAlmostEqual(rows["normal_force_N"]["difference"], 1e4)
+        for name in ("normal_force_N", "patch_pressure_rms_MPa", "patch_shear_x_rms_MPa", "patch_shear_y_rms_MPa", "patch_slip_x_rms_m_per_s"):
+            self.assertAlmostEqual(rows[name]["relative_difference"], 0.1, msg=name)
+        self.assertEqual(rows["creepage"]["difference"], 0)
+        self.assertEqual((rows["zero"]["difference"], rows["zero"]["relative_difference"]), (0.5, None))
+
+    def test_the_command(self):
+        self.write_run("a"), self.write_run("b", scale=1.1)
+        result = subprocess.run([os.path.join(ROOT, "contrib", "compare-runs.py"), "a", "b", "--above", "5", "--csv", "differences.csv"],
+                                capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, r"normal_force_N +100000 +110000 +1e\+04 +\+10\.00 %")
+        self.assertNotIn("creepage", result.stdout)
+        with open("differences.csv", encoding="utf-8") as stream:
+            self.assertIn("creepage", [row["name"] for row in csv.DictReader(stream)])
+        result = subprocess.run([os.path.join(ROOT, "contrib", "compare-runs.py"), "a", "none"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (1, "compare-runs.py: none/summary.json: No such file or directory\n"))
+
+
+class Installation(unittest.TestCase):
+    def test_commands_are_listed(self):
+        """Those of contrib/ that are one call of the package: by pip and beside the program."""
+        with open(os.path.join(ROOT, "contrib/python/pyproject.toml"), encoding="utf-8") as stream:
+            project = stream.read()
+        with open(os.path.join(ROOT, "contrib/package/CMakeLists.txt"), encoding="utf-8") as stream:
+            beside = re.search(r"foreach\(command ([^)]+)\)", stream.read())[1].split()
+        listed = dict(re.findall(r'^tread-(\S+) = "(\S+):command_line"$', project, re.MULTILINE))
+        commands = {}
+        for path in glob.glob(os.path.join(ROOT, "contrib", "*.py")):
+            with open(path, encoding="utf-8") as stream:
+                found = re.search(r"^from (\S+) import command_line$", stream.read(), re.MULTILINE)
+            if found:
+                commands[os.path.basename(path)[:-3]] = found[1]
+        self.assertGreater(len(commands), 3)
+        self.assertEqual(commands, listed)
+        self.assertEqual(sorted(commands), sorted(beside))
+        packages = {os.path.relpath(os.path.dirname(path), os.path.join(ROOT, "contrib/python")).replace(os.sep, ".")
+                    for path in glob.glob(os.path.join(ROOT, "contrib/python/tread/**/__init__.py"), recursive=True)}
+        self.assertEqual(set(re.findall(r'"([^"]+)"', re.search(r"^packages = \[(.*)\]", project, re.MULTILINE)[1])), packages)
+
+
+if __name__ == "__main__":
+    unittest.main()
