@@ -126,6 +126,10 @@ namespace tread
                       " has been turned inside out after " + std::to_string(n_steps) +
                       " steps: its strain is too large for this mesh; use larger cells there, or "
                       "less load or hardening that carries it");
+    else if (least < parameters.least_volume)
+      throw WentWrong("the cell " + place_of_worst_cell(least_volume == least, worst) +
+                      format(" has %.3g of its volume after %llu steps, below 'Watchdogs/Stop at volume' %g",
+                             least, (unsigned long long)n_steps, parameters.least_volume));
     if (const double largest = max(strain, mesh.comm); largest > parameters.largest_strain)
       throw WentWrong("the cell " + place_of_worst_cell(strain == largest, most_strained) +
                       format(" has a strain of %.3g after %llu steps, above 'Watchdogs/Stop at strain' %g",

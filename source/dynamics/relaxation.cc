@@ -234,7 +234,6 @@ namespace tread
   void ExplicitDynamics::Relaxation::set_loads()
   {
     // Weight and true centrifugal force act on the true masses; once on nodes that ranks share.
-    const Mesh &mesh = d.mesh;
     for (unsigned int i = 0; i < x.size(); ++i)
       if (is_free_and_owned(i))
         {

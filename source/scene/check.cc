@@ -73,6 +73,7 @@ namespace tread
     contact.check();
     motion.check();
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
+    check_suspension();
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
           traction != 0. && !is_positioned() && !(motion.drive == Drive::creepage && motion.creepage))
@@ -82,6 +83,24 @@ namespace tread
                   text_of(contact.friction_coefficient * contact.friction_factor(path_begin(k))) +
                   " in size where the wheel begins");
     friction_law();
+  }
+
+
+  void Scene::check_suspension() const
+  {
+    if (vehicle.sprung_mass == 0.)
+      return;
+    // A hundred times what the time step of the smallest cells resolves is not what anyone means.
+    constexpr double fastest = 1e5; // 1/s
+    const double     inverse = 1. / wheel.mass + 1. / vehicle.sprung_mass,
+                 rate        = std::max(std::sqrt(vehicle.suspension_stiffness * inverse),
+                                        vehicle.suspension_damping * inverse);
+    require(rate <= fastest,
+            "'Vehicle/Sprung mass (kg)' " + text_of(vehicle.sprung_mass) +
+              ", 'Suspension stiffness (kN per m)' and 'Suspension damping (N s per m)' swing or settle "
+              "within " +
+              text_of(1e6 / rate) + " us, which no suspension does; at least " + text_of(1e6 / fastest) +
+              " us are allowed");
   }
 
 

@@ -199,6 +199,7 @@ namespace tread
     p.courant_number = scene.time_stepping.courant_number;
     p.damping_steps  = scene.solid.stiffness_damping;
     p.largest_strain = scene.watchdogs.stop_at_strain;
+    p.least_volume   = scene.watchdogs.stop_at_volume;
     p.largest_speed  = scene.watchdogs.stop_at_node_speed;
     p.mass_damping   = scene.solid.mass_damping;
     p.density_scale  = scene.general.density_scale;

@@ -189,6 +189,26 @@ namespace tread
   }
 
 
+  double Scene::detail_within_cells() const
+  {
+    double       worst = 0.;
+    const double cell  = mesh.finest_cell;
+    if (is_positioned())
+      return worst;
+    const auto gap = [&](const double y) {
+      return surfaces().gap(y);
+    };
+    for (double y = patch_extent().begin + cell; y + 2. * cell <= patch_extent().end; y += cell)
+      {
+        // Lagrange's cubic in the middle of the second of three cells.
+        const double of_nodes = (9. * (gap(y) + gap(y + cell)) - gap(y - cell) - gap(y + 2. * cell)) / 16.;
+        if (const double off = std::abs(gap(y + 0.5 * cell) - of_nodes); std::isfinite(off))
+          worst = std::max(worst, off);
+      }
+    return worst;
+  }
+
+
   double Scene::fine_half_width() const
   {
     // A load that doubles or triples makes the patch wider by its cube root.

@@ -380,8 +380,26 @@ namespace tread
   }
 
 
+  std::string Simulation::unseen_detail() const
+  {
+    // A kink of curvature between the arcs of a standard head makes less than one per cent.
+    constexpr double large  = 0.02; // of the approach of wheel and rail
+    const double     detail = scene.detail_within_cells(),
+                 share      = detail / hertz(scene, scene.static_load()).approach;
+    if (!(share > large))
+      return "";
+    return format(
+      "the profiles of wheel and rail have detail of %.1f um within a finest cell, %.0f %% of their "
+      "approach (above %g %%): the cells do not see the surface that half-space theory does; smooth "
+      "the measured profile, or use smaller cells",
+      1e6 * detail, 100. * share, 100. * large);
+  }
+
+
   void Simulation::add_doubts(std::vector<std::string> &warnings) const
   {
+    if (const std::string unseen = unseen_detail(); !unseen.empty())
+      warnings.push_back(unseen);
     if (const std::string slow = slow_step(); !slow.empty())
       warnings.push_back(slow);
     // What the torque aims at comes when the wheel has gathered the creepage for it.

@@ -391,8 +391,6 @@ namespace tread
       }
     catch (const WentWrong &wrong)
       {
-        if (!scene.output.write_volume)
-          throw;
         write_volume(folder);
         throw WentWrong(wrong.what() + ("; " + folder.list_of_pictures("volume")) +
                         " ends with the bodies as they were then");
@@ -447,12 +445,12 @@ namespace tread
     std::uint64_t n_steps = dynamics.n_steps + remaining_steps();
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - dynamics.n_steps), 1e3 * (end_position - position())));
-    if (const std::string slow = slow_step(); !slow.empty())
-      progress.say("WARNING: " + slow);
+    for (const std::string &doubt : {slow_step(), unseen_detail()})
+      if (!doubt.empty())
+        progress.say("WARNING: " + doubt);
     // mpirun gives its ranks a second to end after Ctrl-C.
-    EverySoManySteps look_at_signals{10, dynamics.n_steps}, check{100, dynamics.n_steps + 100},
-      look_at_cells{200, dynamics.n_steps + 200};
-    Pace pace{progress.seconds(), dynamics.n_steps, progress.seconds(),
+    EverySoManySteps look_at_signals{10, dynamics.n_steps}, check{100, dynamics.n_steps + 100};
+    Pace             pace{progress.seconds(), dynamics.n_steps, progress.seconds(),
               mesh.n_global_cells / dynamics.ideal_gain_of_levels()};
     while (dynamics.n_steps < n_steps)
       {
@@ -471,9 +469,12 @@ namespace tread
           }
         write_what_is_due(folder);
 
-        const bool at_end = dynamics.n_steps == n_steps;
-        if (look_at_cells.due(dynamics.n_steps) || at_end)
-          dynamics.check_cells();
+        const bool at_end = dynamics.n_steps == n_steps, checks = check.due(dynamics.n_steps);
+        if (checks || at_end)
+          {
+            dynamics.check_stability();
+            dynamics.check_cells();
+          }
 
         // Before any other checkpoint, so that none is made of a wheel at its end that does not know it.
         if (at_end && passages.size() + 1 < scene.motion.passages)
@@ -484,9 +485,8 @@ namespace tread
           }
         if (look_at_signals.due(dynamics.n_steps) && interrupted())
           return End::interrupted;
-        if (check.due(dynamics.n_steps))
+        if (checks)
           {
-            dynamics.check_stability();
             keep_checkpoint(checkpoint, progress, pace);
             if (progress.due())
               show_pace(progress, pace, n_steps - dynamics.n_steps);
@@ -551,6 +551,7 @@ namespace tread
     const bool   due = interval > 0. && now - pace.last_checkpoint > interval;
     if (!dealii::Utilities::MPI::max(due ? 1 : 0, comm))
       return;
+    watch(dynamics.ledger()); // nothing is kept to go on from that has gone wrong
     wall_seconds = seconds_before + now;
     checkpoint.write(*this);
     pace.last_checkpoint = now;

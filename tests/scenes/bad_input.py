@@ -42,6 +42,7 @@ SETTINGS = [
     ("Wheel/Mass (kg)=1e308", ["Wheel/Mass (kg)", "Vehicle/Sprung mass (kg)", "at most"]),
     ("Wheel/Mass (kg)=0", ["Wheel/Mass (kg)", "allowed"]),
     ("Wheel/Mass (kg)=1", ["Wheel/Mass (kg)", "too small"]),
+    ("Vehicle/Sprung mass (kg)=1e-9", ["Vehicle/Sprung mass (kg)", "Suspension stiffness", "no suspension does"]),
     ("Vehicle/Gravity (m per s2)=0", ["Vehicle/Gravity (m per s2)", "above 0"]),
     ("Vehicle/Wheel load (kN)=5", ["Vehicle/Wheel load (kN)", "less than the weight", "Wheel/Mass (kg)", "8.829"]),
     ("Vehicle/Wheel load (kN)=heavy", ["Vehicle/Wheel load (kN)", "masses"]),
@@ -157,6 +158,10 @@ PAIRS = [
     (["Wheel/Yield stress (MPa)=500", "Wheel/Plastic half width (mm)=90"], ["Wheel/Plastic half width (mm)", "leaves the mesh"]),
     (["Rail/Yield stress (MPa)=500", "Rail/Hardening=Armstrong-Frederick", "Rail/Backstress moduli (GPa)=60, 20"],
      ["Rail/Backstress moduli (GPa)", "Rail/Backstress recoveries"]),
+    (["Track/Foundation=two-layer", "Track/Pad stiffness (MN per m)=1e9"], ["Track/Pad stiffness (MN per m)", "1e9", "1e+08"]),
+    (["Track/Foundation=two-layer", "Track/Pad stiffness (MN per m)=1e-6"], ["Track/Pad stiffness (MN per m)", "1e-6"]),
+    (["Track/Foundation=two-layer", "Track/Pad damping (kN s per m)=1e6"], ["Track/Pad damping (kN s per m)", "1e6"]),
+    (["Mesh/Finest cell (mm)=0.02", "Motion/Rolled distance (mm)=2000"], ["Mesh/Finest cell (mm)", "million cells", "GB"]),
     (["Rail/Yield stress (MPa)=500", "Solid/Element=fully-integrated"], ["Rail/Yield stress (MPa)", "one-point"]),
     (["Solid/Element=fully-integrated", "Solid/Linear bulk viscosity=0.06"], ["Solid/Linear bulk viscosity", "fully-integrated"]),
 ]

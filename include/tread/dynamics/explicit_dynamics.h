@@ -33,6 +33,9 @@ namespace tread
     double gravity       = 9.81; ///< m/s^2, along -z
     /// A cell with more strain (Green-Lagrange, Frobenius' norm) stops a run.
     double largest_strain = 0.5;
+    /// A cell with less of its volume stops a run: where this is pressed so far, strains that are smaller
+    /// than the largest allowed are large as well.
+    double least_volume = 0.3;
     /// A node that moves faster is part of an instability, m/s. A wheel's rim moves at up to twice the speed
     /// of the train, 170 m/s at 300 km/h, and a pressure wave of 1000 m/s would carry a stress of rho c v =
     /// 46 GPa, a hundred times the strength of steel. An unstable motion grows exponentially, so that half or

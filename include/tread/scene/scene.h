@@ -173,6 +173,10 @@ namespace tread
     {
       return shapes->defect.get();
     }
+    /// How far the gap between wheel and rail, across the patch, differs half way between nodes of finest
+    /// cells from the cubic through the nearest four of them: detail of profiles that the mesh does not see,
+    /// m. 0 of a wheelset's positions, where cells follow the patch.
+    double detail_within_cells() const;
     /// Whether forces vary along the path by the nature of the scene: a defect, or discrete supports.
     bool has_impacts() const
     {
@@ -264,6 +268,7 @@ namespace tread
     void set(const std::string &setting);
     void check() const;
     void check_motion() const;
+    void check_suspension() const;
     void check_wheelset() const;
     void check_surfaces() const;
     void check_defect() const;

@@ -157,6 +157,8 @@ namespace tread
     void        add_cost(Summary &summary) const;
     /// A line if springs, dampers and masses make the time step much shorter than the cells do; else none.
     std::string slow_step() const;
+    /// A warning where profiles have detail that the mesh does not see; empty: none.
+    std::string unseen_detail() const;
     /// Add why the answer is perhaps not that of steady rolling.
     void add_doubts(std::vector<std::string> &warnings) const;
     /// @returns lines about the largest stresses for the screen.

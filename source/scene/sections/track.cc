@@ -30,8 +30,10 @@ namespace tread
   {
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
-    constexpr double tiny = 1e-12; // for "above 0"
-    Section          section(handler, "Track");
+    // Far beyond any pad or ballast on both sides; still softer ones let the rail sink away, stiffer ones and
+    // stronger dampers take steps that no run has time for.
+    const Double stiffness(1., 1e8), damping(0., 1e5);
+    Section      section(handler, "Track");
 
     section.choose("Foundation", foundation, "",
                    "With either the rail's ends are planes of symmetry, and supports move vertically only.");
@@ -43,8 +45,8 @@ namespace tread
     section.add("Support 0 (mm)", support_0,
                 "x of the support with number 0. Numbers grow in rolling direction.",
                 Double(-20000., 20000.));
-    section.add("Pad stiffness (MN per m)", pad_stiffness, "Of a whole support, vertical.", Double(tiny));
-    section.add("Pad damping (kN s per m)", pad_damping, "Of a whole support, vertical.", Double(0.));
+    section.add("Pad stiffness (MN per m)", pad_stiffness, "Of a whole support, vertical.", stiffness);
+    section.add("Pad damping (kN s per m)", pad_damping, "Of a whole support, vertical.", damping);
     section.add("Pads pull", pads_pull,
                 "Whether pads with their fastenings hold a rail that rises. false: it leaves them.");
     section.add("Pad length (mm)", pad_length, "Along the rail. Longer pads hold the rail's slope as well.",
@@ -62,7 +64,7 @@ namespace tread
                 Integer(1, 50));
     section.add("Sleeper mass (kg)", sleeper_mass,
                 "What one rail's support carries: half a sleeper. Sets the height of a solid one.",
-                Double(tiny));
+                Double(1e-3, 1e6));
     section.add("Sleeper length (m)", sleeper_length, "Whole, of a solid sleeper.", Double(0.1, 10.));
     section.add("Sleeper width (mm)", sleeper_width,
                 "Along the rail, of a solid sleeper; not below the pad's length.", Double(1., 2000.));
@@ -75,9 +77,9 @@ namespace tread
     section.add("Sleeper Poisson's ratio", sleeper_poisson_ratio, "Of a solid sleeper.", Double(0., 0.49));
     section.add("Sleeper density (kg per m3)", sleeper_density, "Of a solid sleeper.", Double(1., 1e5));
     section.add("Ballast stiffness (MN per m)", ballast_stiffness,
-                "Of a whole support (one rail's), vertical.", Double(tiny));
+                "Of a whole support (one rail's), vertical.", stiffness);
     section.add("Ballast damping (kN s per m)", ballast_damping, "Of a whole support (one rail's), vertical.",
-                Double(0.));
+                damping);
     section.add(
       "Support file", support_file,
       "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "

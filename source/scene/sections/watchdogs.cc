@@ -31,6 +31,9 @@ namespace tread
                 positive);
     section.add("Stop at strain", stop_at_strain,
                 "A run stops where a cell has a larger strain (Green-Lagrange, Frobenius' norm).", positive);
+    section.add("Stop at volume", stop_at_volume,
+                "A run stops where a cell has less of its volume before deformation.",
+                dealii::Patterns::Double(0., 1.));
     section.add("Stop at node speed (m per s)", stop_at_node_speed,
                 "A run stops where a node is faster: an unstable step.", positive);
   }

@@ -13,6 +13,7 @@ namespace tread
     QualityLimits warn;
     double        stop_at_residual   = 0.5; ///< of what is dissipated or, if that is more, stored as strain
     double        stop_at_strain     = 0.5; ///< Green-Lagrange, Frobenius' norm
+    double        stop_at_volume     = 0.3; ///< over the undeformed one
     double        stop_at_node_speed = 1e3; ///< m/s
 
     void declare(dealii::ParameterHandler &handler);
