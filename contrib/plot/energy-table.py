@@ -80,14 +80,15 @@ def main():
             missing.append(scene)
             continue
         rows.append([scene[:-len(".prm")], number(1e3 * summary["rolled_m"])]
-                    + [cell(summary, key, factor, large) for _, key, factor, large in MEASURES] + [commit_of(summary)])
+                    + [cell(summary, key, factor, large) for _, key, factor, large in MEASURES]
+                    + [str(len(summary["warnings"])), commit_of(summary)])
     if not rows:
         raise DataError(f"no results in {arguments.results}")
     if missing:
         print("without results:", ", ".join(missing))
     measured = {row[0] for row in rows}
     rows += [row for row in rows_of("verification.md", "energy") if row[0] not in measured]
-    table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES] + ["commit"], sorted(rows))
+    table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES] + ["warnings", "commit"], sorted(rows))
     table += (f"\n\nBold: above the threshold of a warning, which a run gives where the energy counts beside what the cells store. {machine()}; `contrib/plot/energy-table.py --run"
               + (f" --rolled {arguments.rolled:g}" if arguments.rolled else "") + "`, each row with the commit it was made with.")
     if arguments.only_print:
