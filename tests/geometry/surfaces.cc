@@ -139,6 +139,22 @@ namespace
         }
       check.absolute("three dips: height between them, um", 1e6 * three.height(25e-3, 0.), 0., 0.);
     }
+    {
+      // Edges that are rounded over 2 and 4 of 20 mm of the path: no more across it than along it.
+      const auto rounded = dip(0.1, 0.2);
+      double     step = 0., beyond = 0.;
+      for (double v = -1.1; v <= 1.1; v += 0.01)
+        {
+          step = std::max(step, std::abs(rounded(0.5 + 1e-6, v) - rounded(0.5 - 1e-6, v)));
+          if (std::abs(v) > 1.)
+            beyond = std::max(beyond, rounded(0.5, v));
+        }
+      check.below("rounded dip: step across the path in its middle, share of the depth", step, 1e-5);
+      check.below("rounded dip: depth beside it there, share", beyond, 0.);
+      // The kink of -4 per length at the leading edge: a parabola over 0.1 of the length, half on each side.
+      check.relative("rounded dip: depth at the leading edge, share", rounded(0., 0.), 0.05, 1e-9);
+      check.below("rounded dip: depth half of the rounding ahead", rounded(-0.05, 0.), 0.);
+    }
     Defect hollow;
     hollow.shape  = dip(0., 0.);
     hollow.begin  = 5e-3;
