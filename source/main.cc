@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -32,7 +33,8 @@ namespace
     tread::ModesRequest         modes;
     tread::SleeperStressRequest sleeper;
     tread::ContactPointsRequest points;
-    bool resume = false, reference_only = false, dry_run = false, print_parameters = false;
+    std::string                 print_parameters; ///< how; empty: not
+    bool                        resume = false, reference_only = false, dry_run = false, quiet = false;
   };
 
   /// @returns what the user asked for; nothing if it was help or the version, which is then printed.
@@ -48,8 +50,9 @@ namespace
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--output", line.output, "folder of the results; of --batch, their table");
-    app.add_flag("--print-parameters", line.print_parameters,
-                 "print all parameters with units, ranges and meaning, and stop");
+    app.add_flag("--print-parameters{prm}", line.print_parameters,
+                 "print all parameters with units, ranges and meaning, and stop; =json: as JSON");
+    app.add_flag("--quiet", line.quiet, "print errors only; summary.json has the warnings");
     CLI::Option_group *how = app.add_option_group("How to run the scene");
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
     how->add_flag("--reference-only", line.reference_only,
@@ -98,8 +101,11 @@ namespace
       {
         throw tread::InputError(std::string(error.what()) + "; tread --help lists all options");
       }
+    if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
+      throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
+                              "'; allowed: prm, json");
     if (!line.batch.empty() &&
-        (!line.scene.empty() || !line.settings.empty() || line.print_parameters || line.resume ||
+        (!line.scene.empty() || !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
          line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run))
       throw tread::InputError(
         "--batch reads a table of cases; -s, --print-parameters, --resume, --reference-only, "
@@ -113,8 +119,9 @@ namespace
         "--contact-points and --dry-run are for a scene");
     if (!line.sleeper.run.empty() && !line.scene.empty())
       throw tread::InputError("--sleeper-stress reads a run; it takes no scene");
-    if (!line.sleeper.run.empty() && (line.resume || line.reference_only || line.modes.wanted ||
-                                      line.dry_run || line.print_parameters || !line.settings.empty()))
+    if (!line.sleeper.run.empty() &&
+        (line.resume || line.reference_only || line.modes.wanted || line.dry_run ||
+         !line.print_parameters.empty() || !line.settings.empty()))
       throw tread::InputError("--sleeper-stress reads what a run left; -s, --print-parameters, --resume, "
                               "--reference-only, --modes, --contact-points and --dry-run are for a scene");
     return line;
@@ -144,19 +151,23 @@ namespace
         tread::write_sleeper_stress(line.sleeper, comm);
         return 0;
       }
-    if (line.scene.empty() && !line.print_parameters)
+    if (line.scene.empty() && line.print_parameters.empty())
       throw tread::InputError("no scene given; tread --help shows how, prm/ holds scenes to start from");
     tread::Scene scene;
     if (line.points.wanted)
       scene.read_surfaces(line.scene, line.settings);
     else
       scene.read(line.scene, line.settings);
-    if (line.print_parameters)
+    if (!line.print_parameters.empty())
       {
-        if (speaks)
+        if (speaks && line.print_parameters == "json")
+          scene.print_json(std::cout);
+        else if (speaks)
           scene.print(std::cout, true);
         return 0;
       }
+    if (line.quiet && !std::freopen("/dev/null", "w", stdout))
+      throw std::runtime_error("cannot write to /dev/null");
     // Beside the results of the run, never over them.
     const auto folder_of = [&](const char *ending) {
       return line.output.empty() ? scene.output.directory + ending : line.output;
@@ -218,7 +229,10 @@ namespace
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // Libraries below would take our options for theirs.
+  int                                      n_words = 1;
+  char                                    *words[] = {argv[0], nullptr}, **all_words = words;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_words, all_words, 1);
   MPI_Comm                                 errors; // nothing else waits on it
   MPI_Comm_dup(MPI_COMM_WORLD, &errors);
   int code;

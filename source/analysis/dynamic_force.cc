@@ -134,15 +134,23 @@ namespace tread
             force.values.push_back(with_defect(time) - smooth(time));
             force.smooth_mean += smooth(time) / n;
           }
-        const std::size_t largest =
-          std::max_element(force.values.begin(), force.values.end(),
-                           [](const double a, const double b) { return std::abs(a) < std::abs(b); }) -
-          force.values.begin();
-        force.peak          = force.values[largest];
-        force.peak_time     = result.time[largest];
-        force.peak_position = result.position[largest];
-        force.force_at_peak = with_defect(force.peak_time);
-        force.spectrum      = amplitude_spectrum(force.values, result.interval, window);
+        const auto by_size = [](const double a, const double b) {
+          return std::abs(a) < std::abs(b);
+        };
+        const auto        begin = force.values.begin(), end = force.values.end();
+        const std::size_t largest = std::max_element(begin, end, by_size) - begin,
+                          upmost  = std::max_element(begin, end) - begin,
+                          lowest  = std::min_element(begin, end) - begin;
+        force.increase            = force.values[upmost];
+        force.decrease            = force.values[lowest];
+        force.increase_position   = result.position[upmost];
+        force.decrease_position   = result.position[lowest];
+        force.at_the_end          = std::abs(*std::max_element(end - (n + 9) / 10, end, by_size));
+        force.peak                = force.values[largest];
+        force.peak_time           = result.time[largest];
+        force.peak_position       = result.position[largest];
+        force.force_at_peak       = with_defect(force.peak_time);
+        force.spectrum            = amplitude_spectrum(force.values, result.interval, window);
         force.oscillations =
           dominant_oscillations(force.values, result.interval, force.spectrum, n_oscillations);
         result.forces.push_back(force);

@@ -38,10 +38,10 @@ namespace tread
       fail(file, "line " + std::to_string(line) + ": " + what);
     }
 
-    /// What stands before # or !.
+    /// What stands before one of the signs that programs begin comments with.
     std::string without_comment(const std::string &text)
     {
-      return text.substr(0, text.find_first_of("#!"));
+      return text.substr(0, text.find_first_of("#!%\""));
     }
 
     std::string lower(std::string text)
@@ -87,7 +87,6 @@ namespace tread
     {
       std::vector<Sample> samples;
       std::string         text;
-      bool                heading = false;
       for (unsigned int line = 1; std::getline(in, text); ++line)
         {
           if (line == 1 && text.compare(0, 3, "\xef\xbb\xbf") == 0) // byte order mark
@@ -96,17 +95,16 @@ namespace tread
           if (text.find_first_not_of(" \t\r") == std::string::npos)
             continue;
           const std::vector<double> values = numbers(text);
-          if (values.empty() && samples.empty() && !heading)
-            heading = true;
-          else if (values.size() != 2)
+          if (values.empty() && samples.empty())
+            continue; // a heading
+          if (values.size() != 2)
             fail(file, line, "needs two numbers, in mm");
-          else
-            samples.push_back({1e-3 * values[0], 1e-3 * values[1], line});
+          samples.push_back({1e-3 * values[0], 1e-3 * values[1], line});
         }
       return samples;
     }
 
-    /// MiniProf: lines "name=value", then a table whose first two columns are y and z in mm.
+    /// MiniProf: lines "name=value" or other words, then a table whose first two columns are y and z in mm.
     std::vector<Sample> read_miniprof(const std::string &file, std::istream &in)
     {
       std::vector<Sample> samples;
@@ -117,6 +115,8 @@ namespace tread
           if (text.find('=') != std::string::npos || text.find_first_not_of(" \t\r") == std::string::npos)
             continue;
           const std::vector<double> values = numbers(text);
+          if (values.empty() && samples.empty())
+            continue;
           if (values.size() < 2)
             fail(file, line, "needs at least two numbers, in mm");
           samples.push_back({1e-3 * values[0], 1e-3 * values[1], line});

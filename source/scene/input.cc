@@ -383,4 +383,11 @@ namespace tread
       out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
              dealii::ParameterHandler::KeepDeclarationOrder);
   }
+
+
+  void Scene::print_json(std::ostream &out) const
+  {
+    handler.print_parameters(out,
+                             dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
+  }
 } // namespace tread

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/dynamic_force.h>
 #include <tread/base/csv_table.h>
+#include <tread/base/format.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/scene.h>
 #include <tread/tools/dynamic_force_files.h>
@@ -131,6 +132,20 @@ namespace tread
       return text.str();
     }
 
+    /// What the defect adds should be over when the section ends: a spectrum takes it for one that goes on.
+    std::vector<std::string> doubts(const DynamicForces &dynamic)
+    {
+      constexpr double         large = 0.1; // of the peak
+      std::vector<std::string> list;
+      for (const DynamicForce &force : dynamic.forces)
+        if (const double share = force.at_the_end / std::abs(force.peak); share > large)
+          list.push_back(
+            format("%s still swings by %.0f %% of its peak at the end of the section: its spectrum "
+                   "has side lobes; roll farther, end the section elsewhere or take --window Hann",
+                   force.column.c_str(), 100. * share));
+      return list;
+    }
+
     std::string figures_text(const DynamicForces &dynamic, const DynamicForceRequest &request)
     {
       const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
@@ -147,13 +162,17 @@ namespace tread
       json["frequency_interval_Hz"] = first.interval;
       for (const DynamicForce &force : dynamic.forces)
         {
-          nlohmann::ordered_json &entry = json["forces"][force.column];
-          entry["peak_N"]               = force.peak;
-          entry["peak_time_s"]          = force.peak_time;
-          entry["peak_position_m"]      = force.peak_position;
-          entry["force_at_peak_N"]      = force.force_at_peak;
-          entry["smooth_mean_N"]        = force.smooth_mean;
-          entry["oscillations"]         = nlohmann::ordered_json::array();
+          nlohmann::ordered_json &entry        = json["forces"][force.column];
+          entry["peak_N"]                      = force.peak;
+          entry["largest_increase_N"]          = force.increase;
+          entry["largest_increase_position_m"] = force.increase_position;
+          entry["largest_decrease_N"]          = force.decrease;
+          entry["largest_decrease_position_m"] = force.decrease_position;
+          entry["peak_time_s"]                 = force.peak_time;
+          entry["peak_position_m"]             = force.peak_position;
+          entry["force_at_peak_N"]             = force.force_at_peak;
+          entry["smooth_mean_N"]               = force.smooth_mean;
+          entry["oscillations"]                = nlohmann::ordered_json::array();
           for (const Oscillation &line : force.oscillations)
             {
               nlohmann::ordered_json each = {{"frequency_Hz", line.frequency},
@@ -165,6 +184,7 @@ namespace tread
               entry["oscillations"].push_back(each);
             }
         }
+      json["warnings"] = doubts(dynamic);
       return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
 
@@ -178,12 +198,12 @@ namespace tread
                   request.run.c_str(), request.smooth_twin.c_str(), 1e3 * dynamic.position.front(),
                   1e3 * dynamic.position.back(), 3.6 * dynamic.speed, 1e6 * dynamic.interval,
                   request.window.c_str(), 1e3 * first.record, first.resolution, first.interval, "",
-                  "peak, kN", "at x, mm", "at t, ms", "run, kN",
+                  "most, kN", "at x, mm", "least, kN", "at x, mm",
                   "vibrations: Hz (wavelength mm, logarithmic decrement)");
       for (const DynamicForce &force : dynamic.forces)
         {
-          std::printf("%-24s %10.4g %10.2f %10.4f %10.4g  ", force.column.c_str(), 1e-3 * force.peak,
-                      1e3 * force.peak_position, 1e3 * force.peak_time, 1e-3 * force.force_at_peak);
+          std::printf("%-24s %+10.4g %10.2f %+10.4g %10.2f  ", force.column.c_str(), 1e-3 * force.increase,
+                      1e3 * force.increase_position, 1e-3 * force.decrease, 1e3 * force.decrease_position);
           for (std::size_t i = 0; i < std::min<std::size_t>(3, force.oscillations.size()); ++i)
             {
               const Oscillation &line = force.oscillations[i];
@@ -192,6 +212,8 @@ namespace tread
             }
           std::printf("\n");
         }
+      for (const std::string &doubt : doubts(dynamic))
+        std::printf("WARNING: %s\n", doubt.c_str());
     }
   } // namespace
 

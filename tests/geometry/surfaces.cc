@@ -268,9 +268,14 @@ namespace
         simpack += a + " " + z + " 1.0\n";
       }
     simpack += "point.end\nspline.end\n";
+    // Headings and comments as other programs write them.
+    const std::string words = "Worn rail of line 3\n% measured by hand\n\"Y\" \"Z\"\n",
+                      rows  = miniprof.substr(miniprof.find("61\n") + 3);
     const std::pair<std::string, std::string> formats[] = {{".txt", table},
                                                            {".ban", miniprof},
-                                                           {".prr", simpack}};
+                                                           {".prr", simpack},
+                                                           {".txt", words + table},
+                                                           {".ban", words + rows}};
     for (const auto &[ending, text] : formats)
       {
         const std::string file = "geometry_surfaces" + ending;

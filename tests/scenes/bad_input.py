@@ -4,6 +4,7 @@
 and the results of an earlier run untouched."""
 
 import fcntl
+import json
 import os
 import sys
 import tempfile
@@ -282,6 +283,11 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("and nothing else", len(said) == len(unused))
 
     printed = execute(["--print-parameters", "-s", "Motion/Speed (km per h)=123"], program=program)
+    as_json = json.loads(execute(["--print-parameters=json", "-s", "Motion/Speed (km per h)=123"], program=program).stdout)
+    check.that("--print-parameters=json has the same", as_json["Motion"]["Speed (km per h)"]["value"] == "123")
+    quiet = execute([scene, "--quiet", "--dry-run", "--output", results], program=program)
+    check.that("--quiet says nothing", quiet.returncode == 0 and quiet.stdout == quiet.stderr == "")
+    must_fail("--quiet says what is wrong", base + ["--quiet", "-s", "Motion/Speed (km per h)=-1"], ["Motion/Speed (km per h)", "allowed"])
     check.that("--print-parameters without a scene shows what was set", "set Speed (km per h) " in printed.stdout and "= 123" in printed.stdout)
 
 check.exit()

@@ -112,6 +112,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("contact: when, ms", 1e3 * contact["peak_time_s"], 1e3 * ((BEGIN + 0.3) / SPEED + peak), 0.5e3 * ROW / SPEED + 1e-3)
     check.relative("contact: force of the run at the peak", contact["force_at_peak_N"],
                    blow(peak) + smooth(BEGIN / SPEED + peak), 2e-3)
+    for key, extreme in (("increase", max), ("decrease", min)):
+        when = extreme(times, key=blow)
+        check.relative(f"contact: largest {key}", contact[f"largest_{key}_N"], blow(when), 2e-3)
+        check.absolute(f"contact: largest {key}, where, mm", 1e3 * contact[f"largest_{key}_position_m"], 1e3 * (BEGIN + SPEED * when), 0.5e3 * ROW + 0.01)
     check.relative("contact: mean of the twin", contact["smooth_mean_N"], STATIC, 0.02)
     check.relative("pad: peak", pad["peak_N"], PAD_SHARE * blow(peak), 2e-3)
     check.absolute("pad: later than the contact, ms", 1e3 * (pad["peak_time_s"] - contact["peak_time_s"]),

@@ -27,7 +27,10 @@ namespace tread
     double                   peak;                     ///< the value of largest size, N
     double                   peak_time, peak_position; ///< s, m
     double                   force_at_peak;            ///< of the run, N
-    double                   smooth_mean;              ///< of the smooth twin over the section, N
+    double                   increase, decrease;       ///< largest and least value, N
+    double                   increase_position, decrease_position; ///< m
+    double                   at_the_end;  ///< largest size in the last tenth of the section, N
+    double                   smooth_mean; ///< of the smooth twin over the section, N
     AmplitudeSpectrum        spectrum;
     std::vector<Oscillation> oscillations; ///< at most five
   };

@@ -28,8 +28,8 @@ namespace tread
     std::function<double(double)> line;
   };
 
-  /// A longitudinal profile: two columns, x and z in mm, z up, separated by blanks, commas or semicolons; one
-  /// heading and what stands behind # or ! are passed over.
+  /// A longitudinal profile: two columns, x and z in mm, z up, separated by blanks, commas or semicolons;
+  /// headings, and what stands behind #, !, % or ", are passed over.
   /// @throws std::runtime_error, one line with file and number of the line, where a line has not two numbers,
   /// x does not increase, or a gap is more than five times as long as usual.
   MeasuredLine read_longitudinal_profile(const std::string &file);

@@ -66,6 +66,8 @@ namespace tread
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
+    /// The same as deal.II's JSON: of each the value, the default, the documentation and the pattern.
+    void print_json(std::ostream &out) const;
 
     /// Parameters (Section/Name) that are not what they are without being set.
     std::vector<std::string> changed_parameters() const;
