@@ -91,8 +91,8 @@ namespace
     double largest = 0.;
     for (unsigned int k = 0; k < 6; ++k)
       largest = std::max(largest, std::sqrt(std::abs(modes.eigenvalue(k))) / (2. * pi));
-    // Rounding: K has entries 1e16 times its lowest elastic eigenvalue times mass.
-    check.below(name + ": rigid motions, largest frequency (Hz)", largest, .02);
+    // The root of rounding: K has entries 1e16 times its lowest elastic eigenvalue times mass.
+    check.below(name + ": rigid motions, largest frequency (Hz)", largest, .005);
     check.below(name + ": Phi^T M Phi - 1, largest entry", modes.orthogonality_error(), 1e-8);
   }
 
@@ -227,8 +227,8 @@ namespace
     const WheelHubParameters p = tests::sprung_hub();
     // The rim's spring on the hub is 1e4 times that of the suspension.
     const double relative = std::sqrt(p.suspension_stiffness * (1. / p.mass + 1. / p.sprung_mass));
-    check.below("wheel: turning (Hz)", modes.frequency(0), .02);
-    check.below("wheel: moving up with the sprung mass (Hz)", modes.frequency(1), .02);
+    check.below("wheel: turning (Hz)", modes.frequency(0), .005);
+    check.below("wheel: moving up with the sprung mass (Hz)", modes.frequency(1), .005);
     check.relative("wheel on its suspension (Hz)", modes.frequency(2), relative / (2. * pi), 1e-3);
     check.relative("wheel on its suspension: damping share", modes.damping_share(2),
                    .5 * p.suspension_damping * relative / p.suspension_stiffness, 2e-3);
@@ -319,15 +319,16 @@ namespace
     {
       const char            *what;
       const TrackParameters *pads;
-      double                 x, from, to, sign, hammer;
+      double                 x, from, to, sign, hammer, allowed;
     };
+    // The hammer's lines lie 8 Hz apart and are given in whole Hz; the dip of the sleepers is flat.
     const std::vector<Case> cases{
-      {"over a sleeper: dip of the sleepers", &areas, 0., 300., 600., -1., 401.},
-      {"over a sleeper: peak, rail on pads", &areas, 0., 700., 1000., 1., 871.},
-      {"over a sleeper: pinned-pinned dip", &areas, 0., 1050., 1350., -1., 1214.},
-      {"at mid-span: peak, rail on pads", &areas, .3, 700., 1000., 1., 883.},
-      {"at mid-span: pinned-pinned peak", &areas, .3, 1050., 1200., 1., 1101.},
-      {"at mid-span, points: pinned-pinned peak", &points, .3, 950., 1150., 1., 1075.}};
+      {"over a sleeper: dip of the sleepers", &areas, 0., 300., 600., -1., 401., .02},
+      {"over a sleeper: peak, rail on pads", &areas, 0., 700., 1000., 1., 871., .004},
+      {"over a sleeper: pinned-pinned dip", &areas, 0., 1050., 1350., -1., 1214., .004},
+      {"at mid-span: peak, rail on pads", &areas, .3, 700., 1000., 1., 883., .004},
+      {"at mid-span: pinned-pinned peak", &areas, .3, 1050., 1200., 1., 1101., .004},
+      {"at mid-span, points: pinned-pinned peak", &points, .3, 950., 1150., 1., 1075., .004}};
     std::vector<std::complex<double>> omega;
     for (unsigned int k = 0; k < 160; ++k)
       omega.emplace_back(2. * pi * (200. + 8. * k), -eta);
@@ -342,7 +343,7 @@ namespace
           for (const Case &c : cases)
             if (c.pads == pads && c.x == x)
               check.relative(std::string("60E1, ") + c.what + " (Hz)", cells.extreme(c.from, c.to, c.sign),
-                             c.hammer, .02);
+                             c.hammer, c.allowed);
         }
   }
 

@@ -111,7 +111,7 @@ void run_test(Check &check, const tests::Arguments &)
       const bool   alike  = bars.length[0] == bars.length[1];
       std::printf("%s: energy lost in contact and damping: %.2f %%\n", bars.name.c_str(),
                   100. * impact.energy_loss);
-      check.relative(bars.name + ": stress, MPa", 1e-6 * impact.stress, 1e-6 * stress, 0.02);
+      check.relative(bars.name + ": stress, MPa", 1e-6 * impact.stress, 1e-6 * stress, 5e-4);
       check.relative(bars.name + ": duration, us", 1e6 * impact.duration, 1e6 * duration, 0.02);
       // The solver leaves 1e-7 of the speed of approach over a step, 1e-14 m.
       check.below(bars.name + ": gap of nodes that touch, um", 1e6 * impact.gap, 1e-7);

@@ -202,9 +202,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.that(name + " smallest scaled Jacobian above 0.4", s.scaled_jacobian > 0.4);
       check.that(name + " in the fine zone above 0.95", s.fine_scaled_jacobian > 0.95);
       check.absolute(name + " lowest cell in the fine zone over the asked", s.lowest / zone.finest_cell_size,
-                     1., 0.02);
+                     1., 4e-3);
       check.absolute(name + " highest cell in the fine zone over the asked",
-                     s.highest / zone.finest_cell_size, 1., 0.02);
+                     s.highest / zone.finest_cell_size, 1., 1e-3);
       double begin = 1e300, end = -1e300;
       for (const Mesh::Face &face : mesh.faces)
         if (face.boundary == Boundary::contact)

@@ -75,8 +75,8 @@ namespace
   }
 
   // Both programs solve the same equations, so agreement is limited by CONTACT's tolerance (1e-6) and the
-  // printed digits. The allowed differences below are some ten times what is seen, and far inside what is
-  // asked for between two programs (0.3 %).
+  // printed digits. The allowed differences below are three to ten times what is seen, and far inside what
+  // is asked for between two programs (0.3 %).
   void totals(tread::tests::Check &check)
   {
     std::printf("\n--- totals on five grids; and the time of a solve, for information\n");
@@ -93,7 +93,7 @@ namespace
         check.absolute(name + "Fx [kN]", r.longitudinal_force * 1e-3, mu * 127.1, 1e-4);
         check.below(name + "Fy/Fn", r.lateral_force / r.normal_force, 1e-6);
         check.absolute(name + "adhesion share [points]", 100. * r.adhesion_share,
-                       100. * number(row, "adhesion_share"), 0.05);
+                       100. * number(row, "adhesion_share"), 1.5e-3);
         if (mu > 0.)
           {
             check.relative(name + "creepage [1e-3]", r.creepage * 1e3, number(row, "creepage") * 1e3, 2e-5);
@@ -150,10 +150,11 @@ namespace
         // remain.
         check.that(key + ": the same elements in contact",
                    found == rows.size() && std::abs(r.area / (n * 0.1089e-6) - 1.) < 1e-9);
-        check.below(key + ": pressure, rms [%]", 100. * std::sqrt(pressure / n) * 1e6 / r.max_pressure, 0.01);
-        check.below(key + ": shear, rms [%]", 100. * std::sqrt(shear / n) * 1e6 / r.max_shear, 0.01);
-        check.below(key + ": slip, rms [%]", 100. * std::sqrt(slip / n) / r.max_slip, 0.02);
-        check.below(key + ": slip, worst [%]", 100. * slip_worst / r.max_slip, 0.1);
+        check.below(key + ": pressure, rms [%]", 100. * std::sqrt(pressure / n) * 1e6 / r.max_pressure, 5e-4);
+        check.below(key + ": shear, rms [%]", 100. * std::sqrt(shear / n) * 1e6 / r.max_shear, 5e-4);
+        check.below(key + ": slip, rms [%]", 100. * std::sqrt(slip / n) / r.max_slip, 3e-4);
+        check.below(key + ": slip, worst [%]", 100. * slip_worst / r.max_slip, 2e-3);
+        // One at the border of adhesion may fall to either side.
         check.below(key + ": elements in another state", states, 1.);
 
         // the comparison itself must be able to fail: a shear field 1 % too large is caught
@@ -161,7 +162,7 @@ namespace
         for (std::size_t e = 0; e < r.shear_x.size(); ++e)
           wrong += std::pow(0.01 * r.shear_x[e], 2);
         check.that(key + ": one per cent of error would be caught",
-                   100. * std::sqrt(wrong / n) / r.max_shear > 0.01);
+                   100. * std::sqrt(wrong / n) / r.max_shear > 5e-4);
       }
   }
 
@@ -273,9 +274,9 @@ namespace
         // Asked for: 1 % (of about 1000 MPa). Seen: 0.005 MPa below the surface (printed digits), 0.3 on it
         // (CONTACT's rail "surface" is at 1e-4 mm), where mu030 has its maximum.
         check.relative(name + ": maximum", maximum_ours, maximum, 5e-4);
-        check.below(name + ": worst difference below the surface", worst_below, 0.05);
-        check.below(name + ": worst difference on it", worst_surface, 1.);
-        check.below(name + ": worst difference of xx, zz, xz below it", worst_component, 0.05);
+        check.below(name + ": worst difference below the surface", worst_below, 0.015);
+        check.below(name + ": worst difference on it", worst_surface, 0.6);
+        check.below(name + ": worst difference of xx, zz, xz below it", worst_component, 0.015);
       }
 
     std::printf("\n--- under Hertz pressure on a circle\n");

@@ -169,8 +169,9 @@ namespace
     for (double x = -20.; x < 20.; x += 1e-3)
       sum += 1e-3 * u * beam.deflection(x + 5e-4);
     check.relative("Zimmermann: the foundation carries F", sum, 116.8e3, 1e-6);
+    // half a unit of its last digit
     check.absolute("Zimmermann: critical speed of bare 54E1 [m/s]",
-                   zimmermann_critical_speed(210e9 * 2337.9e-8, u, 54.77), 830., 3.);
+                   zimmermann_critical_speed(210e9 * 2337.9e-8, u, 54.77), 830., 0.5);
   }
 
   /// Refused with one line that names the argument.

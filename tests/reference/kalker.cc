@@ -192,9 +192,9 @@ namespace
     check.relative("FASTSIM: mirror, Fy", a.lateral, -c.lateral, 1e-12);
     const CreepForce s = shen_hedrick_elkins(patch, Creepage{-1.5e-3, 0., 0.}),
                      t = fastsim(patch, Creepage{-1.5e-3, 0., 0.});
-    // two approximations of one law: both claim about 5 % of f N
+    // two approximations of one law: both claim about 5 % of f N, and agree better at this creepage
     check.absolute("FASTSIM beside Shen-Hedrick-Elkins, Fx/(f N)", t.longitudinal / 63.55e3,
-                   s.longitudinal / 63.55e3, 0.05);
+                   s.longitudinal / 63.55e3, 5e-3);
   }
 
   void bad_input(tread::tests::Check &check, const CreepPatch &patch)

@@ -341,7 +341,7 @@ def wheels_on_rails():
                                     ("creepage", "cksi", 2e-5), ("lateral_creepage", "ceta", 2e-5)):
             check.below(name + key, patches[key][case] - wanted[given][row], allowed)
         check.below(name + "spin", patches["spin_per_m"][case] - 1e3 * wanted["cphi_rad_mm"][row], 2e-3)
-        check.relative(name + "largest pressure", patches["max_pressure_MPa"][case], wanted["p_max_MPa"][row], 2e-2)
+        check.relative(name + "largest pressure", patches["max_pressure_MPa"][case], wanted["p_max_MPa"][row], 4e-3)
     check.that("scenes and their results are kept", os.path.exists(path("track/case-2.prm")) and os.path.exists(path("track/case-2/summary.json")))
     bad = command(file_of(*[line.replace("'S1002'", "'S1003'") for line in track_lines()]), "--output", path("bad-track"), "--program", program)
     check.that("what the program refuses is said with its place", bad.returncode == 1 and bad.stderr.count("\n") == 1

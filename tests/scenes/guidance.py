@@ -73,7 +73,7 @@ with tempfile.TemporaryDirectory() as folder:
     # What moves steadily is in balance; the sector of the wheel swings on its hub.
     steady = history["position_m"] > -0.5 * DISTANCE
     check.relative("moved sideways: guidance against contact, N", history["guidance_force_N"][steady].mean(),
-                   -history["lateral_force_N"][steady].mean(), 0.02)
+                   -history["lateral_force_N"][steady].mean(), 6e-3)
     check.that("a wheel that keeps its place has no such columns", "lateral_shift_m" not in history_of(path("still")))
 
     # Yaw, roll and angular velocity: all that the table has arrives at its end where the same position is solved.
@@ -95,7 +95,7 @@ with tempfile.TemporaryDirectory() as folder:
             "Guidance/Yaw stiffness (MN m per rad)": 5}
     run(program, SCENE, path("free"), {**COARSE, **free}, 2)
     history = history_of(path("free"))
-    check.below("free: moves by, um", 1e6 * np.abs(history["lateral_shift_m"]).max(), 0.05)
+    check.below("free: moves by, um", 1e6 * np.abs(history["lateral_shift_m"]).max(), 0.01)
     check.absolute("free: guidance and contact are in balance, share of the load", (history["guidance_force_N"] + history["lateral_force_N"]).mean() / 1e4,
                    0., 3e-3)
     pushed = run(program, SCENE, path("pushed"), {**COARSE, **free, "Guidance/Lateral force (kN)": 10}, 2)

@@ -53,7 +53,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"{name}: maximum pressure, MPa", 1e-6 * answer["max_pressure_Pa"], float(row["max_pressure_MPa"]), 0.003)
         check.relative(f"{name}: patch area, mm2", 1e6 * answer["patch_area_m2"], extrapolated("area_mm2"), 0.003)
         check.relative(f"{name}: creepage, 1e-3", 1e3 * answer["creepage"], 1e3 * extrapolated("creepage"), 0.002)
-        check.absolute(f"{name}: adhesion share, %", 100 * answer["adhesion_share"], 100 * extrapolated("adhesion_share"), 0.3)
+        check.absolute(f"{name}: adhesion share, %", 100 * answer["adhesion_share"], 100 * extrapolated("adhesion_share"), 0.08)
         check.relative(f"{name}: maximum shear stress, MPa", 1e-6 * answer["max_shear_Pa"], extrapolated("max_shear_MPa"), 0.006)
         check.relative(f"{name}: maximum micro-slip, m/s", answer["max_slip_m_per_s"], extrapolated("max_slip_m_per_s"), 0.01)
         check.relative(f"{name}: frictional power, W", answer["frictional_power_W"],
@@ -157,8 +157,9 @@ with tempfile.TemporaryDirectory() as folder:
     # which a block has.
     heavy = ["Vehicle/Sprung mass (kg)=150000", "Mesh/Fine half width (mm)=16", "Motion/Traction coefficient=0.1"]
     wide, crown = reference_only(*heavy), reference_only(*heavy, "Rail/Shape=block", "Rail/Crown radius (mm)=300")
+    # An arc's patch is Hertz's, in closed form.
     check.relative("crown of a block: semi-axis b against Hertz", crown["semi_axis_y_m"],
-                   crown["reference"]["semi_axis_y_m"]["Hertz"]["value"], 0.02)
+                   crown["reference"]["semi_axis_y_m"]["Hertz"]["value"], 1e-9)
     check.that("patch beyond the crown of a head: narrower by more than 5 %",
                wide["semi_axis_y_m"] < 0.95 * crown["semi_axis_y_m"])
     check.that("patch beyond the crown of a head: higher pressure, by more than 0.3 %",

@@ -32,7 +32,7 @@ with tempfile.TemporaryDirectory() as folder:
     x_smooth, force_smooth, _ = history(path("smooth"))
     # Time steps differ a little with the shape of the cells, so rows end up to a step, 8 um, apart.
     check.that("the same cells", dip["cells"] == smooth["cells"])
-    check.below("rows of the history are at the same places, mm", max(abs(a - b) for a, b in zip(x, x_smooth)), 0.02)
+    check.below("rows of the history are at the same places, mm", max(abs(a - b) for a, b in zip(x, x_smooth)), 1e-3)
     static = (900. + 13400.) * 9.81
 
     # The dip begins at -50 mm; a patch of 8 mm semi-axis, twice that for what nodes of the patch's rim feel.
@@ -40,13 +40,13 @@ with tempfile.TemporaryDirectory() as folder:
     before = [a / b - 1. for p, a, b in zip(x, force, force_smooth) if p < begin - 16.]
     check.below("before the dip: force as without it", max(map(abs, before)), 1e-4)
     # It starts from equilibrium; waves of the start and cells of 2.2 mm make it ripple, its mean is the load.
-    check.relative("without it: mean force over the load", sum(force_smooth) / len(force_smooth), static, 0.02)
+    check.relative("without it: mean force over the load", sum(force_smooth) / len(force_smooth), static, 4e-3)
     after = [(p, a / static) for p, a in zip(x, force) if p > begin - 16.]
     least, largest = min(after, key=lambda row: row[1]), max(after, key=lambda row: row[1])
     print(f"least force {least[1]:.3f} at {least[0]:.1f} mm, largest {largest[1]:.3f} at {largest[0]:.1f} mm, share of the load")
     check.that("the force falls by a tenth or more, within the dip", least[1] < 0.9 and begin < least[0] < begin + 30.)
     check.that("it rises by a tenth or more, later", largest[1] > 1.1 and largest[0] > least[0])
-    check.energy("", dip, 0.02)
+    check.energy("", dip, 1e-3)
 
     # The patch is normal to the rail, which leans by 1:40: without friction, by which spin pushes back, the force is, too.
     frictionless = run(program, SCENE, path("frictionless"), [*SHORT, "Contact/Friction coefficient=0"])

@@ -41,8 +41,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("contact force at the start (kN)", 1e-3 * first["normal_force_N"], 1e-3 * LOAD, 5e-3)
     # The wheel passes the middle of a span, and of the rail, at x = -150 mm.
     middle = min(rows, key=lambda row: abs(row["position_m"] + 150e-3))
-    check.absolute("the history begins at the start (mm)", 1e3 * first["position_m"], -159., 0.1)
-    check.absolute("and ends half a cell behind the path (mm)", 1e3 * rows[-1]["position_m"], -140. + 1.25, 0.1)
+    check.absolute("the history begins at the start (mm)", 1e3 * first["position_m"], -159., 0.01)
+    check.absolute("and ends half a cell behind the path (mm)", 1e3 * rows[-1]["position_m"], -140. + 1.25, 0.015)
     check.relative("rolled (mm)", 1e3 * one["rolled_m"], 20. + 1.25, 5e-3)
     for i in range(3):
         check.below(f"wheel at mid-span: supports {-i} and {1 + i} alike, difference over the load",

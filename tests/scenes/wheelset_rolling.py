@@ -88,7 +88,7 @@ with tempfile.TemporaryDirectory() as folder:
     # know. In one plane they do; that plane has no force on the gauge corner's own normal, but the sum along the track, 2.2 kN.
     two = run(program, "curves/two-patches.prm", path("two"), {**QUIET, "Motion/Rolled distance (mm)": 8}, 2)
     share = two["patches"][0]["normal_force_N"] / two["half_space_patches"][0]["normal_force_N"]
-    check.absolute("two patches: force of the smaller over that of a half-space alone", share, 0.515, 0.03)
+    check.absolute("two patches: force of the smaller over that of a half-space alone", share, 0.515, 5e-3)
     check.relative("two patches: vertical force, kN", 1e-3 * two["normal_force_N"], 9900 * 9.81e-3, 3e-3)
     lateral, vertical = force_in_track(two)
     check.relative("two patches: vertical force by the patches' axes", vertical, two["normal_force_N"], 2e-3)
@@ -110,7 +110,7 @@ with tempfile.TemporaryDirectory() as folder:
     summary = read_summary(path("conformal"))
     own, other = summary["patches"][0], summary["half_space_patches"][0]
     check.relative("conformal: largest pressure over the half-space's", own["max_pressure_Pa"] / other["max_pressure_Pa"], 0.89, 0.03)
-    check.relative("conformal: frictional power over the half-space's", own["frictional_power_W"] / other["frictional_power_W"], 1.065, 0.02)
+    check.relative("conformal: frictional power over the half-space's", own["frictional_power_W"] / other["frictional_power_W"], 1.065, 5e-3)
     check.energy("conformal: ", summary, 1e-3)
 
     # Yielding in the root of the flange: the load is carried, and pressure falls to what the steel bears.
