@@ -331,14 +331,14 @@ def main():
     for way in ways:
         if way not in WAYS:
             sys.exit(f"no way '{way}': {'; '.join(WAYS)}")
-    rows, summaries = rows_on_the_page(), []
+    made, summaries = {}, []
     for case in CASES:
         if case.name in wanted:
-            if ways == list(WAYS):
-                rows = {key: row for key, row in rows.items() if key[0] != case.name}
             of_case, of_runs = rows_of_case(case, arguments.results, ways)
-            rows.update({(case.name, way): row for way, row in of_case.items()})
+            made.update({(case.name, way): row for way, row in of_case.items()})
             summaries += of_runs
+    kept = {key: row for key, row in rows_on_the_page().items() if key[0] not in wanted or ways != list(WAYS)}
+    rows = {**kept, **made}
     table = []
     for case in CASES:
         first = [case.name, case.hard, case.expected]
