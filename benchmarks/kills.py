@@ -2,137 +2,176 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs that are killed at random instants and resumed: is anything lost, are the bits the same?
 
-A run on 1, 2 and 3 ranks is killed (SIGKILL, which no program can answer): all its processes at once, or one rank of several. It
-writes checkpoints all the time, so that many kills meet one that is being written. Then it is resumed on as many ranks and, from
-a copy of what the kill left, on another number. Its history and its patch are compared with those of a run that nothing
-interrupted: on as many ranks every bit, on another number the largest difference. Fills a table of doc/stability.md.
+A reproducible run with three levels of time steps on 1, 2 or 3 ranks is killed (SIGKILL, which no program can answer): all its processes at once, or one
+rank of several. The kill comes at a random row of the history, before the first one too, and every second time when next a file is being written. The run
+writes a checkpoint every 100 steps. Then it is resumed on as many ranks and, from a copy of what the kill left, on another number; without a
+checkpoint it is begun anew in the same folder. All its tables and the figures of its summary must be those of a run on one rank that nothing interrupted, to the last bit.
+
+Fills a table of doc/stability.md. Kills are drawn by number from the seed; those listed in RESULTS/kills.csv are not repeated.
 """
 
+import csv
+import glob
 import os
 import random
 import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
 from tread.commands import command_parser, run_command
-from tread.files import Error, read_summary, read_table
-from tread.runs import arguments_of, command, environment, execute, own_line
+from tread.differences import other_bits
+from tread.files import Error
+from tread.runs import ROOT, Run, arguments_of, command, environment, execute, must_end_well, own_line
 from tread.tables import fill, markdown, provenance
 
 SCENE = "smooth-rolling.prm"
-SETTINGS = {"Mesh/Finest cell (mm)": 2.6, "Motion/Rolled distance (mm)": 20, "Output/Checkpoint interval (minutes)": 0.001,
-            "Output/Write volume": False, "Contact/Tolerance": 1e-12, "Time stepping/Levels": 1}
-FILES = ("history.csv", "patch.csv", "patch_averaged.csv")
-SAME_ON_OTHER_RANKS = 1e-7  # of the largest value of a column: the order of sums
+SETTINGS = {"Scene/Reproducible": True, "Scene/Density scale": 1, "Time stepping/Levels": 3, "Mesh/Finest cell (mm)": 2.6, "Start/Tolerance": 1e-3,
+            "Motion/Rolled distance (mm)": 4, "Output/History interval (mm)": 0.05, "Output/Surface interval (mm)": 1, "Output/Write volume": False,
+            "Output/Checkpoint interval (minutes)": 1e-6}  # looked at every 100 steps
+PATIENCE = 600  # seconds, after which a run hangs
+SAME = "same bits"
+COLUMNS = ("number", "ranks", "killed", "row", "cut_short", "checkpoint", "as_many_ranks", "other_ranks", "on_other_ranks", "version")
 
 
-def processes_of(launcher):
+def is_alive(number):
+    """Whether a process is there and not a zombie, which has no program."""
+    return os.path.exists(f"/proc/{number}/exe")
+
+
+def ranks_below(launcher):
     """Numbers of the program's processes below mpirun, or the program itself."""
     below = subprocess.run(["pgrep", "-P", str(launcher)], capture_output=True, text=True, check=False).stdout.split()
     return [int(number) for number in below] or [launcher]
 
 
-def start_and_kill(folder, ranks, seconds, one_rank):
-    process = subprocess.Popen(command(arguments_of(SCENE, SETTINGS, folder), ranks), env=environment(), start_new_session=True,
+def rows_in(path):
+    try:
+        with open(path, "rb") as stream:
+            return stream.read().count(b"\n") - 1
+    except OSError:
+        return -1
+
+
+def half_written(folder):
+    return sorted(os.path.basename(path).removesuffix(".part") for path in glob.glob(os.path.join(folder, "*.part")))
+
+
+def wait_until(process, condition):
+    while process.poll() is None and not condition():
+        time.sleep(2e-4)
+
+
+def start_and_kill(folder, ranks, row, one_rank, at_a_file, draw):
+    """Whether the kill came before the end. @param row of the history after which it comes; below 0: before the first"""
+    process = subprocess.Popen(command(arguments_of(SCENE, SETTINGS, folder), ranks), env=environment(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(seconds)
-    if process.poll() is None:
-        if one_rank:
-            os.kill(random.choice(processes_of(process.pid)), signal.SIGKILL)
-        else:
-            os.killpg(process.pid, signal.SIGKILL)
+    wait_until(process, lambda: ranks == 1 or ranks_below(process.pid) != [process.pid])
+    if row < 0:
+        time.sleep(draw.random())
+    else:
+        wait_until(process, lambda: rows_in(os.path.join(folder, "history.csv")) >= row)
+        time.sleep(0.01 * draw.random())
+    of_program = ranks_below(process.pid)
+    if at_a_file:
+        wait_until(process, lambda: half_written(folder))
+    in_time = process.poll() is None
+    if in_time:
+        for number in [draw.choice(of_program)] if one_rank else [*of_program, process.pid]:
+            try:
+                os.kill(number, signal.SIGKILL)
+            except ProcessLookupError:  # mpirun has ended it, as another one is dead
+                pass
     process.wait()
+    while any(is_alive(number) for number in of_program):
+        time.sleep(0.01)
+    return in_time
 
 
-def text_of(folder, name):
-    with open(os.path.join(folder, name), encoding="utf-8") as stream:
-        return stream.read()
+def outcome(folder, whole, ranks, more=()):
+    """What becomes of a run that goes on, or begins anew."""
+    try:
+        result = execute([*arguments_of(SCENE, SETTINGS, folder), *more], ranks, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return f"LOST: hangs after {PATIENCE} s"
+    if result.returncode:
+        return f"LOST: {own_line(result.stderr) or f'exit code {result.returncode}'}"
+    differ = other_bits(Run(folder), whole)
+    return f"OTHER BITS: {' '.join(differ)}" if differ else SAME
 
 
-def same_bits(folder, whole):
-    return all(text_of(folder, name) == text_of(whole, name) for name in FILES)
-
-
-def difference(folder, whole):
-    """Largest difference of a column of history.csv, of its largest value."""
-    found, expected = (read_table(os.path.join(path, "history.csv")) for path in (folder, whole))
-    worst = 0.
-    for name in expected:
-        if len(found[name]) != len(expected[name]):
-            return float("inf")
-        scale = max(abs(value) for value in expected[name]) or 1.
-        worst = max(worst, max(abs(a - b) for a, b in zip(found[name], expected[name])) / scale)
-    return worst
-
-
-def resume(folder, ranks):
-    """"" when it went on to the end, else the line with which it refused."""
-    result = execute([*arguments_of(SCENE, SETTINGS, folder), "--resume"], ranks)
-    return "" if result.returncode == 0 else own_line(result.stderr) or f"exit code {result.returncode}"
-
-
-def trial(folder, whole, ranks, seconds, one_rank):
-    """(what became of it, difference on another number of ranks or None)"""
+def trial(number, seed, folder, whole, rows):
+    """A row of kills.csv, or None if the run ended before the kill."""
+    draw = random.Random(f"{seed} {number}")
+    ranks = number % 3 + 1
+    one_rank, at_a_file = ranks > 1 and number // 3 % 2 == 1, number // 6 % 2 == 1
+    row = draw.randint(-rows // 6, rows)
+    other = draw.choice([count for count in (1, 2, 3) if count != ranks])
     run, copy = os.path.join(folder, "run"), os.path.join(folder, "copy")
     for path in (run, copy):
         shutil.rmtree(path, ignore_errors=True)
-    start_and_kill(run, ranks, seconds, one_rank)
-    if not os.path.exists(os.path.join(run, "checkpoint.last")):
-        return "before the first checkpoint", None
-    shutil.copytree(run, copy)
-    if refused := resume(run, ranks):
-        return f"LOST: {refused}", None
-    if not same_bits(run, whole[ranks]):
-        return "OTHER BITS", None
-    other = ranks % 3 + 1
-    if refused := resume(copy, other):
-        return f"LOST on {other} ranks: {refused}", None
-    return "same bits", difference(copy, whole[ranks])
+    if not start_and_kill(run, ranks, row, one_rank, at_a_file, draw):
+        return None
+    cut_short = half_written(run) if os.path.isdir(run) else []
+    checkpoint = os.path.exists(os.path.join(run, "checkpoint.last"))
+    if checkpoint:
+        shutil.copytree(run, copy)
+    went = [outcome(path, whole, count, ["--resume"] if checkpoint else []) for path, count in ((run, ranks), (copy, other))]
+    return dict(zip(COLUMNS, (number, ranks, "one rank" if one_rank else "all at once", row, " ".join(cut_short), "yes" if checkpoint else "no", went[0],
+                              other, went[1], whole.summary["version"])))
+
+
+def counted(kills):
+    """Rows of the page's table."""
+    rows = []
+    for ranks, killed in sorted({(kill["ranks"], kill["killed"]) for kill in kills}):
+        own = [kill for kill in kills if (kill["ranks"], kill["killed"]) == (ranks, killed)]
+        went = [kill[name] for kill in own for name in ("as_many_ranks", "on_other_ranks")]
+        counts = [len(own), sum(bool(kill["cut_short"]) for kill in own), sum(kill["checkpoint"] == "no" for kill in own),
+                  *(sum(kill["checkpoint"] == "yes" and kill[name] == SAME for kill in own) for name in ("as_many_ranks", "on_other_ranks")),
+                  sum(one.startswith("LOST") for one in went), sum(one.startswith("OTHER") for one in went)]
+        rows.append([ranks, killed, *map(str, counts)])
+    totals = [str(sum(int(row[i]) for row in rows)) for i in range(2, len(rows[0]))]
+    return rows + [["all", "", *totals]]
 
 
 def main():
     parser = command_parser(__doc__)
-    parser.add_argument("--instants", type=int, default=100, help="number of kills (100)")
+    parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/kills"))
+    parser.add_argument("--instants", type=int, default=100, help="number of kills, with those that are there (100)")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     if arguments.instants < 1:
         raise Error("--instants must be at least 1")
-    random.seed(arguments.seed)
-    rows, bad = {}, []
-    with tempfile.TemporaryDirectory() as folder:
-        whole, lasts = {}, {}
-        for ranks in (1, 2, 3):
-            whole[ranks] = os.path.join(folder, f"whole-{ranks}")
-            began = time.monotonic()
-            result = execute(arguments_of(SCENE, SETTINGS, whole[ranks]), ranks)
-            if result.returncode:
-                raise Error(own_line(result.stderr) or "the run that nothing interrupts has failed")
-            lasts[ranks] = time.monotonic() - began
-        for number in range(arguments.instants):
-            ranks = number % 3 + 1
-            one_rank = ranks > 1 and number % 2 == 0
-            became, apart = trial(folder, whole, ranks, random.uniform(0., lasts[ranks]), one_rank)
-            row = rows.setdefault((ranks, one_rank), {"kills": 0, "before": 0, "same": 0, "bad": 0, "apart": 0.})
-            row["kills"] += 1
-            row["before"] += became.startswith("before")
-            row["same"] += became == "same bits"
-            row["apart"] = max(row["apart"], apart or 0.)
-            if became not in ("same bits", "before the first checkpoint") or row["apart"] > SAME_ON_OTHER_RANKS:
-                row["bad"] += 1
-                bad.append(f"{number}: {became}, {apart}")
-            print(f"{number + 1}: {ranks} ranks{', one of them' if one_rank else ''}: {became}"
-                  + (f", on another number within {apart:.0e}" if apart is not None else ""), flush=True)
-        summary = read_summary(whole[1])
-    table = [[str(ranks), "one rank" if one_rank else "all at once", str(row["kills"]), str(row["before"]), str(row["same"]),
-              str(row["bad"]), f"{row['apart']:.0e}"] for (ranks, one_rank), row in sorted(rows.items())]
-    fill("stability.md", "kills", markdown(["ranks", "killed", "kills", "before the first checkpoint", "resumed to the same bits",
-                                            "lost or other bits", "resumed on another number of ranks, largest difference"], table)
-         + "\n\n" + provenance(f"benchmarks/kills.py --instants {arguments.instants}", [summary]))
+    os.makedirs(arguments.results, exist_ok=True)
+    listed, whole = os.path.join(arguments.results, "kills.csv"), Run(os.path.join(arguments.results, "whole"))
+    must_end_well(execute(arguments_of(SCENE, SETTINGS, whole.folder)))
+    kills = []
+    if os.path.exists(listed):
+        with open(listed, encoding="utf-8", newline="") as stream:
+            kills = list(csv.DictReader(stream))
+    number = int(kills[-1]["number"]) if kills else 0
+    with open(listed, "a", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
+        if not kills:
+            writer.writeheader()
+        while len(kills) < arguments.instants:
+            number += 1
+            kill = trial(number, arguments.seed, arguments.results, whole, rows_in(whole.path("history.csv")))
+            if kill is None:
+                continue
+            writer.writerow(kill)
+            stream.flush()
+            kills.append({name: str(value) for name, value in kill.items()})
+            print(", ".join(f"{name} {value}" for name, value in kills[-1].items()), flush=True)
+    fill("stability.md", "kills", markdown(
+        ["ranks", "killed", "kills", "of them while a file was written", "before the first checkpoint, begun anew", "resumed on as many ranks to the same bits",
+         "on another number", "lost", "other bits"], counted(kills))
+         + "\n\n" + provenance(f"benchmarks/kills.py --instants {arguments.instants}", kills))
+    bad = [kill["number"] for kill in kills if {kill["as_many_ranks"], kill["on_other_ranks"]} != {SAME}]
     if bad:
-        sys.exit("; ".join(bad))
+        sys.exit(f"lost or with other bits: kills {', '.join(bad)} of {listed}")
 
 
 if __name__ == "__main__":

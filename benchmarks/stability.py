@@ -16,14 +16,15 @@ from dataclasses import dataclass, field
 from tread.commands import command_parser, run_command
 from tread.files import read_table
 from tread.measured_runs import run_scene
-from tread.runs import ROOT, ProgramError
+from tread.runs import ROOT, ProgramError, version_of
 from tread.tables import fill, markdown, provenance, rows_of
 
-SMOOTH = "smooth-rolling.prm"
+SMOOTH, DIP = "smooth-rolling.prm", "tutorial/dip.prm"
 COARSE = {"Mesh/Finest cell (mm)": 1.3, "Motion/Rolled distance (mm)": 15, "Output/Write volume": "false"}
 WAYS = {"0.5": (0.5, 1), "0.95": (0.95, 1), "0.95, 3 ranks": (0.95, 3)}  # Courant number, ranks
 SAME_ON_RANKS = 1e-5  # of the load and of the largest pressure
 RESIDUAL = 0.05  # of what was dissipated, where friction or yielding dissipates; else of the gross work
+WARNED_RESIDUAL = 0.02  # the default of 'Watchdogs/Energy residual': above it a run must say so itself
 
 
 @dataclass
@@ -37,6 +38,7 @@ class Case:
     stops: str = ""  # pattern of the line with which it must stop
     warns: str = ""  # pattern of a warning that it must give
     residual: float = RESIDUAL
+    same_on_ranks: float = SAME_ON_RANKS
     ways: tuple = tuple(WAYS)
 
 
@@ -74,6 +76,30 @@ def load(expected, allowed):
     return check
 
 
+def newton(allowed, least_force):
+    """What the normal force lacks of the load is what the wheel's acceleration takes, on the mean over a run. @param allowed of the load, in %
+    @param least_force over the load, so that the wheel is carried and does not fall"""
+    def check(summary, folder):
+        history = read_table(os.path.join(folder, "history.csv"))
+        lacks = history["normal_force_N"].mean() / LOAD - 1
+        rest = lacks - UNSPRUNG * history["axle_box_acceleration_m_per_s2"].mean() / LOAD
+        at_end = summary["normal_force_N"] / LOAD
+        return f"{100 * lacks:+.1f} % on the mean, without that {100 * rest:+.2f} %, {at_end:.2f} loads at the end", abs(100 * rest) <= allowed and at_end >= least_force
+    return check
+
+
+def like_one_level(case_settings):
+    """Plastic work, settlement and stress that stays, beside those of the same run with one level."""
+    def check(summary, folder):
+        twin = folder + "-one-level"
+        one = run_scene(SMOOTH, twin, {**COARSE, **case_settings, "Time stepping/Levels": 1}, 1)
+        last, of_twin = (read_table(os.path.join(path, "passages.csv")) for path in (folder, twin))
+        work = 100 * (summary["plastic_work_J"] / one["plastic_work_J"] - 1)
+        worst = max(100 * abs(last[key][-1] / of_twin[key][-1] - 1) for key in ("settlement_um", "residual_von_mises_MPa"))
+        return f"settlement and stress within {worst:.2f} %, plastic work {work:+.1f} %", worst <= 0.5 and abs(work) <= 1.
+    return check
+
+
 def leaves_the_rail(least_peak):
     """Lifts off and lands: no force at some time, and later a peak of so many loads."""
     def check(summary, folder):
@@ -84,8 +110,22 @@ def leaves_the_rail(least_peak):
     return check
 
 
-LOAD = 14300 * 9.81  # N, of the smooth scene
+def flies(longest, allowed):
+    """Time without force (s), allowed below the longest as a share, and a harder landing than standing."""
+    def check(summary, _):
+        found = summary["airborne_s"]
+        return f"{1e3 * found:.3f} ms in the air, peak {summary['largest_normal_force_over_static']:.2f} loads", \
+            1 - allowed <= found / longest <= 1 and summary["largest_normal_force_over_static"] > 1.2
+    return check
+
+
+LOAD, UNSPRUNG = 14300 * 9.81, 900.  # N and kg, of the smooth scene
 TRACK_LOAD = 116.8e3  # N, of the tutorial's track
+SOFT = {"Rail/Tangent modulus (GPa)": 0.1, "Mesh/Fine half width (mm)": 14}
+SMALL = {"Wheel/Radius (mm)": 50, "Wheel/Mass (kg)": 20, "Wheel/Moment of inertia (kg m2)": 0.1, "Vehicle/Wheel load (kN)": 5, "Wheel/Sector thickness (mm)": 20,
+         "Wheel/Sector margin (mm)": 12, "Motion/Speed (km per h)": 40}
+FALLING = {"Contact/Friction law": "falling", "Contact/Friction memory (mm)": 0.3, "Motion/Creepage": 0.1}
+RESIDUAL_STRESS = {"Motion/Passages": 2, "Rail/Yield stress (MPa)": 500, "Wheel/Yield stress (MPa)": 500, "Time stepping/Levels": 3}
 PRESSURE = against("max_pressure_Pa", "half-space", 4.)
 CASES = [
     Case("smooth", "nothing: the scale for all others", "pressure of the half-space within 4 %", check=PRESSURE),
@@ -103,6 +143,13 @@ CASES = [
          check=traction(-0.5, 0.001)),
     Case("braking", "forces change sign", "traction -0.300 within 0.006", settings={"Motion/Traction coefficient": -0.3},
          check=traction(-0.3, 0.006)),
+    Case("falling friction, no memory", "from 0.5 to 0.2 at once: slip begins to oscillate by itself", "a warning", settings={**FALLING, "Contact/Friction memory (mm)": 0}, warns="chatters",
+         same_on_ranks=3e-3),  # rounding decides about single oscillations
+    Case("falling friction", "the same after 0.3 mm of slip, at a creepage of 0.1", "traction of the half-space within 2 %: twice its own uncertainty", settings=FALLING,
+         check=against("traction_coefficient", "half-space", 2.)),
+    Case("locked wheel", "creepage -1", "is refused", settings={"Motion/Creepage": -1}, stops="allowed: .* from -0.2 to 0.2"),
+    Case("reversed", "rolls backwards", "is refused", settings={"Motion/Speed (km per h)": -140}, stops="allowed: 0 to 1000"),
+    Case("standing", "speed 0", "is refused", settings={"Motion/Speed (km per h)": 0}, stops="a wheel that stands does not roll"),
     Case("1 km/h", "14 000 steps for 4 mm", "pressure of the half-space within 4 %", settings={
         "Motion/Speed (km per h)": 1, "Motion/Rolled distance (mm)": 4}, check=PRESSURE),
     Case("500 km/h", "inertia and the speed of waves", "pressure of the half-space within 4 %", settings={
@@ -111,57 +158,68 @@ CASES = [
         "Wheel/Young's modulus (GPa)": 21, "Wheel/Sector thickness (mm)": 120, "Scene/Density scale": 4, "Motion/Traction coefficient": 0, "Motion/Creepage": 0, "Wheel/Sector margin (mm)": 60,
         "Rail/Margin (mm)": 60}, check=PRESSURE),
     Case("rubber wheel", "Young's moduli 1:100: the patch outgrows head and sector", "stops and says why", settings={
-        "Wheel/Young's modulus (GPa)": 2.1, "Scene/Density scale": 1, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, stops="."),
-    Case("nu 0.49, one-point", "nearly incompressible", "pressure of Hertz within 5 %", settings={
+        "Wheel/Young's modulus (GPa)": 2.1, "Scene/Density scale": 1, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, stops="'Rail/Margin .mm.' 60 lets the wheel leave the rail"),
+    Case("nu 0.49, one-point", "nearly incompressible", "pressure of Hertz within 4 %", settings={
         "Wheel/Poisson's ratio": 0.49, "Rail/Poisson's ratio": 0.49, "Motion/Traction coefficient": 0, "Motion/Creepage": 0},
-         check=against("max_pressure_Pa", "Hertz", 5.)),
+         check=against("max_pressure_Pa", "Hertz", 4.)),
     Case("nu 0.49, fully integrated", "such cells lock: the pressure would be 33 % too high", "is refused", settings={
         "Wheel/Poisson's ratio": 0.49, "Solid/Element": "fully-integrated"}, stops="locks"),
     Case("nu 0.45, fully integrated", "on the verge of locking, with levels", "pressure of Hertz within 5 %", settings={
         "Wheel/Poisson's ratio": 0.45, "Rail/Poisson's ratio": 0.45, "Solid/Element": "fully-integrated", "Motion/Traction coefficient": 0,
         "Motion/Creepage": 0}, check=against("max_pressure_Pa", "Hertz", 5.)),
-    Case("nearly no hardening", "flow at 300 MPa, a fifth of the pressure, tangent modulus 0.1 GPa", "carries the load within 15 %: flow at the start sets the wheel swinging", settings={
-        "Rail/Yield stress (MPa)": 300, "Rail/Tangent modulus (GPa)": 0.1, "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 15.)),
+    Case("nearly no hardening, driving", "flow at 300 MPa, tangent modulus 0.1 GPa: 0.3 of the load over Hertz's patch is 277 MPa of shear, the steel yields at 173",
+         "stops and names the cell", settings={**SOFT, "Rail/Yield stress (MPa)": 300}, stops="of the rail has a strain of"),
+    Case("nearly no hardening", "the same at 400 MPa, 0.43 of the mean pressure, without traction: the wheel sinks as it rolls", "what the force lacks is 900 kg times the acceleration "
+         "within 1 % of the load, the cells' own motion; at least 0.9 loads", settings={
+             **SOFT, "Rail/Yield stress (MPa)": 400, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, check=newton(1., 0.9), warns="contact carries"),
     Case("both flow", "the same steel in wheel and rail", "carries the load within 3 %, or says that it cannot", settings={
         "Rail/Yield stress (MPa)": 300, "Rail/Tangent modulus (GPa)": 0.1, "Wheel/Yield stress (MPa)": 300, "Wheel/Tangent modulus (GPa)": 0.1,
         "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 3.), stops="no equilibrium|leaves what is meshed|has folded"),
-    Case("yield at a tenth", "flow at 140 MPa, a tenth of the pressure", "carries the load within 5 %", settings={
-        "Rail/Yield stress (MPa)": 140, "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 5.)),
+    Case("yield at a tenth", "flow at 140 MPa, a tenth of the pressure", "what the force lacks is 900 kg times the acceleration within 1 % of the load; at least 0.9 loads", settings={
+        "Rail/Yield stress (MPa)": 140, "Mesh/Fine half width (mm)": 14}, check=newton(1., 0.9), warns="contact carries"),
+    Case("levels over residual stress", "the second wheel rolls on stress that the first one left, with three levels", "settlement and stress of one level within 0.5 %, plastic work within 1 %",
+         settings=RESIDUAL_STRESS, check=like_one_level(RESIDUAL_STRESS)),
     *(Case(f"{levels} levels", "no scaled density, no mass damping", "pressure of the half-space within 4 %", settings={
         "Scene/Density scale": 1, "Scene/Quasi-static": "false", "Solid/Mass damping (1 per s)": 0, "Time stepping/Levels": levels},
-           check=PRESSURE) for levels in (1, 2, 3, 4, 6)),
+           check=PRESSURE) for levels in (1, 2, 3, 4, 5, 6)),
     Case("density times 100", "an inertia error of 1.7 %", "pressure of the half-space within 4 %", settings={"Scene/Density scale": 100}, check=PRESSURE),
     Case("density times 100, 200 km/h", "an inertia error of 3.5 %", "is refused", settings={
         "Scene/Density scale": 100, "Motion/Speed (km per h)": 200}, stops="inertia error"),
-    Case("small wheel", "100 mm, 5 kN", "pressure of the half-space within 5 %", settings={
-        "Wheel/Radius (mm)": 50, "Wheel/Mass (kg)": 20, "Wheel/Moment of inertia (kg m2)": 0.1, "Vehicle/Wheel load (kN)": 5, "Wheel/Sector thickness (mm)": 20,
-        "Wheel/Sector margin (mm)": 12, "Mesh/Finest cell (mm)": 0.35, "Motion/Rolled distance (mm)": 6, "Motion/Speed (km per h)": 40},
-         check=against("max_pressure_Pa", "half-space", 5.)),
+    Case("small wheel", "100 mm, 5 kN", "pressure of the half-space within 2 %", settings={**SMALL, "Mesh/Finest cell (mm)": 0.35, "Motion/Rolled distance (mm)": 6},
+         check=against("max_pressure_Pa", "half-space", 2.)),
+    Case("cells of 0.2 mm", "the same wheel, four cells to the shorter semi-axis", "pressure of the half-space within 2 %", settings={
+        **SMALL, "Mesh/Finest cell (mm)": 0.2, "Motion/Rolled distance (mm)": 3}, check=against("max_pressure_Pa", "half-space", 2.)),
     Case("large wheel", "2000 mm", "pressure of the half-space within 4 %", settings={"Wheel/Radius (mm)": 1000}, check=PRESSURE),
-    Case("light wheel", "nothing rests on 50 kg of wheel", "pressure of the half-space within 5 %", settings={
+    Case("light wheel", "nothing rests on 50 kg of wheel", "pressure of the half-space within 2 %", settings={
         "Wheel/Mass (kg)": 50, "Wheel/Moment of inertia (kg m2)": 5, "Vehicle/Wheel load (kN)": 30, "Mesh/Finest cell (mm)": 0.8,
-        "Motion/Rolled distance (mm)": 10}, check=against("max_pressure_Pa", "half-space", 5.)),
+        "Motion/Rolled distance (mm)": 10}, check=against("max_pressure_Pa", "half-space", 2.)),
     Case("hourglass 0.01", "modes without stiffness", "pressure within 4 %, or a warning", settings={"Solid/Hourglass coefficient": 0.01}, check=PRESSURE),
     Case("hourglass 10", "modes far too stiff", "a warning", settings={"Solid/Hourglass coefficient": 10}, warns="ourglass"),
-    Case("mass damping 1e5", "motion is held back", "a warning", settings={"Solid/Mass damping (1 per s)": 1e5}, warns="damping"),
+    Case("mass damping 1e5", "motion is held back", "a warning", settings={"Solid/Mass damping (1 per s)": 1e5}, warns="damping",
+         residual=0.06),  # power that fades in 25 steps is sampled every 50: the error falls with the square of the step
     Case("thin sector", "3 mm of wheel", "says so", settings={"Wheel/Sector thickness (mm)": 3, "Mesh/Fine layers": 1}, warns="thick"),
     Case("off the fine zone", "the patch flows beyond the finest cells", "stops and says where", settings={
         "Rail/Yield stress (MPa)": 100, "Rail/Tangent modulus (GPa)": 0.5, "Mesh/Fine half width (mm)": 9}, stops="leaves what is meshed"),
     Case("torque above friction", "the wheel would spin up", "is refused", settings={
         "Motion/Drive": "torque", "Motion/Traction coefficient": 0.6, "Motion/Hold distance (mm)": 5}, stops="below 'Contact/Friction coefficient'"),
-    Case("dip at 300 km/h", "5 mm deep, 100 mm long: flies and lands", "no force for a time, then more than two loads", scene="tutorial/dip.prm", settings={
+    Case("dip at 300 km/h", "5 mm deep, 100 mm long: flies and lands", "no force for a time, then more than two loads", scene=DIP, settings={
         "Defect/Depth (mm)": 5, "Defect/Length (mm)": 100, "Defect/Width (mm)": 40, "Motion/Speed (km per h)": 300, "Motion/Rolled distance (mm)": 200,
         "Defect/Position (mm)": -160, "Mesh/Fine to (mm)": 150, "Mesh/Fine half width (mm)": 16, "Output/Write volume": "false"}, check=leaves_the_rail(2.)),
     Case("sharp edge at 200 km/h", "0.5 mm deep, 20 mm long, kinks at its ends", "the wheel bridges it: the force falls below 0.3 and rises above 1.1 loads",
-         scene="tutorial/dip.prm", settings={"Defect/Depth (mm)": 0.5, "Defect/Length (mm)": 20, "Motion/Speed (km per h)": 200,
+         scene=DIP, settings={"Defect/Depth (mm)": 0.5, "Defect/Length (mm)": 20, "Motion/Speed (km per h)": 200,
                                              "Output/Write volume": "false"},
          check=lambda summary, folder: edge_forces(folder)),
+    Case("gap at 200 km/h", "1 mm deep and 40 mm in diameter: the wheel flies over it and lands on its edge", "at most 0.316 ms in the air and 10 % less, then above 1.2 loads", scene=DIP, settings={
+        "Defect/Depth (mm)": 1, "Defect/Length (mm)": 40, "Defect/Width (mm)": 40, "Motion/Speed (km per h)": 200, "Output/Write volume": "false"},
+         check=flies(0.316e-3, 0.1)),
+    Case("slivers", "rail cells of 147 x 15 x 5 mm before and behind the path", "pressure of the half-space within 4 %", scene=DIP, settings={
+        "Defect/Shape": "none", "Mesh/Longest row (mm)": 1000, "Rail/Margin (mm)": 500, "Motion/Rolled distance (mm)": 30, "Output/Write volume": "false"}, check=PRESSURE),
     Case("a million steps", "error that adds up, at 1 km/h with the true density", "force steady to 0.1 %, what a ripple of 2 % leaves in its means; traction 0.300 within 0.006", settings={
         "Mesh/Finest cell (mm)": 2.6, "Motion/Speed (km per h)": 1, "Scene/Density scale": 1, "Motion/Rolled distance (mm)": 96,
         "Output/History interval (mm)": 0.5}, check=steady(0.1), ways=("0.95",)),
-    Case("soft ballast and stiff pads", "2 and 3000 MN/m", "carries the load within 3 %", scene="tutorial/track.prm", settings={
+    Case("soft ballast and stiff pads", "2 and 3000 MN/m", "carries the load within 1 %", scene="tutorial/track.prm", settings={
         "Track/Ballast stiffness (MN per m)": 2, "Track/Pad stiffness (MN per m)": 3000, "Motion/Rolled distance (mm)": 20},
-         check=load(TRACK_LOAD, 3.), ways=("0.95", "0.95, 3 ranks")),
+         check=load(TRACK_LOAD, 1.), ways=("0.95", "0.95, 3 ranks")),
     Case("two sweeps", "contact is not solved to its tolerance", "a warning", settings={"Contact/Largest number of sweeps": 2}, warns="tolerance"),
     Case("no stiffness damping", "micro-slip chatters", "a warning", settings={
         "Solid/Stiffness damping (time steps)": 0, "Time stepping/Levels": 1}, warns="no stiffness damping"),
@@ -204,63 +262,94 @@ def judge(case, summary, line, folder):
     """What came, and whether it is right."""
     if summary is None:
         return f"stops: {line}", bool(case.stops and re.search(case.stops, line))
-    warned = [warning for warning in summary["warnings"] + summary["assumptions"] if case.warns and re.search(case.warns, warning)]
-    if case.warns and warned:
-        return f"warns: {warned[0]}", True
-    if case.check is None:
-        return "ends without a word", False
-    came, right = case.check(summary, folder)
-    return came, right and abs(residual(summary)) <= case.residual
+    words = summary["warnings"] + summary["assumptions"]
+    warned = [word for word in words if case.warns and re.search(case.warns, word)]
+    energy = abs(residual(summary))
+    right = energy <= case.residual and (energy <= WARNED_RESIDUAL or any("not accounted for" in word for word in words))
+    came = []
+    if case.check:
+        found, as_expected = case.check(summary, folder)
+        came.append(found)
+        right = right and as_expected
+    if warned:
+        came.append(f"warns: {warned[0]}")
+    if energy > WARNED_RESIDUAL:
+        came.append("warns of the residual" if any("not accounted for" in word for word in words) else "says nothing of the residual")
+    return "; ".join(came) or "ends without a word", right and bool(case.check or warned)
 
 
-def rows_of_case(case, results):
-    """Rows of the table, and the summaries."""
-    rows, summaries, one_rank = [], [], None
-    for way in case.ways:
+def hash_in(version):
+    """What is in brackets: "0.1.0 (5d3a853)"."""
+    found = re.search(r"\((.*)\)", version or "")
+    return found[1] if found else "unknown"
+
+
+def rows_of_case(case, results, ways):
+    """{way: cells of the table} and the summaries."""
+    rows, summaries = {}, []
+    folder_of = lambda way: os.path.join(results, re.sub(r"\W+", "-", f"{case.name} {way}"))
+    for way in [way for way in case.ways if way in ways]:
         courant, ranks = WAYS[way]
-        folder = os.path.join(results, re.sub(r"\W+", "-", f"{case.name} {way}"))
-        summary, line = roll(case, folder, courant, ranks)
-        came, right = judge(case, summary, line, folder)
-        if summary and ranks == 1:
-            one_rank = summary
-        elif summary and one_rank:
+        summary, line = roll(case, folder_of(way), courant, ranks)
+        came, right = judge(case, summary, line, folder_of(way))
+        if summary and ranks > 1:
+            one_rank, _ = roll(case, folder_of(str(courant)), courant, 1)
             worst = max(abs(summary[key] / one_rank[key] - 1) for key in ("normal_force_N", "max_pressure_Pa") if one_rank[key])
             came += f"; {worst:.0e} from one rank"
-            right = right and worst <= SAME_ON_RANKS
-        first = [case.name, case.hard, case.expected] if not rows else ["", "", ""]
-        energy = [f"{100 * residual(summary):+.2f} %", f"{100 * summary['hourglass_of_internal_energy']:.1f} %"] if summary else ["", ""]
-        rows.append([*first, way, came, *energy, "yes" if right else "**NO**"])
-        print(" | ".join(rows[-1]), flush=True)
+            right = right and worst <= case.same_on_ranks
+        shares = [f"{100 * share:+.2f} %" if i == 0 else f"{100 * share:.1f} %" for i, share in enumerate(
+            (residual(summary), summary["hourglass_of_internal_energy"], summary["slip_chatter_share"]))] if summary else ["", "", ""]
+        rows[way] = [came, *shares, "yes" if right else "**NO**", hash_in(summary["version"] if summary else version_of())]
+        print(" | ".join([case.name, way, *rows[way]]), flush=True)
         if summary:
             summaries.append(summary)
-        elif "Courant" in case.name or case.stops:  # what is refused is refused in any way
+        elif case.stops:  # what is refused is refused in any way
             break
     return rows, summaries
+
+
+def rows_on_the_page():
+    """{(case, way): cells} as they are."""
+    rows, name = {}, None
+    for row in rows_of("stability.md", "stability"):
+        name = row[0] or name
+        rows[name, row[3]] = row[4:]
+    return rows
 
 
 def main():
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/stability"))
-    parser.add_argument("--cases", help="only these, separated by commas; the others keep their rows")
+    parser.add_argument("--cases", help="only these, separated by semicolons; the others keep their rows")
+    parser.add_argument("--ways", help=f"only these, of {'; '.join(WAYS)}; the others keep their rows")
     arguments = parser.parse_args()
-    wanted = arguments.cases.split(",") if arguments.cases else [case.name for case in CASES]
+    wanted = [name.strip() for name in arguments.cases.split(";")] if arguments.cases else [case.name for case in CASES]
     for name in wanted:
         if name not in [case.name for case in CASES]:
-            sys.exit(f"no case '{name}': {', '.join(case.name for case in CASES)}")
-    of_case, name = {}, None
-    for row in rows_of("stability.md", "stability"):
-        name = row[0] or name
-        of_case.setdefault(name, []).append(row)
-    summaries, failed = [], False
+            sys.exit(f"no case '{name}': {'; '.join(case.name for case in CASES)}")
+    ways = [way.strip() for way in arguments.ways.split(";")] if arguments.ways else list(WAYS)
+    for way in ways:
+        if way not in WAYS:
+            sys.exit(f"no way '{way}': {'; '.join(WAYS)}")
+    made, summaries = {}, []
     for case in CASES:
         if case.name in wanted:
-            of_case[case.name], of_runs = rows_of_case(case, arguments.results)
+            of_case, of_runs = rows_of_case(case, arguments.results, ways)
+            made.update({(case.name, way): row for way, row in of_case.items()})
             summaries += of_runs
-            failed = failed or any("NO" in row[-1] for row in of_case[case.name])
+    kept = {key: row for key, row in rows_on_the_page().items() if key[0] not in wanted or ways != list(WAYS)}
+    rows = {**kept, **made}
+    table = []
+    for case in CASES:
+        first = [case.name, case.hard, case.expected]
+        for way in case.ways:
+            if (case.name, way) in rows:
+                table.append([*first, way, *rows[case.name, way]])
+                first = ["", "", ""]
     fill("stability.md", "stability", markdown(
-        ["case", "what is hard", "expected", "Courant number", "came", "residual", "hourglass", "as expected"],
-        [row for case in CASES for row in of_case.get(case.name, [])]) + "\n\n" + provenance("benchmarks/stability.py", summaries)
-         + (" Other cases are of earlier versions." if arguments.cases else ""))
+        ["case", "what is hard", "expected", "Courant number", "came", "residual", "hourglass", "chatter", "as expected", "version"], table)
+         + "\n\n" + provenance("benchmarks/stability.py", summaries))
+    failed = [row for row in table if "NO" in row[-2]]
     return 1 if failed else 0
 
 

@@ -24,6 +24,7 @@ import tread
 from package_test import InFolder, write
 from tread import plots
 from tread.defects import extents_of_defects
+from tread.differences import other_bits
 from tread.pictures import history, impact, mesh
 from tread.runs import ROOT
 from tread.vtu import read_pieces
@@ -190,6 +191,17 @@ class Comparison(OfRuns):
             self.assertAlmostEqual(rows[name]["relative_difference"], 0.1, msg=name)
         self.assertEqual(rows["creepage"]["difference"], 0)
         self.assertEqual((rows["zero"]["difference"], rows["zero"]["relative_difference"]), (0.5, None))
+
+    def test_other_bits(self):
+        last_bit = float(np.nextafter(2.0, 3.0))
+        a = self.write_run("a", {"wall_s": 1.0, "ranks": 1, "work_J": 2.0})
+        b = self.write_run("b", {"wall_s": 2.0, "ranks": 3, "work_J": 2.0})
+        self.assertEqual(other_bits(a, b), [])
+        self.write_run("c", {"work_J": last_bit, "more_J": 1.0})
+        with open(self.path("c", "patch.csv"), "a", encoding="utf-8") as stream:
+            stream.write("\n")
+        os.remove(self.path("c", "history.csv"))
+        self.assertEqual(other_bits(a, tread.Run("c")), ["history.csv", "patch.csv", "more_J", "work_J"])
 
     def test_the_command(self):
         self.write_run("a"), self.write_run("b", scale=1.1)

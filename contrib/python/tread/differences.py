@@ -14,6 +14,7 @@ numpy is imported where patches are compared.
 from __future__ import annotations
 
 import csv
+import filecmp
 import os
 
 from .files import frame_or_rows
@@ -32,6 +33,14 @@ def figures_of(value: object, name: str = "") -> dict[str, float]:
     entries = value.items() if isinstance(value, dict) else enumerate(value, 1) if isinstance(value, list) else ()
     return {key: number for own, entry in entries if not str(own).startswith(OF_THE_MACHINE)
             for key, number in figures_of(entry, f"{name}/{own}" if name else str(own)).items()}
+
+
+def other_bits(run_a: Run, run_b: Run) -> list[str]:
+    """What is not the same to the last bit: tables of either run, by their bytes, and figures of the summary, but for those of the machine."""
+    tables = {name for run in (run_a, run_b) for name in os.listdir(run.folder) if name.endswith(".csv")}
+    figures_a, figures_b = figures_of(run_a.summary), figures_of(run_b.summary)
+    return sorted(name for name in tables if not (run_a.has(name) and run_b.has(name) and filecmp.cmp(run_a.path(name), run_b.path(name), shallow=False))) \
+        + sorted(name for name in {**figures_a, **figures_b} if figures_a.get(name) != figures_b.get(name))
 
 
 def row(name: str, a: float, b: float, difference: float | None = None) -> dict[str, object]:
