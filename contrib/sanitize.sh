@@ -5,8 +5,9 @@
 #   contrib/sanitize.sh tests         unit tests of seconds, all in build-sanitize/ under the sanitizers
 #   contrib/sanitize.sh scenes [WORD] each shipped scene for some steps, likewise; only those whose path has the word
 #   contrib/sanitize.sh checkpoints   runs resumed from forged checkpoints, likewise
+#   contrib/sanitize.sh threads       data races in the half-space library, in build-threads/: a minute
 #   contrib/sanitize.sh llvm READER   the fuzzer of LLVM, in build-llvm/: needs clang-14 and libclang-rt-14-dev
-#   contrib/sanitize.sh               readers, tests, scenes and checkpoints
+#   contrib/sanitize.sh               readers, tests, scenes, checkpoints and threads
 # Whatever is found ends with an exit status that is not 0. doc/sanitizers.md says what is covered.
 # TREAD_JOBS     compilers and tests at a time (default: the number of processors)
 # TREAD_EFFORT   factor on the numbers of files (default 1); TREAD_SEED other files (default 1)
@@ -69,6 +70,13 @@ check_checkpoints()
   build-sanitize/tests/fuzz/fuzz_checkpoint $((100 * effort)) "$TREAD_SEED" > /dev/null
 }
 
+check_threads()
+{
+  cmake --preset threads > /dev/null
+  cmake --build build-threads -j "$jobs" --target reference_threads
+  TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1" build-threads/tests/reference_threads
+}
+
 # The rest of the program is that of build/.
 check_llvm()
 {
@@ -83,12 +91,13 @@ check_llvm()
 }
 
 case ${1:-all} in
-  readers | tests | scenes | checkpoints | llvm) "check_$1" "${@:2}" ;;
+  readers | tests | scenes | checkpoints | threads | llvm) "check_$1" "${@:2}" ;;
   all)
     check_readers
     check_tests
     check_scenes
     check_checkpoints
+    check_threads
     ;;
   *)
     sed -n '2,/^set/{/^#/p}' "$0" >&2

@@ -10,6 +10,7 @@ import tempfile
 import numpy as np
 
 from tread import hertz
+from tread.contact_examples import OF_ELEMENTS, of_inputs
 from tread.contact_inp import read_cases, solve_case
 from tread.creep_table import FORCE, FRICTION, POISSON, SHEAR
 from tread.files import DataError, read_table
@@ -97,19 +98,19 @@ def creep_table():
 
 
 def printed_examples():
-    """Figures that CONTACT prints for its own examples, with four digits: Carter's problem, lateral creepage with spin, Cattaneo's sphere."""
-    carter = one(kinematics="35780 -0.00024 0 0", kind="3", area="55 1 -1.05 0 0.04 200", gap=("1 1", "0.001 0 0 0 0 0"))
-    for key, wanted in (("longitudinal_force_N", 6955.), ("max_pressure_MPa", 113.9), ("approach_mm", 0.006492), ("adhesion_share", 0.6),
-                        ("frictional_power_of_elements_W", 47.62)):
-        check.relative("Carter: " + key, carter[key], wanted, 5e-4)
-    check.that("a row of elements has no border across", not carter["reaches_border"])
-    spin = one(kinematics="82000 0 -0.000625 0.000625", area="44 44 8 4 1.1")
-    for key, wanted in (("lateral_force_N", -14940.), ("spin_moment_Nm", -48.21), ("approach_mm", 0.09266), ("frictional_power_of_elements_W", 540.4),
-                        ("adhesion_share", 356 / 1276)):
-        check.relative("spin: " + key, spin[key], wanted, 5e-4)
-    sphere = one(pbtnfs="200100", kinematics="9.1954 0 0 0", friction="0.4 0.4", poisson="0.42 0.42 200 200", area="19 19 1 1 1.26667")
-    for key, wanted in (("max_pressure_MPa", 4.393), ("approach_mm", 0.01998), ("patch_area_mm2", 177 * 0.1333337**2), ("adhesion_share", 1.)):
-        check.relative("normal problem: " + key, sphere[key], wanted, 5e-4)
+    """All that CONTACT prints of its own examples, with three to five digits: 0.05 %, which is half of the last one of four. Ertz and Knothe's elements
+    are not known; at a creepage of 1e-5 two elements slip."""
+    for _, name, quantity, given, computed in of_inputs():
+        allowed = 1e-3 if name.startswith("Ertz") or name.endswith("1e-05") else 5e-4
+        if quantity in OF_ELEMENTS.values():
+            # Three digits.
+            check.absolute(f"{name}: {quantity}", computed, given, 6e-3 * abs(given))
+        elif given:
+            check.relative(f"{name}: {quantity}", computed, given, allowed)
+        else:
+            check.absolute(f"{name}: {quantity}", computed, given, 1e-9)
+    row = one(kinematics="35780 -0.00024 0 0", kind="3", area="55 1 -1.05 0 0.04 200", gap=("1 1", "0.001 0 0 0 0 0"))
+    check.that("a row of elements has no border across", not row["reaches_border"])
 
 
 def same(name, one_answer, other, allowed=1e-9):

@@ -354,27 +354,39 @@ with tempfile.TemporaryDirectory() as folder:
             stream.write("x_mm,y_mm,z_mm\n")
             np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -depth.ravel()]), "%.9g", ",")
         base = {"Motion/Rolled distance (mm)": 40, "Motion/Start (mm)": -60, "Output/Write volume": "false"}
+        far = {**base, "Motion/Rolled distance (mm)": 58}
         mapped = {**base, "Defect/Shape": "map", "Defect/Profile file": path("map.csv"), "Defect/Length (mm)": 0, "Defect/Depth (mm)": 0}
-        cap = run(program, "tutorial/dip.prm", path("cap"), {**base, **dip})
-        scanned = run(program, "tutorial/dip.prm", path("scanned"), mapped)
-        smooth = run(program, "tutorial/dip.prm", path("no dip"), {**base, "Defect/Shape": "none"})
-        forces = [np.array(table(path(name), "history.csv")["normal_force_N"]) for name in ("cap", "scanned", "no dip")]
-        load = smooth["normal_force_N"]
-        check.below("height map against the dip: normal force, largest difference over the dip's own", np.abs(forces[1] - forces[0]).max()
-                    / np.abs(forces[0] - forces[2]).max(), 1e-4)
-        check.that("the dip matters", np.abs(forces[0] - forces[2]).max() > 0.05 * load)
+
+        def force(name, settings):
+            """(rows,) of a run"""
+            run(program, "tutorial/dip.prm", path(name), settings)
+            return np.array(table(path(name), "history.csv")["normal_force_N"])
+
+        cap, scanned, smooth = force("cap", {**base, **dip}), force("scanned", mapped), force("no dip", {**far, "Defect/Shape": "none"})
+        own = np.abs(cap - smooth[:len(cap)]).max()
+        # The map is wrong only where the dip's edge has its kink, by a tenth of a micrometre at nodes that carry next to nothing there: 9e-8 of the
+        # force, and 1e-9 where the map has 0.05 mm across as well.
+        check.below("height map against the dip: normal force, largest difference over the dip's own", np.abs(scanned - cap).max() / own, 1e-6)
+        check.that("the dip matters", own > 0.05 * smooth.mean())
         with open(path("step.csv"), "w", encoding="utf-8") as stream:
             stream.write("x_mm,y_mm,z_mm\n")
             np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -0.1 - depth.ravel()]), "%.9g", ",")
         fails("a map with a step at its border", arguments_of("tutorial/dip.prm", [
             f"{key}={value}" for key, value in {**mapped, "Defect/Profile file": path("step.csv")}.items()], path("step")), ["Defect/Profile file", "a step"])
 
-        # Several alike.
-        run(program, "tutorial/dip.prm", path("two"), {**base, **dip, "Defect/Length (mm)": 12, "Defect/Repeated at (mm)": "-36", "Mesh/Fine to (mm)": 60})
-        two = np.array(table(path("two"), "history.csv")["normal_force_N"])
+        # Two alike, 34 mm apart where the patch is 16 mm long, on one mesh. Up to the second one the force is that of the first alone; then the
+        # second adds its own to what the first has left of vibrations, but for Hertz's law, which is not linear: 1.2 % of the peak at this
+        # depth, 2.1 % at twice the depth.
+        shallow, place = {**far, **dip, "Defect/Length (mm)": 12, "Defect/Depth (mm)": 0.01}, -16
+        first, both = force("first", shallow), force("two", {**shallow, "Defect/Repeated at (mm)": place})
+        second = force("second", {**shallow, "Defect/Position (mm)": place, "Mesh/Fine from (mm)": -64, "Mesh/Fine to (mm)": 26})
         x = 1e3 * np.array(table(path("two"), "history.csv")["position_m"])
-        off = np.abs(two - forces[2][:len(two)])
-        check.that("two dips: the second one matters as well", off[(x > -50) & (x < -38)].max() > 0.05 * load and off[x > -34].max() > 0.05 * load)
+        before, behind, peak = x < place - 14, x > place, np.abs(first - smooth).max()
+        check.below("two dips: force before the second one, difference from one alone over its peak", np.abs(both - first)[before].max() / peak, 1e-5)
+        check.below("two dips: forces less the sum of each alone, over the peak", np.abs(both - first - second + smooth).max() / peak, 0.015)
+        check.relative("two dips: peak of the second beside the same alone", np.abs(both - first)[behind].max() / peak,
+                       np.abs(second - smooth)[behind].max() / peak, 0.01)
+        check.that("which the sum needs both for", np.abs(second - smooth).max() > 0.9 * peak and np.abs(both - first).max() > 0.9 * peak)
         for name, settings, words in (("dips that overlap", {"Defect/Repeated at (mm)": "-40"}, ["Defect/Repeated at (mm)", "overlap"]),
                                       ("a dip beyond the rail", {"Defect/Repeated at (mm)": "900"}, ["Defect/Repeated at (mm)", "outside the rail"]),
                                       ("a dip beside the cubes", {"Defect/Repeated at (mm)": "20"}, ["Defect/Repeated at (mm)", "Mesh/Fine from (mm)"])):
