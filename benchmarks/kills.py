@@ -23,7 +23,7 @@ import time
 from tread.commands import command_parser, run_command
 from tread.differences import other_bits
 from tread.files import Error
-from tread.runs import ROOT, Run, arguments_of, command, environment, execute, must_end_well, own_line
+from tread.runs import ROOT, Run, arguments_of, command, environment, execute, must_end_well, own_line, processes_below
 from tread.tables import fill, markdown, provenance
 
 SCENE = "smooth-rolling.prm"
@@ -42,8 +42,7 @@ def is_alive(number):
 
 def ranks_below(launcher):
     """Numbers of the program's processes below mpirun, or the program itself."""
-    below = subprocess.run(["pgrep", "-P", str(launcher)], capture_output=True, text=True, check=False).stdout.split()
-    return [int(number) for number in below] or [launcher]
+    return processes_below(launcher) or [launcher]
 
 
 def rows_in(path):

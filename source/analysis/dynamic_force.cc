@@ -138,9 +138,9 @@ namespace tread
           return std::abs(a) < std::abs(b);
         };
         const auto        begin = force.values.begin(), end = force.values.end();
-        const std::size_t largest = std::max_element(begin, end, by_size) - begin,
-                          upmost  = std::max_element(begin, end) - begin,
-                          lowest  = std::min_element(begin, end) - begin;
+        const std::size_t upmost  = std::max_element(begin, end) - begin,
+                          lowest  = std::min_element(begin, end) - begin,
+                          largest = by_size(force.values[upmost], force.values[lowest]) ? lowest : upmost;
         force.increase            = force.values[upmost];
         force.decrease            = force.values[lowest];
         force.increase_position   = result.position[upmost];

@@ -90,16 +90,15 @@ namespace tread
   }
 
 
-  void join_hdf5_pictures(const std::string &path, const std::vector<std::string> &paths)
+  void join_hdf5_pictures(const std::string                                      &path,
+                          const std::vector<std::pair<std::string, std::string>> &pictures)
   {
     using namespace hdf5;
     const Handle file(create(path), H5Fclose);
-    for (std::size_t i = 0; i < paths.size(); ++i)
+    for (const auto &[group, alone] : pictures)
       {
-        std::ostringstream name;
-        name << std::setfill('0') << std::setw(4) << i;
-        const Handle picture(H5Fopen(paths[i].c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-        check(H5Ocopy(picture, "/", file, name.str().c_str(), H5P_DEFAULT, H5P_DEFAULT));
+        const Handle picture(H5Fopen(alone.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+        check(H5Ocopy(picture, "/", file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT));
       }
     check(H5Fflush(file, H5F_SCOPE_GLOBAL));
   }

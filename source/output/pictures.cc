@@ -201,21 +201,21 @@ namespace tread
       {
         if (series->files.empty())
           continue;
-        const std::string        joined = std::string(stem) + ".h5";
-        std::vector<std::string> paths, grids;
+        const std::string                                joined = std::string(stem) + ".h5";
+        std::vector<std::pair<std::string, std::string>> pictures;
+        std::vector<std::string>                         grids;
         for (std::size_t i = 0; i < series->files.size(); ++i)
           {
-            const std::string alone = series->files[i].second + ":/",
-                              group = joined + ":/" + alone.substr(alone.rfind('-') + 1, 4) + "/";
-            paths.push_back(path(series->files[i].second));
-            std::string grid = series->grids[i];
-            for (std::size_t at = grid.find(alone); at != std::string::npos; at = grid.find(alone, at))
-              grid.replace(at, alone.size(), group);
-            grids.push_back(grid);
+            const std::string &alone  = series->files[i].second;
+            const std::size_t  number = alone.rfind('-') + 1;
+            const std::string  group  = alone.substr(number, alone.rfind('.') - number);
+            pictures.emplace_back(group, path(alone));
+            grids.push_back(
+              std::regex_replace(series->grids[i], std::regex(alone + ":/"), joined + ":/" + group + "/"));
           }
-        write_through(joined, [&](const std::string &path) { join_hdf5_pictures(path, paths); });
+        write_through(joined, [&](const std::string &path) { join_hdf5_pictures(path, pictures); });
         write(std::string(stem) + ".xdmf", xdmf_collection(stem, grids));
-        for (const std::string &alone : paths)
+        for (const auto &[group, alone] : pictures)
           std::filesystem::remove(alone);
       }
   }

@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/crc.hpp>
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <sys/file.h>
@@ -219,36 +218,27 @@ namespace tread
   }
 
 
-  std::uint32_t checksum(const std::string &content)
-  {
-    boost::crc_32_type crc;
-    crc.process_bytes(content.data(), content.size());
-    return crc.checksum();
-  }
-
-
   void RunFolder::open_table(const std::string &name, const std::string &header, const TableMarks *kept)
   {
-    std::string text = header + "\n";
-    if (kept && kept->count(name) > 0)
-      {
-        const TableMark &mark = kept->at(name);
-        text                  = text_of(name).substr(0, mark.size);
-        if (text.size() != mark.size || checksum(text) != mark.checksum)
-          throw InputError("--resume: '" + path(name) +
-                           "' is not what it was when the checkpoint was made: rows are missing or changed");
-      }
+    const TableMark  *mark  = kept && kept->count(name) > 0 ? &kept->at(name) : nullptr;
+    const std::string text  = mark ? text_of(name).substr(0, mark->size) : header + "\n";
+    GrowingTable     &table = growing[name];
+    table.count(text);
+    if (mark && (table.size != mark->size || table.checksum.checksum() != mark->checksum))
+      throw InputError("--resume: '" + path(name) +
+                       "' is not what it was when the checkpoint was made: rows are missing or changed");
     write(name, text);
-    growing[name].open(path(name), std::ios::app);
+    table.file.open(path(name), std::ios::app);
   }
 
 
   void RunFolder::append_to(const std::string &name, const std::string &rows)
   {
-    std::ofstream &table = growing.at(name);
-    table << rows << std::flush;
-    if (!table)
+    GrowingTable &table = growing.at(name);
+    table.file << rows << std::flush;
+    if (!table.file)
       throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+    table.count(rows);
   }
 
 
@@ -256,10 +246,7 @@ namespace tread
   {
     TableMarks marks;
     for (const auto &[name, table] : growing)
-      {
-        const std::string text = text_of(name);
-        marks[name]            = {text.size(), checksum(text)};
-      }
+      marks[name] = {table.size, table.checksum.checksum()};
     return marks;
   }
 

@@ -24,6 +24,13 @@ namespace tread
     /// of each value by itself.
     constexpr const char *layout = "tread-checkpoint-16";
 
+    std::uint32_t checksum(const std::string &content)
+    {
+      boost::crc_32_type crc;
+      crc.process_bytes(content.data(), content.size());
+      return crc.checksum();
+    }
+
     /// A text with its size before it.
     std::string with_size(const std::string &text)
     {

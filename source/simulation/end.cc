@@ -396,12 +396,20 @@ namespace tread
   }
 
 
+  std::vector<std::string> Simulation::doubts_at_start() const
+  {
+    std::vector<std::string> doubts;
+    for (const std::string &doubt : {unseen_detail(), slow_step()})
+      if (!doubt.empty())
+        doubts.push_back(doubt);
+    return doubts;
+  }
+
+
   void Simulation::add_doubts(std::vector<std::string> &warnings) const
   {
-    if (const std::string unseen = unseen_detail(); !unseen.empty())
-      warnings.push_back(unseen);
-    if (const std::string slow = slow_step(); !slow.empty())
-      warnings.push_back(slow);
+    for (const std::string &doubt : doubts_at_start())
+      warnings.push_back(doubt);
     // What the torque aims at comes when the wheel has gathered the creepage for it.
     constexpr double far_from_aim = 0.05; // of it
     if (scene.motion.drive == Drive::torque && !scene.has_impacts())

@@ -445,9 +445,8 @@ namespace tread
     std::uint64_t n_steps = dynamics.n_steps + remaining_steps();
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
                         (unsigned long long)(n_steps - dynamics.n_steps), 1e3 * (end_position - position())));
-    for (const std::string &doubt : {slow_step(), unseen_detail()})
-      if (!doubt.empty())
-        progress.say("WARNING: " + doubt);
+    for (const std::string &doubt : doubts_at_start())
+      progress.say("WARNING: " + doubt);
     // mpirun gives its ranks a second to end after Ctrl-C.
     EverySoManySteps look_at_signals{10, dynamics.n_steps}, check{100, dynamics.n_steps + 100};
     Pace             pace{progress.seconds(), dynamics.n_steps, progress.seconds(),

@@ -9,6 +9,7 @@
 
 #include "boxes.h"
 #include "check.h"
+#include "temporary_folder.h"
 #include <boost/iostreams/device/back_inserter.hpp>
 #include <boost/iostreams/filter/zlib.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
@@ -22,9 +23,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <regex>
@@ -34,32 +33,11 @@
 using namespace tread;
 using dealii::Point;
 using tests::Side;
+using tests::TemporaryFolder;
+using tests::text_of_file;
 
 namespace
 {
-  /// Is there as long as the object.
-  struct TemporaryFolder
-  {
-    const std::string path =
-      (std::filesystem::temp_directory_path() / ("tread-output-files-" + std::to_string(getpid()))).string();
-
-    TemporaryFolder()
-    {
-      std::filesystem::create_directories(path);
-    }
-    ~TemporaryFolder()
-    {
-      std::filesystem::remove_all(path);
-    }
-  };
-
-  std::string text_of_file(const std::string &name)
-  {
-    std::ifstream file(name);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-
-
   /// The numbers of an array of a VTU file, each of this type.
   template <typename Number>
   std::vector<double> numbers(const std::string &encoded)

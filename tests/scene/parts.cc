@@ -13,18 +13,17 @@
 #include <deal.II/base/numbers.h>
 
 #include "check.h"
-#include <unistd.h>
+#include "temporary_folder.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <memory>
 #include <string>
 #include <vector>
 
 using namespace tread;
+using tests::TemporaryFolder;
 using dealii::Point;
 
 namespace
@@ -40,29 +39,6 @@ namespace
     scene->read("", all);
     return scene;
   }
-
-  /// For profiles and maps; is there as long as the object.
-  struct TemporaryFolder
-  {
-    const std::string path =
-      (std::filesystem::temp_directory_path() / ("tread-scene-parts-" + std::to_string(getpid()))).string();
-
-    TemporaryFolder()
-    {
-      std::filesystem::create_directories(path);
-    }
-    ~TemporaryFolder()
-    {
-      std::filesystem::remove_all(path);
-    }
-
-    /// @returns where it is
-    std::string write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(path + "/" + name) << text;
-      return path + "/" + name;
-    }
-  };
 
   constexpr double round_off = 1e-12;
   const Settings   block{"Rail/Shape=block"};

@@ -106,10 +106,11 @@ def pictures_have_the_tables(name, folder):
     check.that(f"{name}: the wheel's displacement is without its rolling", 10. < np.abs(volume["displacement_um"][wheel]).max() < 1000.)
     origin = volume["points"] - 1e-6 * volume["displacement_um"]
     rail = volume["cells"][volume["body"] == 0]
+    stresses = ["von_mises_MPa"] + [f"stress_{component}_MPa" for component in ("xx", "yy", "zz", "xy", "yz", "zx")]
     for file, names, places, fields in (
             ("rail_surface.csv", ["u_x_um", "u_y_um", "u_z_um"], origin[rail.ravel()], volume["displacement_um"][rail.ravel()]),
-            ("rail_cells.csv", ["von_mises_MPa"] + [f"stress_{c}_MPa" for c in ("xx", "yy", "zz", "xy", "yz", "zx")], origin[rail].mean(axis=1),
-             np.column_stack([volume[field][volume["body"] == 0] for field in ["von_mises_MPa"] + [f"stress_{c}_MPa" for c in ("xx", "yy", "zz", "xy", "yz", "zx")]]))):
+            ("rail_cells.csv", stresses, origin[rail].mean(axis=1),
+             np.column_stack([volume[field][volume["body"] == 0] for field in stresses]))):
         rows = table(folder, file)
         wanted = 1e-3 * np.column_stack([rows[f"{axis}_mm"] for axis in "xyz"])
         values = np.column_stack([rows[column] for column in names])

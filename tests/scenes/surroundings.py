@@ -11,7 +11,7 @@ import tempfile
 import time
 
 from tread.files import read_summary
-from tread.runs import ROOT, arguments_of, command, environment, execute
+from tread.runs import ROOT, arguments_of, command, environment, execute, processes_below
 from tread_runner import Check, run
 
 program = sys.argv[1]
@@ -68,7 +68,7 @@ with tempfile.TemporaryDirectory() as folder:
     # One rank of three is stopped for a while: the others wait for it, and the answer is the same.
     process = start(path("waits"), long, ranks=3, start_new_session=True)
     wait_for(path("waits/history.csv"), process)
-    ranks = [int(number) for number in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()]
+    ranks = processes_below(process.pid)
     check.that("mpirun has started three ranks", len(ranks) == 3)
     os.kill(ranks[1], signal.SIGSTOP)
     time.sleep(0.5)
@@ -80,7 +80,7 @@ with tempfile.TemporaryDirectory() as folder:
     # One rank is killed: the run ends, and says nothing that looks like success.
     process = start(path("killed"), long, ranks=3, start_new_session=True)
     wait_for(path("killed/history.csv"), process)
-    ranks = [int(number) for number in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()]
+    ranks = processes_below(process.pid)
     os.kill(ranks[2], signal.SIGKILL)
     process.communicate(timeout=120)
     check.that("a rank that is killed: no success, and no summary", process.returncode != 0 and not os.path.exists(path("killed/summary.json")))

@@ -10,14 +10,12 @@
 
 #include "check.h"
 #include "reopened.h"
+#include "temporary_folder.h"
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -192,26 +190,20 @@ namespace
   template <typename Call>
   std::string printed(const Call &call)
   {
-    const std::string name =
-      (std::filesystem::temp_directory_path() / ("tread-estimate-" + std::to_string(getpid()))).string();
+    const tests::TemporaryFolder folder;
+    const std::string            name = folder.path + "/printed";
     std::fflush(stdout);
-    const int   screen = dup(STDOUT_FILENO);
-    std::FILE  *file   = std::fopen(name.c_str(), "w+");
-    std::string text;
+    const int  screen = dup(STDOUT_FILENO);
+    std::FILE *file   = std::fopen(name.c_str(), "w+");
     if (screen < 0 || file == nullptr)
-      return text;
+      return "";
     dup2(fileno(file), STDOUT_FILENO);
     call();
     std::fflush(stdout);
     dup2(screen, STDOUT_FILENO);
     close(screen);
     std::fclose(file);
-    {
-      std::ifstream stream(name);
-      text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-    }
-    std::filesystem::remove(name);
-    return text;
+    return tests::text_of_file(name);
   }
 
   /// With the scale s of the density a run needs 1/sqrt(s) of the steps. What the start takes is the same: it

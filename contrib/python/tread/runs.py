@@ -96,6 +96,11 @@ def execute(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM, **
     return subprocess.run(command(arguments, ranks, program), **{"env": environment(), "capture_output": True, "text": True, **options})
 
 
+def processes_below(launcher: int) -> list[int]:
+    """Numbers of the processes that a process has started: the ranks of mpirun."""
+    return [int(number) for number in subprocess.run(["pgrep", "-P", str(launcher)], capture_output=True, text=True, check=False).stdout.split()]
+
+
 def must_end_well(result: subprocess.CompletedProcess) -> subprocess.CompletedProcess:
     """@raises ProgramError unless the exit code of an ended process is 0"""
     if result.returncode:

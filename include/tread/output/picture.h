@@ -2,7 +2,6 @@
 #ifndef tread_output_picture_h
 #define tread_output_picture_h
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -65,9 +64,10 @@ namespace tread
   /// std::runtime_error
   void write_hdf5_picture(const std::string &path, const Picture &picture);
 
-  /// One file with the pictures of several: groups 0000, 0001, ... @param paths of these. @throws
+  /// One file with the pictures of several. @param pictures name of the group and path of each. @throws
   /// std::runtime_error
-  void join_hdf5_pictures(const std::string &path, const std::vector<std::string> &paths);
+  void join_hdf5_pictures(const std::string                                      &path,
+                          const std::vector<std::pair<std::string, std::string>> &pictures);
 
   /// How XDMF describes such a picture. @param place of its data: file name, a colon, and a group that ends
   /// with a slash; @param time s

@@ -9,6 +9,7 @@
 #include <tread/output/picture.h>
 #include <tread/output/records.h>
 
+#include <boost/crc.hpp>
 #include <mpi.h>
 
 #include <cstdint>
@@ -30,9 +31,6 @@ namespace tread
     std::uint32_t checksum; ///< CRC-32 of these
   };
   using TableMarks = std::map<std::string, TableMark>; ///< by the name of the file
-
-  /// CRC-32 of some bytes.
-  std::uint32_t checksum(const std::string &content);
 
   /// The folder of a run and the files in it, all written by rank 0.
   /// Every write is checked: a full disk is an error, not a short file. No link in the folder is followed, so
@@ -181,14 +179,27 @@ namespace tread
     /// Those of the run that is resumed, up to a time. On rank 0.
     void find_pictures(const std::string &stem, const double time, Series &series) const;
 
-    std::string                          folder;
-    MPI_Comm                             comm;
-    PictureFormat                        picture_format;
-    bool                                 writes_tables;
-    int                                  lock = -1; ///< file descriptor
-    std::map<std::string, std::ofstream> growing;   ///< tables by their names
-    Columns<HistoryRow>                  of_history, of_cells;
-    Series                               volume, surface;
+    std::string   folder;
+    MPI_Comm      comm;
+    PictureFormat picture_format;
+    bool          writes_tables;
+    int           lock = -1; ///< file descriptor
+    /// A table that grows, with the number and the CRC-32 of its bytes.
+    struct GrowingTable
+    {
+      std::ofstream      file;
+      std::uint64_t      size = 0;
+      boost::crc_32_type checksum;
+
+      void count(const std::string &text)
+      {
+        size += text.size();
+        checksum.process_bytes(text.data(), text.size());
+      }
+    };
+    std::map<std::string, GrowingTable> growing; ///< by their names
+    Columns<HistoryRow>                 of_history, of_cells;
+    Series                              volume, surface;
   };
 } // namespace tread
 

@@ -159,6 +159,8 @@ namespace tread
     std::string slow_step() const;
     /// A warning where profiles have detail that the mesh does not see; empty: none.
     std::string unseen_detail() const;
+    /// Those of the two that there are, for the screen at the start and for the summary.
+    std::vector<std::string> doubts_at_start() const;
     /// Add why the answer is perhaps not that of steady rolling.
     void add_doubts(std::vector<std::string> &warnings) const;
     /// @returns lines about the largest stresses for the screen.
