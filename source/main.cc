@@ -134,6 +134,8 @@ namespace
     if (!asked)
       return 0;
     CommandLine &line = *asked;
+    if (line.quiet && line.print_parameters.empty() && !std::freopen("/dev/null", "w", stdout))
+      throw std::runtime_error("cannot write to /dev/null");
     if (!line.batch.empty())
       {
         tread::write_batch(line.batch, line.output, comm);
@@ -166,8 +168,6 @@ namespace
           scene.print(std::cout, true);
         return 0;
       }
-    if (line.quiet && !std::freopen("/dev/null", "w", stdout))
-      throw std::runtime_error("cannot write to /dev/null");
     // Beside the results of the run, never over them.
     const auto folder_of = [&](const char *ending) {
       return line.output.empty() ? scene.output.directory + ending : line.output;

@@ -39,11 +39,16 @@ namespace tread
   std::function<double(double, double)> dip(const double leading_rounding, const double trailing_rounding)
   {
     return [=](const double u, const double v) {
+      if (std::abs(v) >= 1.)
+        return 0.;
       // At the edge r^2 grows by 4 per length of path in the middle, to the sides by the cosine of that:
       // there a path leaves the dip more and more slowly, and where it runs along the edge there is no kink.
       const double x = 2. * u - 1., r_squared = x * x + v * v,
                    cosine = r_squared > 0. ? std::abs(x) / std::sqrt(r_squared) : 0.;
-      return rounded_ramp(1. - r_squared, 2. * cosine * (u < 0.5 ? leading_rounding : trailing_rounding));
+      const double half   = 2. * cosine * (u < 0.5 ? leading_rounding : trailing_rounding);
+      // Long roundings would reach beyond the width: near it they are held below what is left of it.
+      const double share = half * v * v / (1. - v * v);
+      return rounded_ramp(1. - r_squared, half / std::sqrt(std::sqrt(1. + share * share * share * share)));
     };
   }
 

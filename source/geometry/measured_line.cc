@@ -38,12 +38,6 @@ namespace tread
       fail(file, "line " + std::to_string(line) + ": " + what);
     }
 
-    /// What stands before one of the signs that programs begin comments with.
-    std::string without_comment(const std::string &text)
-    {
-      return text.substr(0, text.find_first_of("#!%\""));
-    }
-
     std::string lower(std::string text)
     {
       std::transform(text.begin(), text.end(), text.begin(),
@@ -82,6 +76,29 @@ namespace tread
       return values;
     }
 
+    /// What stands before one of the signs that programs begin comments with. Numbers may be in quotes.
+    std::string without_comment(std::string text)
+    {
+      text                       = text.substr(0, text.find_first_of("#!%"));
+      std::string       unquoted = text;
+      const auto        quotes   = std::remove(unquoted.begin(), unquoted.end(), '"');
+      const std::size_t n_quotes = unquoted.end() - quotes;
+      unquoted.erase(quotes, unquoted.end());
+      const bool are_balanced = n_quotes % 2 == 0;
+      return are_balanced && !numbers(unquoted).empty() ? unquoted : text.substr(0, text.find('"'));
+    }
+
+    /// Whether a line begins with a number, so that it is no heading; 60E1 is a rail.
+    bool begins_with_number(const std::string &text)
+    {
+      const char       *between = " \t\r,;";
+      const std::size_t begin   = std::min(text.find_first_not_of(between), text.size());
+      const std::string word    = lower(text.substr(begin, text.find_first_of(between, begin) - begin));
+      return !word.empty() &&
+             (word == "nan" || word == "inf" ||
+              (word.find_first_not_of("+-.0123456789") == word.npos && !numbers(word).empty()));
+    }
+
     /// Points of a plain table: exactly two columns.
     std::vector<Sample> read_table(const std::string &file, std::istream &in)
     {
@@ -95,10 +112,10 @@ namespace tread
           if (text.find_first_not_of(" \t\r") == std::string::npos)
             continue;
           const std::vector<double> values = numbers(text);
-          if (values.empty() && samples.empty())
+          if (values.empty() && samples.empty() && !begins_with_number(text))
             continue; // a heading
           if (values.size() != 2)
-            fail(file, line, "needs two numbers, in mm");
+            fail(file, line, "needs two numbers, in mm; a comment begins with '#'");
           samples.push_back({1e-3 * values[0], 1e-3 * values[1], line});
         }
       return samples;

@@ -148,20 +148,4 @@ namespace tread
     return text + "</Grid>\n</Domain>\n</Xdmf>\n";
   }
 
-
-  std::vector<std::pair<double, std::string>> xdmf_grids(const std::string &text)
-  {
-    static const std::string begin = "<Grid Name=\"", time = "<Time Value=\"", end = "</Grid>\n";
-    std::vector<std::pair<double, std::string>> grids;
-    std::size_t                                 at = text.find(begin); // the collection
-    while (at != std::string::npos && (at = text.find(begin, at + 1)) != std::string::npos)
-      {
-        const std::size_t value = text.find(time, at), last = text.find(end, at);
-        if (value == std::string::npos || last == std::string::npos)
-          break;
-        grids.emplace_back(std::stod(text.substr(value + time.size())),
-                           text.substr(at, last + end.size() - at));
-      }
-    return grids;
-  }
 } // namespace tread

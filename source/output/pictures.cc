@@ -99,6 +99,13 @@ namespace tread
       return text;
     }
 
+    /// The number in such a name.
+    std::string number_in(const std::string &name)
+    {
+      const std::size_t begin = name.rfind('-') + 1;
+      return name.substr(begin, name.rfind('.') - begin);
+    }
+
     /// The points of some of a mesh's nodes, which get numbers as they are met.
     class PointsOfNodes
     {
@@ -143,7 +150,8 @@ namespace tread
         if (!series.grids.empty())
           series.grids.pop_back();
       }
-    const std::size_t number = series.files.size();
+    const std::size_t number =
+      series.files.empty() ? 0 : std::stoul(number_in(series.files.back().second)) + 1;
     if (picture_format == PictureFormat::vtu)
       {
         const std::string name = numbered(stem, number, "vtu"), pieces = gather(vtu_piece(of_rank));
@@ -173,46 +181,27 @@ namespace tread
   }
 
 
-  void RunFolder::find_pictures(const std::string &stem, const double time, Series &series) const
-  {
-    if (picture_format == PictureFormat::vtu)
-      {
-        const std::string text = text_of(stem + ".pvd");
-        const std::regex  entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
-        for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
-          if (std::stod((*i)[1]) <= time)
-            series.files.emplace_back(std::stod((*i)[1]), (*i)[2]);
-        return;
-      }
-    for (const auto &[when, grid] : xdmf_grids(text_of(stem + ".xdmf")))
-      if (when <= time)
-        {
-          series.files.emplace_back(when, numbered(stem, series.files.size(), "h5"));
-          series.grids.push_back(grid);
-        }
-  }
-
-
   void RunFolder::join_pictures() const
   {
     if (!writes_tables || picture_format == PictureFormat::vtu)
       return;
     for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
       {
-        if (series->files.empty())
-          continue;
         const std::string                                joined = std::string(stem) + ".h5";
         std::vector<std::pair<std::string, std::string>> pictures;
         std::vector<std::string>                         grids;
         for (std::size_t i = 0; i < series->files.size(); ++i)
           {
-            const std::string &alone  = series->files[i].second;
-            const std::size_t  number = alone.rfind('-') + 1;
-            const std::string  group  = alone.substr(number, alone.rfind('.') - number);
+            const std::string &alone = series->files[i].second;
+            if (!std::filesystem::exists(path(alone))) // removed by hand
+              continue;
+            const std::string group = number_in(alone);
             pictures.emplace_back(group, path(alone));
             grids.push_back(
               std::regex_replace(series->grids[i], std::regex(alone + ":/"), joined + ":/" + group + "/"));
           }
+        if (pictures.empty())
+          continue;
         write_through(joined, [&](const std::string &path) { join_hdf5_pictures(path, pictures); });
         write(std::string(stem) + ".xdmf", xdmf_collection(stem, grids));
         for (const auto &[group, alone] : pictures)

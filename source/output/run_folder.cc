@@ -218,13 +218,13 @@ namespace tread
   }
 
 
-  void RunFolder::open_table(const std::string &name, const std::string &header, const TableMarks *kept)
+  void RunFolder::open_table(const std::string &name, const std::string &header)
   {
-    const TableMark  *mark  = kept && kept->count(name) > 0 ? &kept->at(name) : nullptr;
-    const std::string text  = mark ? text_of(name).substr(0, mark->size) : header + "\n";
+    const auto        mark = kept.find(name);
+    const std::string text = mark != kept.end() ? text_of(name).substr(0, mark->second.first) : header + "\n";
     GrowingTable     &table = growing[name];
     table.count(text);
-    if (mark && (table.size != mark->size || table.checksum.checksum() != mark->checksum))
+    if (mark != kept.end() && TableMark(table.size, table.checksum.checksum()) != mark->second)
       throw InputError("--resume: '" + path(name) +
                        "' is not what it was when the checkpoint was made: rows are missing or changed");
     write(name, text);
@@ -242,32 +242,51 @@ namespace tread
   }
 
 
-  TableMarks RunFolder::marks() const
+  std::string RunFolder::progress() const
   {
-    TableMarks marks;
+    std::map<std::string, TableMark> tables;
     for (const auto &[name, table] : growing)
-      marks[name] = {table.size, table.checksum.checksum()};
-    return marks;
+      tables[name] = {table.size, table.checksum.checksum()};
+    // Those that this part of the run does not write stay where they are.
+    tables.insert(kept.begin(), kept.end());
+    nlohmann::json all;
+    all["tables"] = tables;
+    for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
+      all[stem] = nlohmann::json::array({series->files, series->grids});
+    return all.dump();
   }
 
 
-  void RunFolder::open_histories(const TableMarks   *kept,
-                                 const double        time,
-                                 const HistoryParts &parts,
-                                 const std::size_t   n_cells)
+  void RunFolder::continue_from(const std::string &progress)
   {
     if (!writes_tables)
       return;
-    if (kept)
+    const auto all = nlohmann::json::parse(progress);
+    all.at("tables").get_to(kept);
+    for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
       {
-        find_pictures("volume", time, volume);
-        find_pictures("surface", time, surface);
+        const auto files = all.at(stem).at(0).get<decltype(series->files)>();
+        const auto grids = all.at(stem).at(1).get<decltype(series->grids)>();
+        for (std::size_t i = 0; i < files.size(); ++i)
+          if (std::filesystem::exists(path(files[i].second)))
+            {
+              series->files.push_back(files[i]);
+              if (!grids.empty())
+                series->grids.push_back(grids.at(i));
+            }
       }
+  }
+
+
+  void RunFolder::open_histories(const HistoryParts &parts, const std::size_t n_cells)
+  {
+    if (!writes_tables)
+      return;
     of_history = history_columns(parts);
     of_cells   = cell_columns(n_cells);
-    open_table("history.csv", heading(of_history), kept);
+    open_table("history.csv", heading(of_history));
     if (n_cells > 0)
-      open_table("cells.csv", heading(of_cells), kept);
+      open_table("cells.csv", heading(of_cells));
   }
 
 
@@ -287,11 +306,11 @@ namespace tread
   }
 
 
-  void RunFolder::open_patches(const TableMarks *kept, const unsigned int n_wheels)
+  void RunFolder::open_patches(const unsigned int n_wheels)
   {
     if (writes_tables)
       for (unsigned int wheel = 0; wheel < n_wheels; ++wheel)
-        open_table(table_of_wheel("patches", wheel), heading(patches_columns()), kept);
+        open_table(table_of_wheel("patches", wheel), heading(patches_columns()));
   }
 
 

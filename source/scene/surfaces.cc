@@ -191,21 +191,31 @@ namespace tread
 
   double Scene::detail_within_cells() const
   {
-    double       worst = 0.;
-    const double cell  = mesh.finest_cell;
     if (is_positioned())
-      return worst;
-    const auto gap = [&](const double y) {
-      return surfaces().gap(y);
-    };
+      return 0.;
+    constexpr unsigned int n_between = 8; // places from node to node
+    const double           cell      = mesh.finest_cell;
+    double                 sum       = 0.;
+    unsigned int           n         = 0;
     for (double y = patch_extent().begin + cell; y + 2. * cell <= patch_extent().end; y += cell)
       {
-        // Lagrange's cubic in the middle of the second of three cells.
-        const double of_nodes = (9. * (gap(y) + gap(y + cell)) - gap(y - cell) - gap(y + 2. * cell)) / 16.;
-        if (const double off = std::abs(gap(y + 0.5 * cell) - of_nodes); std::isfinite(off))
-          worst = std::max(worst, off);
+        double of_node[4]; // around the second of three cells
+        for (unsigned int i = 0; i < 4; ++i)
+          of_node[i] = surfaces().gap(y + (i - 1.) * cell);
+        for (unsigned int k = 1; k < n_between; ++k)
+          {
+            const double s = double(k) / n_between; // Lagrange's cubic
+            const double of_nodes =
+              -s * (s - 1.) * (s - 2.) / 6. * of_node[0] + (s + 1.) * (s - 1.) * (s - 2.) / 2. * of_node[1] -
+              (s + 1.) * s * (s - 2.) / 2. * of_node[2] + (s + 1.) * s * (s - 1.) / 6. * of_node[3];
+            if (const double off = surfaces().gap(y + s * cell) - of_nodes; std::isfinite(off))
+              {
+                sum += off * off;
+                ++n;
+              }
+          }
       }
-    return worst;
+    return n > 0 ? std::sqrt(sum / n) : 0.;
   }
 
 

@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <boost/crc.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -22,7 +23,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-16";
+    constexpr const char *layout = "tread-checkpoint-17";
 
     std::uint32_t checksum(const std::string &content)
     {
@@ -53,7 +54,7 @@ namespace tread
   } // namespace
 
 
-  Checkpoint::Checkpoint(const RunFolder &folder, const Scene &scene, const MPI_Comm comm)
+  Checkpoint::Checkpoint(RunFolder &folder, const Scene &scene, const MPI_Comm comm)
     : folder(folder)
     , scene(scene)
     , comm(comm)
@@ -70,7 +71,8 @@ namespace tread
     for (const int number : scene.output.supports)
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
     return all.substr(0, all.find("subsection Output")) + "set Supports = " + supports +
-           "\nset Cells = " + scene.output.cells + "\n";
+           "\nset Cells = " + scene.output.cells +
+           "\nset Pictures = " + (scene.output.pictures == PictureFormat::vtu ? "vtu" : "xdmf") + "\n";
   }
 
 
@@ -83,10 +85,7 @@ namespace tread
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       try
         {
-          std::ostringstream marks;
-          for (const auto &[table, mark] : folder.marks())
-            marks << table << ' ' << mark.size << ' ' << mark.checksum << '\n';
-          const std::string  content = with_size(parameters()) + with_size(marks.str()) + parts;
+          const std::string  content = with_size(parameters()) + with_size(folder.progress()) + parts;
           std::ostringstream file;
           file << layout << ' ' << content.size() << ' ' << checksum(content) << '\n' << content;
           const std::string name = "checkpoint-" + std::to_string(next_slot);
@@ -197,16 +196,17 @@ namespace tread
                       damaged = "--resume: '" + folder.path(name) + "' is damaged";
     std::size_t place         = 0;
     require_same_parameters(take_sized(content, place, damaged));
-    std::istringstream marks(take_sized(content, place, damaged));
-    TableMark          mark;
-    for (std::string table; marks >> table >> mark.size >> mark.checksum;)
-      tables[table] = mark;
     try
       {
+        folder.continue_from(take_sized(content, place, damaged));
         Archive archive(comm, content.substr(place));
         simulation.serialize(archive);
         if (!archive.found_all())
           throw InputError("--resume: '" + folder.path(name) + "' belongs to another mesh");
+      }
+    catch (const nlohmann::json::exception &)
+      {
+        throw InputError(damaged);
       }
     catch (const Archive::OtherLayout &)
       {

@@ -382,17 +382,25 @@ namespace tread
 
   std::string Simulation::unseen_detail() const
   {
-    // A kink of curvature between the arcs of a standard head makes less than one per cent.
-    constexpr double large  = 0.02; // of the approach of wheel and rail
-    const double     detail = scene.detail_within_cells(),
-                 share      = detail / hertz(scene, scene.static_load()).approach;
+    // Waves of two cells' length and amplitude A, pressed flat, take a pressure of pi E* A / (2 cells)
+    // (Westergaard 1939; Johnson 1985, section 13.2). A kink of curvature between the arcs of a standard head
+    // makes a few per cent of Hertz's.
+    constexpr double large  = 0.1;
+    const double     detail = scene.detail_within_cells(), load = scene.static_load();
+    if (!(detail > 0. && load > 0.))
+      return "";
+    const reference::RollingCase touching = half_space_case(scene, load, 0.);
+    const double                 modulus  = reference::combine(touching.wheel, touching.rail).hertz_modulus(),
+                 share                    = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
+                         (2. * scene.mesh.finest_cell * hertz(touching).max_pressure);
     if (!(share > large))
       return "";
-    return format(
-      "the profiles of wheel and rail have detail of %.1f um within a finest cell, %.0f %% of their "
-      "approach (above %g %%): the cells do not see the surface that half-space theory does; smooth "
-      "the measured profile, or use smaller cells",
-      1e6 * detail, 100. * share, 100. * large);
+    return format("the profiles of wheel and rail have detail of %.2g um within a finest cell, which a "
+                  "pressure of %.0f %% of "
+                  "Hertz's presses flat (above %g %%): the cells do not see the surface that half-space "
+                  "theory does; smooth "
+                  "the measured profile, or use smaller cells",
+                  1e6 * detail, 100. * share, 100. * large);
   }
 
 

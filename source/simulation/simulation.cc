@@ -366,13 +366,11 @@ namespace tread
     std::ostringstream effective;
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
-    // Times are written with twelve digits.
-    folder.open_histories(checkpoint.tables_of_run(), dynamics.time + 0.5 * dynamics.time_step,
-                          {static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
+    folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
                            scene.wheelset.both_wheels, scene.recorded_supports()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.surface_interval > 0.)
-      folder.open_patches(checkpoint.tables_of_run(), wheels.size());
+      folder.open_patches(wheels.size());
     checked_position = position();
     if (next_wheel_due && !begin_next_passage(progress))
       return false;

@@ -132,11 +132,14 @@ namespace tread
       return text.str();
     }
 
-    /// What the defect adds should be over when the section ends: a spectrum takes it for one that goes on.
-    std::vector<std::string> doubts(const DynamicForces &dynamic)
+    /// What the defect adds should be over when the section ends: a spectrum takes it for one that goes on,
+    /// unless its window fades.
+    std::vector<std::string> doubts(const DynamicForces &dynamic, const Window window)
     {
       constexpr double         large = 0.1; // of the peak
       std::vector<std::string> list;
+      if (window != Window::rectangular)
+        return list;
       for (const DynamicForce &force : dynamic.forces)
         if (const double share = force.at_the_end / std::abs(force.peak); share > large)
           list.push_back(
@@ -146,7 +149,9 @@ namespace tread
       return list;
     }
 
-    std::string figures_text(const DynamicForces &dynamic, const DynamicForceRequest &request)
+    std::string figures_text(const DynamicForces            &dynamic,
+                             const DynamicForceRequest      &request,
+                             const std::vector<std::string> &warnings)
     {
       const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
       nlohmann::ordered_json   json;
@@ -184,11 +189,13 @@ namespace tread
               entry["oscillations"].push_back(each);
             }
         }
-      json["warnings"] = doubts(dynamic);
+      json["warnings"] = warnings;
       return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
 
-    void print_table(const DynamicForces &dynamic, const DynamicForceRequest &request)
+    void print_table(const DynamicForces            &dynamic,
+                     const DynamicForceRequest      &request,
+                     const std::vector<std::string> &warnings)
     {
       const AmplitudeSpectrum &first = dynamic.forces.front().spectrum;
       std::printf("dynamic force of %s over %s, wheel from %.2f to %.2f mm at %.4g km/h\n"
@@ -212,8 +219,8 @@ namespace tread
             }
           std::printf("\n");
         }
-      for (const std::string &doubt : doubts(dynamic))
-        std::printf("WARNING: %s\n", doubt.c_str());
+      for (const std::string &warning : warnings)
+        std::printf("WARNING: %s\n", warning.c_str());
     }
   } // namespace
 
@@ -221,6 +228,7 @@ namespace tread
   void write_dynamic_force(const DynamicForceRequest &request, const MPI_Comm comm)
   {
     DynamicForces dynamic;
+    const Window  window   = window_of(request.window);
     const double  infinity = std::numeric_limits<double>::infinity();
     const double  from     = millimetres(request.from_mm, "--from", -infinity),
                  to        = millimetres(request.to_mm, "--to", infinity);
@@ -230,19 +238,20 @@ namespace tread
     compare_parameters(request.run, request.smooth_twin);
     try
       {
-        dynamic = dynamic_forces(run, smooth_twin, window_of(request.window), from, to);
+        dynamic = dynamic_forces(run, smooth_twin, window, from, to);
       }
     catch (const std::invalid_argument &error)
       {
         throw InputError(error.what());
       }
-    const RunFolder folder(request.output.empty() ? request.run : request.output, comm);
+    const std::vector<std::string> warnings = doubts(dynamic, window);
+    const RunFolder                folder(request.output.empty() ? request.run : request.output, comm);
     folder.write("dynamic.csv", forces_text(dynamic));
     folder.write("spectrum.csv", spectra_text(dynamic));
-    folder.write("dynamic.json", figures_text(dynamic, request));
+    folder.write("dynamic.json", figures_text(dynamic, request, warnings));
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        print_table(dynamic, request);
+        print_table(dynamic, request, warnings);
         std::printf("\nResults in %s: dynamic.csv, spectrum.csv, dynamic.json\n", folder.path("").c_str());
       }
   }

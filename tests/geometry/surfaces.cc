@@ -154,6 +154,24 @@ namespace
       // The kink of -4 per length at the leading edge: a parabola over 0.1 of the length, half on each side.
       check.relative("rounded dip: depth at the leading edge, share", rounded(0., 0.), 0.05, 1e-9);
       check.below("rounded dip: depth half of the rounding ahead", rounded(-0.05, 0.), 0.);
+      // Over half of the length, which is the most: a parabola over a quarter of it outside, none beyond the
+      // width, and no kink anywhere.
+      const auto   most    = dip(0.5, 0.5);
+      double       outside = 0., kink = 0.;
+      const double small = 1e-6;
+      for (double u = -0.3; u <= 1.3; u += 0.0037)
+        for (double v = -1.1; v <= 1.1; v += 0.0037)
+          {
+            if (std::abs(v) >= 1.)
+              outside = std::max(outside, most(u, v));
+            kink =
+              std::max({kink, std::abs(most(u + small, v) - 2. * most(u, v) + most(u - small, v)) / small,
+                        std::abs(most(u, v + small) - 2. * most(u, v) + most(u, v - small)) / small});
+          }
+      check.relative("half of a dip rounded: depth at the edge, share", most(1., 0.), 0.25, 1e-9);
+      check.below("half of a dip rounded: depth beside it, share", outside, 0.);
+      check.below("half of a dip rounded: change of the slope within 1e-6 of its length or width", kink,
+                  2e-3);
     }
     Defect hollow;
     hollow.shape  = dip(0., 0.);
@@ -332,6 +350,13 @@ namespace
     };
     check.that("a good longitudinal profile",
                complaint("defect", ".txt", "# a\n0 0\n1 -.1\n2 -.2\n3 0\n").empty());
+    check.that(
+      "a profile in quotes, with a heading that begins with a rail's name, is read",
+      complaint("defect", ".txt", "60E1 rail\n\"0\",\"0\"\n\"1\",\"-.1\"\n\"2\",\"-.2\"\n3,0\n").empty());
+    says("three columns in quotes", complaint("defect", ".txt", "\"0\",\"0\",\"1\"\n\"1\",\"-.1\",\"1\"\n"),
+         {"line 1", "two numbers"});
+    says("a first row that is no number", complaint("defect", ".txt", "nan 0\n0 0\n1 -.1\n2 -.2\n3 0\n"),
+         {"line 1", "two numbers"});
     says("three columns", complaint("defect", ".txt", "0 0\n1 -.1 5\n2 -.2\n3 0\n"),
          {"line 2", "two numbers"});
     says("words", complaint("defect", ".txt", "0 0\n1 -.1\n2 deep\n3 0\n"), {"line 3", "two numbers"});

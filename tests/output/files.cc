@@ -411,20 +411,21 @@ namespace
       bodies.dynamics.time = time;
       folder.write_volume(bodies.dynamics, {});
     };
-    TableMarks kept; // of a checkpoint at 2.5 ms
+    std::string kept; // by a checkpoint at 2.5 ms
     {
       RunFolder folder(path, MPI_COMM_WORLD);
       folder.remove_results();
-      folder.open_histories(nullptr, 0., {1, false, false, {}}, 0);
+      folder.open_histories({1, false, false, {}}, 0);
       for (const double time : {1e-3, 2e-3, 3e-3, 4e-3})
         {
           if (time == 3e-3)
-            kept = folder.marks();
+            kept = folder.progress();
           write(folder, time);
         }
     }
     RunFolder folder(path, MPI_COMM_WORLD);
-    folder.open_histories(&kept, 2.5e-3, {1, false, false, {}}, 0);
+    folder.continue_from(kept);
+    folder.open_histories({1, false, false, {}}, 0);
     write(folder, 3.5e-3);
 
     const std::string   list = text_of_file(folder.path("volume.pvd"));
@@ -448,6 +449,54 @@ namespace
                 deviation(history.column("time_s"),
                           [&](std::size_t i) { return 1e-3 * expected[std::min<std::size_t>(i, 2)]; }),
                 1e-9);
+  }
+
+
+  /// Tables and pictures of a run that is resumed twice, in between without the patches, and without a
+  /// picture that somebody has removed.
+  void check_switched_off(tests::Check &check, const std::string &path, const PictureFormat format)
+  {
+    Bodies     bodies;
+    const auto part = [&](const double time, const bool with_patches, std::string kept, const bool removes) {
+      RunFolder folder(path, MPI_COMM_WORLD, format);
+      if (kept.empty())
+        folder.remove_results();
+      else
+        folder.continue_from(kept);
+      folder.open_histories({1, false, false, {}}, 0);
+      if (with_patches)
+        {
+          folder.open_patches(1);
+          folder.append_patch(0, time, 0., {PatchNode{}});
+        }
+      bodies.dynamics.time = time;
+      folder.write_volume(bodies.dynamics, {});
+      kept = folder.progress();
+      if (with_patches)
+        folder.append_patch(0, time + 1., 0., {PatchNode{}}); // after the checkpoint
+      if (removes)
+        std::filesystem::remove(
+          folder.path(format == PictureFormat::vtu ? "volume-0001.vtu" : "volume-0001.h5"));
+      return kept;
+    };
+    const std::string name = format == PictureFormat::vtu ? "vtu: " : "xdmf: ";
+    part(4., true, part(3., false, part(2., false, part(1., true, "", false), true), false), false);
+    RunFolder      folder(path, MPI_COMM_WORLD, format);
+    const CsvTable patches(
+      folder.path("patches.csv"), [](const std::string &column) { return column == "time_s"; }, "no patches");
+    check.that(name + "patches that were switched off and on: all of them",
+               patches.column("time_s") == std::vector<double>{1., 4., 5.});
+    const std::string   list = text_of_file(folder.path(folder.list_of_pictures("volume")));
+    const std::regex    entry("(timestep=|Time Value=)\"([^\"]*)\"");
+    std::vector<double> times;
+    for (std::sregex_iterator i(list.begin(), list.end(), entry), end; i != end; ++i)
+      times.push_back(std::stod((*i)[2]));
+    check.that(name + "a picture that was removed is not in the list",
+               times == std::vector<double>{1., 3., 4.});
+    for (const char *number : {"0000", "0001", "0002"})
+      check.that(name + "picture " + number + " is there",
+                 std::filesystem::exists(folder.path(std::string("volume-") + number +
+                                                     (format == PictureFormat::vtu ? ".vtu" : ".h5"))));
   }
 
 
@@ -511,6 +560,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
     check_contact(check, true, folder);
   }
   check_resumed(check, temporary.path + "/resumed");
+  check_switched_off(check, temporary.path + "/vtu", PictureFormat::vtu);
+  check_switched_off(check, temporary.path + "/xdmf", PictureFormat::xdmf);
   check_full_disk(check, temporary.path + "/full");
   check_summary(check);
 }

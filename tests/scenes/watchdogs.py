@@ -48,11 +48,21 @@ with tempfile.TemporaryDirectory() as folder:
     warned("contact that is not solved", ["Contact/Largest number of sweeps=1"], "contact did not reach its tolerance", "sweeps")
     warned("a torque that takes longer", ["Motion/Drive=torque", "Motion/Hold distance (mm)=1", "Start/Tractions=none"], "has reached", "Rolled distance")
     generator = random.Random(1)
-    with open(path("noisy.txt"), "w", encoding="utf-8") as stream:
-        for i in range(-300, 301):
-            y = 0.1 * i
-            stream.write(f"{y} {math.sqrt(300.**2 - y**2) - 300. + 5e-3 * generator.uniform(-1., 1.)}\n")
-    warned("a profile with 5 um of noise", [f"Rail/Measured head={path('noisy.txt')}", "Mesh/Fine half width (mm)=14"], "detail of", "approach", "smooth")
+
+    def head(name, added):
+        """Settings with a crown of 300 mm, points 0.1 mm apart, and added(y), mm."""
+        with open(path(name), "w", encoding="utf-8") as stream:
+            for i in range(-300, 301):
+                y = 0.1 * i
+                stream.write(f"{y} {math.sqrt(300.**2 - y**2) - 300. + added(y)}\n")
+        return [f"Rail/Measured head={path(name)}", "Mesh/Fine half width (mm)=14"]
+
+    warned("a profile with 5 um of noise", head("noisy.txt", lambda y: 5e-3 * generator.uniform(-1., 1.)), "detail of", "Hertz", "smooth")
+    for name, added, seen in (("1 um of noise", lambda y: 1e-3 * generator.uniform(-1., 1.), True),
+                              ("waves of half a cell", lambda y: 2e-3 * math.cos(2. * math.pi * y / 0.65), True),
+                              ("no noise", lambda y: 0., False)):
+        said = execute(arguments_of(SCENE, SHORT + head("head.txt", added), path("dry")) + ["--dry-run"], program=program)
+        check.that(f"{name}: named before the run: {seen}", said.returncode == 0 and ("detail of" in said.stdout) == seen)
 
     # The same block and steps as above, which stay far below the limits of a user: those of here are below what they do.
     stopped("strain", ["Watchdogs/Stop at strain=0.002"], "the cell at x =", "mm of the", "Stop at strain", "volume.pvd")

@@ -39,7 +39,8 @@ namespace tread
 
   /// Shape of a dip: 1 - r^2 at the distance r from its middle, with r = 1 at the edge; a sphere's cap where
   /// length and width are equal (apart from a share of (depth/length)^2). A kink at the edge is rounded over
-  /// so much of the path, half of it on each side, to the sides of the dip by the cosine of that; 0: sharp.
+  /// so much of the path, half of it on each side, to the sides of the dip by the cosine of that and less
+  /// where it would reach beyond the width; 0: sharp.
   /// @param leading_rounding, trailing_rounding over the length
   std::function<double(double, double)> dip(const double leading_rounding, const double trailing_rounding);
 

@@ -78,9 +78,6 @@ namespace tread
 
   /// The XDMF file of a series of pictures from their descriptions.
   std::string xdmf_collection(const std::string &name, const std::vector<std::string> &grids);
-
-  /// The descriptions in such a file, with their times (s).
-  std::vector<std::pair<double, std::string>> xdmf_grids(const std::string &text);
 } // namespace tread
 
 #endif

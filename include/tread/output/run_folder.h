@@ -24,14 +24,6 @@
 
 namespace tread
 {
-  /// How far a table that grows had been written when a checkpoint was made.
-  struct TableMark
-  {
-    std::uint64_t size;     ///< bytes
-    std::uint32_t checksum; ///< CRC-32 of these
-  };
-  using TableMarks = std::map<std::string, TableMark>; ///< by the name of the file
-
   /// The folder of a run and the files in it, all written by rank 0.
   /// Every write is checked: a full disk is an error, not a short file. No link in the folder is followed, so
   /// that nothing is written outside.
@@ -108,20 +100,19 @@ namespace tread
     /// rail_seats.csv: one row for each part of a recorded support's pad.
     void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
 
-    /// Begin new files history.csv and, if there are cells, cells.csv; when resuming, continue where they
-    /// were at the checkpoint, and the lists of pictures after those not later than time. @param kept of the
-    /// checkpoint; null: a new run. @param parts that the rows contain. @throws InputError if the tables are
-    /// not what they were
-    void open_histories(const TableMarks   *kept,
-                        const double        time,
-                        const HistoryParts &parts,
-                        const std::size_t   n_cells);
+    /// How far the tables that grow and the series of pictures have come, for a checkpoint. On rank 0.
+    std::string progress() const;
+    /// Go on from there: tables that are opened and pictures that are written afterwards continue those of
+    /// before. Pictures that have been removed are left out. On rank 0. @throws nlohmann::json::exception
+    void continue_from(const std::string &progress);
+
+    /// Begin the files history.csv and, if there are cells, cells.csv, or continue them. @param parts that
+    /// the rows contain. @throws InputError if the tables are not what they were
+    void open_histories(const HistoryParts &parts, const std::size_t n_cells);
     void append(const HistoryRow &row);
 
     /// Likewise one patches.csv for each wheel: the patch at chosen instants.
-    void open_patches(const TableMarks *kept, const unsigned int n_wheels);
-    /// How far these tables have grown. On rank 0.
-    TableMarks marks() const;
+    void open_patches(const unsigned int n_wheels);
     /// @param wheel its number, from 0; @param position of the wheel, m
     void append_patch(const unsigned int            wheel,
                       const double                  time,
@@ -152,7 +143,7 @@ namespace tread
     /// Whether a file of this name is a result of a run.
     static bool is_own(const std::string &name);
     /// On rank 0: one of the tables that grow row by row.
-    void open_table(const std::string &name, const std::string &header, const TableMarks *kept);
+    void open_table(const std::string &name, const std::string &header);
     /// Add rows to one of them, on the disk at once. @throws std::runtime_error
     void append_to(const std::string &name, const std::string &rows);
 
@@ -176,8 +167,6 @@ namespace tread
                      const Picture     &of_rank,
                      const double       time,
                      Series            &series) const;
-    /// Those of the run that is resumed, up to a time. On rank 0.
-    void find_pictures(const std::string &stem, const double time, Series &series) const;
 
     std::string   folder;
     MPI_Comm      comm;
@@ -198,8 +187,11 @@ namespace tread
       }
     };
     std::map<std::string, GrowingTable> growing; ///< by their names
-    Columns<HistoryRow>                 of_history, of_cells;
-    Series                              volume, surface;
+    /// How far a table had been written when a checkpoint was made: number and CRC-32 of its bytes.
+    using TableMark = std::pair<std::uint64_t, std::uint32_t>;
+    std::map<std::string, TableMark> kept; ///< of the run that is resumed, by their names
+    Columns<HistoryRow>              of_history, of_cells;
+    Series                           volume, surface;
   };
 } // namespace tread
 

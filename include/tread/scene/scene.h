@@ -175,9 +175,9 @@ namespace tread
     {
       return shapes->defect.get();
     }
-    /// How far the gap between wheel and rail, across the patch, differs half way between nodes of finest
-    /// cells from the cubic through the nearest four of them: detail of profiles that the mesh does not see,
-    /// m. 0 of a wheelset's positions, where cells follow the patch.
+    /// How far the gap between wheel and rail, across the patch, differs between nodes of finest cells from
+    /// the cubics through the nearest four of them, root of the mean square (m): detail of profiles that the
+    /// mesh does not see. 0 of a wheelset's positions, where cells follow the patch.
     double detail_within_cells() const;
     /// Whether forces vary along the path by the nature of the scene: a defect, or discrete supports.
     bool has_impacts() const

@@ -19,11 +19,11 @@ namespace tread
   /// to the last bit as if it had not been interrupted.
   ///
   /// A file is one line (layout, number of bytes that follow, their CRC-32), the parameters of the run, how
-  /// far its tables had grown, and what each rank stored.
+  /// far its tables and pictures had grown, and what each rank stored.
   class Checkpoint
   {
   public:
-    Checkpoint(const RunFolder &folder, const Scene &scene, const MPI_Comm comm);
+    Checkpoint(RunFolder &folder, const Scene &scene, const MPI_Comm comm);
 
     /// Collective. @throws std::runtime_error with one line, on all ranks, if it cannot be written.
     void write(Simulation &simulation);
@@ -31,11 +31,6 @@ namespace tread
     /// Collective. @throws InputError with one line, on all ranks, if there is no checkpoint, if it is
     /// damaged or was written by another version, or if it belongs to other parameters.
     void read(Simulation &simulation);
-    /// How far the tables of the run had grown. Null unless it has been read.
-    const TableMarks *tables_of_run() const
-    {
-      return tables.empty() ? nullptr : &tables;
-    }
 
     /// Of a complete run, which has no checkpoint to go on from. Collective. @throws InputError if it has
     /// other parameters.
@@ -49,11 +44,10 @@ namespace tread
     /// @throws InputError with the first line that differs.
     void require_same_parameters(const std::string &of_checkpoint) const;
 
-    const RunFolder &folder;
-    const Scene     &scene;
-    MPI_Comm         comm;
-    unsigned int     next_slot = 0;
-    TableMarks       tables;
+    RunFolder   &folder;
+    const Scene &scene;
+    MPI_Comm     comm;
+    unsigned int next_slot = 0;
   };
 } // namespace tread
 
