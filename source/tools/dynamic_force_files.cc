@@ -228,7 +228,7 @@ namespace tread
   void write_dynamic_force(const DynamicForceRequest &request, const MPI_Comm comm)
   {
     DynamicForces dynamic;
-    const Window  window   = window_of(request.window);
+    Window        window   = Window::rectangular;
     const double  infinity = std::numeric_limits<double>::infinity();
     const double  from     = millimetres(request.from_mm, "--from", -infinity),
                  to        = millimetres(request.to_mm, "--to", infinity);
@@ -238,6 +238,7 @@ namespace tread
     compare_parameters(request.run, request.smooth_twin);
     try
       {
+        window  = window_of(request.window);
         dynamic = dynamic_forces(run, smooth_twin, window, from, to);
       }
     catch (const std::invalid_argument &error)

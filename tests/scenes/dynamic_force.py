@@ -137,7 +137,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("spectrum.csv: wavelength x frequency over speed", largest["wavelength_m"] * largest["frequency_Hz"] / SPEED, 1.0, 1e-6)
     check.relative("spectrum.csv: its amplitude", largest["normal_force_N"], contact["oscillations"][0]["amplitude_N"], 0.01)
 
-    execute(both + ["--window", "Hann", "--from", "-100", "--to", "100", "--output", path("section")], program=program, check=True)
+    said = {window: execute(both + ["--window", window, "--from", "-100", "--to", "100", "--output", path("section")], program=program, check=True).stdout
+            for window in ("rectangular", "Hann")}
+    check.that("a section that ends while the force swings: side lobes are named", "side lobes" in said["rectangular"])
+    check.that("a Hann window has none", "WARNING" not in said["Hann"])
+    quiet = execute(both + ["--quiet", "--output", path("quiet")], program=program, check=True)
+    check.that("--quiet: nothing on the screen, the tables are there", quiet.stdout == "" and os.path.exists(path("quiet/dynamic.json")))
     with open(path("section/dynamic.json"), encoding="utf-8") as stream:
         section = json.load(stream)
     check.absolute("a section: begins, mm", 1e3 * section["from_m"], -100, 1e3 * ROW)
