@@ -105,6 +105,8 @@ namespace tread
       energy += supports->sleeper_kinetic_energy(time_step);
     for (const Wheel &wheel : wheels)
       energy += wheel.hub->kinetic_energy(0.5 * time_step);
+    if (rail_base)
+      energy += rail_base->kinetic_energy();
     return energy;
   }
 
@@ -147,6 +149,11 @@ namespace tread
       {
         work[0] += wheel.hub->external_work();
         work[1] += wheel.hub->gross_work();
+      }
+    if (rail_base)
+      {
+        work[0] += rail_base->external_work();
+        work[1] += rail_base->gross_work();
       }
     return work;
   }

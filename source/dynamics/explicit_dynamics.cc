@@ -101,7 +101,7 @@ namespace tread
         carried[i] = true;
         wheel.reference.push_back(position(i) - wheel_hub.middle());
       }
-    rank_sums.resize(n_sums_of_hubs() + (supports ? supports->n_points() : 0));
+    size_rank_sums();
     set_node_levels(); // the hub moves in every step
 
     std::array<ReproducibleSum<double>, 5> sums;
@@ -121,6 +121,26 @@ namespace tread
   }
 
 
+  void ExplicitDynamics::attach_rail_base(RailBase &base, const unsigned int body)
+  {
+    rail_base  = &base;
+    base_nodes = support_nodes(body);
+    for (const unsigned int i : base_nodes)
+      {
+        carried[i] = true;
+        base_reference.push_back(position(i));
+      }
+    size_rank_sums();
+    set_node_levels(); // the base moves in every step
+  }
+
+
+  void ExplicitDynamics::size_rank_sums()
+  {
+    rank_sums.resize(n_sums_of_hubs() + (supports ? supports->n_points() : 0));
+  }
+
+
   void ExplicitDynamics::attach_contact(Contact &c)
   {
     contact = &c;
@@ -133,7 +153,7 @@ namespace tread
     s.set_gravity(parameters.gravity);
     s.set_quanta(quanta.force, quanta.stiffness);
     rail_beam = std::make_unique<RailBeam>(mesh, solid, s, rail_material);
-    rank_sums.resize(n_sums_of_hubs() + s.n_points());
+    size_rank_sums();
     set_node_levels();
   }
 

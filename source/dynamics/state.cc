@@ -14,6 +14,8 @@ namespace tread
         wheel.hub->serialize(archive);
         archive.same(wheel.nominal_angular_velocity);
       }
+    if (rail_base)
+      rail_base->serialize(archive);
     if (archive.restores())
       set_inertia(); // before the contact, as it looks for the pairs that may touch
     archive.same(time, n_steps);

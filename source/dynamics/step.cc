@@ -154,6 +154,13 @@ namespace tread
             }
         of_wheel += n_hub_sums;
       }
+    for (const unsigned int i : base_nodes)
+      if (mesh.shared_nodes.is_owned(i))
+        {
+          const Vector3 load = quanta.on_hubs.round(force[i]);
+          for (unsigned int d = 0; d < n_base_sums; ++d)
+            of_wheel[d] += load[d];
+        }
   }
 
 
@@ -167,6 +174,11 @@ namespace tread
           v[i]                 = wheel.hub->velocity_at(x);
           set_position(i, x);
         }
+    for (unsigned int k = 0; k < base_nodes.size(); ++k)
+      {
+        v[base_nodes[k]] = rail_base->velocity();
+        set_position(base_nodes[k], base_reference[k] + rail_base->displacement());
+      }
   }
 
 
@@ -266,6 +278,8 @@ namespace tread
           }
         sums += n_hub_sums;
       }
+    if (rail_base)
+      rail_base->advance(Vector3{sums[0], sums[1], sums[2], 0.}, time_step);
   }
 
 

@@ -48,6 +48,7 @@ namespace tread
     std::vector<unsigned int> smallest_steps;
     for (const Wheel &wheel : wheels)
       smallest_steps.insert(smallest_steps.end(), wheel.nodes.begin(), wheel.nodes.end());
+    smallest_steps.insert(smallest_steps.end(), base_nodes.begin(), base_nodes.end());
     if (supports)
       for (const unsigned int i : supports->nodes())
         smallest_steps.push_back(i);

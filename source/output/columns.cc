@@ -210,6 +210,15 @@ namespace tread
       columns.push_back({"spring_energy", "J", [](const R &r) {
                            return r.energy.springs;
                          }});
+    if (parts.has_rail_base)
+      {
+        columns.push_back({"rail_base_lateral", "m", [](const R &r) {
+                             return r.rail_base[1];
+                           }});
+        columns.push_back({"rail_base_vertical", "m", [](const R &r) {
+                             return r.rail_base[2];
+                           }});
+      }
     const Columns<SupportRecord> of_support{{"pad", "N",
                                              [](const SupportRecord &s) {
                                                return s.pad_force;

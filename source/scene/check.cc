@@ -276,14 +276,19 @@ namespace tread
   {
     require(track.has_supports() || rail.ends == EndKind::symmetric,
             "'Rail/Ends' " + name_of(rail.ends) +
-              " needs a rail on supports: 'Track/Foundation' cannot be rigid");
+              " needs a rail on supports: 'Track/Foundation' must be one-layer or two-layer");
+    if (track.foundation != Foundation::rigid)
+      require(general.density_scale == 1., "'Scene/Density scale' must be 1 with 'Track/Foundation' " +
+                                             name_of(track.foundation) +
+                                             ": the inertia of rail and track is part of the answer");
+    require(
+      !track.runs_along() || (n_wheels() == 1 && !wheelset.both_wheels),
+      "'Track/Foundation' co-running is for one wheel: 'Further wheels' and 'Wheelset/Both wheels' must "
+      "be off");
     if (!track.has_supports())
       return;
     require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
                                              " needs a rail with a foot: 'Rail/Shape' cannot be head");
-    require(general.density_scale == 1., "'Scene/Density scale' must be 1 with 'Track/Foundation' " +
-                                           name_of(track.foundation) +
-                                           ": the inertia of rail and sleepers is part of the answer");
     track.check();
     const RailProfile profile = rail.standard_profile();
     const double      base =
@@ -375,7 +380,7 @@ namespace tread
     };
     if (shapes->defect)
       needs_inertia("'Defect/Shape' " + defect.shape);
-    if (track.has_supports())
+    if (track.foundation != Foundation::rigid)
       needs_inertia("'Track/Foundation' " + name_of(track.foundation));
     const double largest_ratio = element_named(solid.element).largest_poisson_ratio;
     for (const auto &[body, material] :

@@ -55,7 +55,8 @@ namespace tread
 
   void Scene::take_support_springs()
   {
-    require(track.has_supports(), "'Track/Support file' needs supports: 'Track/Foundation' cannot be rigid");
+    require(track.has_supports(),
+            "'Track/Support file' needs supports: 'Track/Foundation' must be one-layer or two-layer");
     using Springs = TrackParameters::Springs;
     struct Column
     {
@@ -126,6 +127,14 @@ namespace tread
     for (const auto &[number, springs] : support_springs)
       p.exceptions[number - first_support()] = springs;
     return p;
+  }
+
+
+  RailBaseParameters Scene::rail_base_parameters() const
+  {
+    return {track.co_running_mass,
+            {track.vertical_stiffness, track.vertical_damping},
+            {track.lateral_stiffness, track.lateral_damping}};
   }
 
 

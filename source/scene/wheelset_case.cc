@@ -130,7 +130,7 @@ namespace tread
     const auto without = [](const bool none, const std::string &what) {
       require(none, what + " where 'Wheelset' has a position and the wheel is meshed");
     };
-    without(!track.has_supports(), "'Track/Foundation' must be rigid");
+    without(!track.has_supports(), "'Track/Foundation' must be rigid or co-running");
     without(!wheel.is_full(), "'Wheel/Shape' must be sector");
     without(!peak_stress.is_wanted(), "'Peak stress/Region' must be none");
     without(output.cells.empty(), "'Output/Cells' must be empty");

@@ -74,6 +74,11 @@ namespace tread
         if (!supports->solid_sleepers.empty())
           dynamics.guide_nodes(supports->guided_nodes(0), 0);
       }
+    else if (scene.track.runs_along())
+      {
+        rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());
+        dynamics.attach_rail_base(*rail_base, rail_body);
+      }
     else
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     for (RollingWheel &wheel : wheels)
@@ -274,6 +279,8 @@ namespace tread
                                               dynamics.time - interval_start_time));
     row.energy   = dynamics.ledger();
     row.supports = support_records();
+    if (rail_base)
+      row.rail_base = rail_base->displacement();
     if (probes)
       row.cells = probes->record(dynamics);
     if (strip)
@@ -367,7 +374,7 @@ namespace tread
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
     folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
-                           scene.wheelset.both_wheels, scene.recorded_supports()},
+                           scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.surface_interval > 0.)
       folder.open_patches(wheels.size());

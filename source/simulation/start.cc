@@ -190,13 +190,15 @@ namespace tread
         // On a track the rail is bent where the wheel before stood: it begins straight again, and finds its
         // residual stresses and strains anew from what the cells remember.
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-          if (supports || mesh.node_bodies[i] == wheel.body)
+          if (supports || rail_base || mesh.node_bodies[i] == wheel.body)
             dynamics.set_position(i, Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
         solid.plastic().forget(wheel.body, dynamics.history);
         wheel.place(scene);
       }
     if (supports)
       supports->set_at_rest(dynamics.positions().data());
+    if (rail_base)
+      rail_base->place();
     contact.scale_impulses(0.);
     torque_released = solution_taken = false;
     ripple                           = ForceRipple();

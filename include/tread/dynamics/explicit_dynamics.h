@@ -10,6 +10,7 @@
 #include <tread/dynamics/rail_beam.h>
 #include <tread/mesh/mesh.h>
 #include <tread/solid/solid.h>
+#include <tread/track/rail_base.h>
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
 
@@ -91,6 +92,9 @@ namespace tread
     /// density added by scaling, which does not exist in reality, is compensated on this body, at the given
     /// angular velocity until start() takes that of the hub. The body has not been made a wheel before.
     void attach_hub(WheelHub &hub, const unsigned int body, const double nominal_angular_velocity);
+
+    /// Attach a body's support nodes to a base that moves.
+    void attach_rail_base(RailBase &base, const unsigned int body);
 
     void attach_contact(Contact &contact);
 
@@ -249,12 +253,13 @@ namespace tread
     void           set_hub_sums(std::vector<double> &sums) const;
     std::size_t    n_sums_of_hubs() const
     {
-      return n_hub_sums * wheels.size();
+      return n_hub_sums * wheels.size() + (rail_base ? n_base_sums : 0);
     }
-    /// Work from outside on all hubs and the sum of its absolute amounts, J.
+    void size_rank_sums();
+    /// Work from outside on all hubs and the rail's base, and the sum of its absolute amounts, J.
     std::array<double, 2> work_on_hubs() const;
     void                  hold_guided_nodes(NodalField &field) const;
-    void                  move_hub_nodes();
+    void                  move_hub_nodes(); ///< and those of the rail's base
     /// Kinetic energy from the velocities half a step back and the change that the cells' forces cause in
     /// half a step.
     double       kinetic_energy(NodalField cell_forces) const;
@@ -419,10 +424,13 @@ namespace tread
     Contact                                           *contact  = nullptr;
     Supports                                          *supports = nullptr;
     std::unique_ptr<RailBeam>                          rail_beam;
+    RailBase                                          *rail_base = nullptr;
+    std::vector<unsigned int>                          base_nodes;
+    std::vector<Vector3>                               base_reference; ///< of these nodes, m
     /// Sums over the ranks in a step: of each wheel force and moment on the hub and moments of the
-    /// compensated loads; then those of the supports.
+    /// compensated loads; then the force on the rail's base; then those of the supports.
     std::vector<double>           rank_sums;
-    static constexpr unsigned int n_hub_sums = 12;
+    static constexpr unsigned int n_hub_sums = 12, n_base_sums = 3;
 
     /// What is rounded before sums over nodes or ranks, so that they do not depend on the ranks; 0: nothing.
     struct Quanta

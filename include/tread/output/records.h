@@ -39,8 +39,9 @@ namespace tread
     double                     time, position; ///< of the first wheel
     std::vector<WheelRecord>   wheels;         ///< as many as were passed to open_histories
     EnergyLedger               energy;
-    std::vector<SupportRecord> supports; ///< likewise
-    std::vector<CellRecord>    cells;    ///< likewise
+    std::vector<SupportRecord> supports;    ///< likewise
+    std::vector<CellRecord>    cells;       ///< likewise
+    Vector3                    rail_base{}; ///< displacement of a rail's base that moves, at the end
   };
 
   /// One row of patches.csv: a node in contact at one of the instants, SI units.

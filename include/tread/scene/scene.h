@@ -23,6 +23,7 @@
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
 #include <tread/scene/wheelset_motion.h>
+#include <tread/track/rail_base.h>
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
@@ -121,7 +122,8 @@ namespace tread
     /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;
 
-    TrackParameters track_parameters() const;
+    TrackParameters    track_parameters() const;
+    RailBaseParameters rail_base_parameters() const;
     /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
     AbsorbingEnds absorbing_ends() const;
     /// Coordinates x of the supports on the rail, m, and the number of the first one. Support 0 lies where

@@ -186,7 +186,8 @@ namespace tread
     std::vector<RollingWheel>    wheels; ///< of fixed number
     ExplicitDynamics             dynamics;
     Contact                      contact;
-    std::unique_ptr<Supports>    supports;                ///< none: the rail's bottom is held
+    std::unique_ptr<Supports>    supports;                ///< none: the rail's bottom stays in shape
+    std::unique_ptr<RailBase>    rail_base;               ///< none: without supports that is held
     std::unique_ptr<RailSeats>   seats;                   ///< none: no supports are recorded
     std::unique_ptr<StressStrip> strip;                   ///< none: no table
     std::unique_ptr<CellProbes>  probes;                  ///< none: no table

@@ -9,7 +9,10 @@ namespace tread
     static const std::vector<Choice<Foundation>> list{
       {Foundation::rigid, "rigid", "the rail's bottom is held."},
       {Foundation::one_layer, "one-layer", "it rests on pads on the ground."},
-      {Foundation::two_layer, "two-layer", "pads, sleepers and ballast."}};
+      {Foundation::two_layer, "two-layer", "pads, sleepers and ballast."},
+      {Foundation::co_running, "co-running",
+       "the rail's bottom stays in shape and moves up, down and across on springs and dampers under a mass, "
+       "all of which run along with the wheel; for one wheel, also in a wheelset's position."}};
     return list;
   }
 
@@ -36,7 +39,7 @@ namespace tread
     Section      section(handler, "Track");
 
     section.choose("Foundation", foundation, "",
-                   "With either the rail's ends are planes of symmetry, and supports move vertically only.");
+                   "With layers the rail's ends are planes of symmetry, and supports move vertically only.");
     section.choose("Sleepers", sleepers, "Of two layers.");
     section.add("Sleeper spacing (m)", sleeper_spacing,
                 "Between the supports' middles. The rail must end between half a pad and half a "
@@ -86,6 +89,14 @@ namespace tread
       "of names: support, its number, and any of pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
       "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m, in place of the parameters of these names, "
       "and ballast_gap_mm, of a sleeper that hangs as far above its ballast.");
+    section.add("Co-running mass (kg)", co_running_mass,
+                "Of the track that moves with the rail under the wheel, without the rail's cells.",
+                Double(10., 1e6));
+    section.add("Vertical stiffness (MN per m)", vertical_stiffness,
+                "Of the co-running track under a wheel. About the equilibrium at the start.", stiffness);
+    section.add("Vertical damping (kN s per m)", vertical_damping, "Of the co-running track.", damping);
+    section.add("Lateral stiffness (MN per m)", lateral_stiffness, "Of the co-running track.", stiffness);
+    section.add("Lateral damping (kN s per m)", lateral_damping, "Of the co-running track.", damping);
   }
 
 

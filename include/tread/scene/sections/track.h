@@ -10,7 +10,8 @@ namespace tread
   {
     rigid,
     one_layer,
-    two_layer
+    two_layer,
+    co_running
   };
 
   template <>
@@ -40,10 +41,17 @@ namespace tread
     double       ballast_stiffness = 45e6, ballast_damping = 32e3;
     bool         pads_pull = true;
     std::string  support_file; ///< supports with springs of their own; empty: none
+    double       co_running_mass    = 450.;
+    double       vertical_stiffness = 100e6, vertical_damping = 60e3, lateral_stiffness = 30e6,
+           lateral_damping = 30e3;
 
     bool has_supports() const
     {
-      return foundation != Foundation::rigid;
+      return foundation == Foundation::one_layer || foundation == Foundation::two_layer;
+    }
+    bool runs_along() const
+    {
+      return foundation == Foundation::co_running;
     }
     bool has_solid_sleepers() const
     {
