@@ -75,7 +75,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       worst_residual            = std::max(worst_residual, std::abs(ledger.residual_share()));
     }
   check.below("up: largest difference from a mass on a spring, share of the static way",
-              worst_up * track.vertical.stiffness / force[2], 0.01);
-  check.below("aside: likewise", worst_aside * track.lateral.stiffness / std::abs(force[1]), 0.01);
-  check.below("energy not accounted for, share of the work", worst_residual, 1e-5);
+              worst_up * track.vertical.stiffness / force[2], 2e-3);
+  check.below("aside: likewise", worst_aside * track.lateral.stiffness / std::abs(force[1]), 6e-3);
+  check.below("energy not accounted for, share of the work", worst_residual, 1e-7);
 }
