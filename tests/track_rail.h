@@ -32,6 +32,11 @@ namespace tread::tests
     return {210e9, 0.3, 7850.};
   }
 
+  inline ElasticMaterial concrete()
+  {
+    return {38.4e9, 0.2, 2520.};
+  }
+
   inline reference::BeamSection beam_section(const double area,
                                              const double second_moment,
                                              const double shear_coefficient)
@@ -93,7 +98,7 @@ namespace tread::tests
   struct TrackRail
   {
     const reference::BeamSection      section;
-    const double                      end; ///< x of the end (m)
+    const double                      height, end; ///< of the rail, and x of its end (m)
     std::vector<double>               positions;
     std::unique_ptr<Mesh>             mesh;
     std::unique_ptr<Solid>            solid;
@@ -107,8 +112,10 @@ namespace tread::tests
               const DynamicsParameters  &parameters,
               const std::vector<double> &probes,
               const bool                 solid_sleepers = false,
-              const unsigned int         max_level      = 0)
+              const unsigned int         max_level      = 0,
+              const double               sleeper_cell   = SleeperBox().coarsest_cell_size)
       : section(rail.section)
+      , height(rail.height)
       , end(0.5 * spacing * n_supports)
     {
       const int half = n_supports / 2;
@@ -120,14 +127,11 @@ namespace tread::tests
       if (solid_sleepers)
         for (const double x : positions)
           {
-            // Half a sleeper of concrete of 140 kg.
-            SleeperBox box;
-            box.x      = x;
-            box.top    = -rail.height - 0.01;
-            box.height = 140. / (2520. * (box.y_end - box.y_begin) * box.width);
+            SleeperBox box         = sleeper_box(x);
+            box.coarsest_cell_size = sleeper_cell;
             sleepers.push_back({static_cast<unsigned int>(bodies.size()), box.y_begin, box.y_end, box.width});
             bodies.push_back(make_sleeper(box));
-            materials.push_back({38.4e9, 0.2, 2520.});
+            materials.push_back(concrete());
           }
       SolidParameters solid_parameters;
       solid_parameters.max_level = max_level;
@@ -147,6 +151,16 @@ namespace tread::tests
       dynamics->external_force.assign(mesh->nodes.size(), Vector3{});
     }
 
+    /// Half a sleeper of concrete of 140 kg.
+    SleeperBox sleeper_box(const double x) const
+    {
+      SleeperBox box;
+      box.x      = x;
+      box.top    = -height - 0.01;
+      box.height = 140. / (concrete().density * (box.y_end - box.y_begin) * box.width);
+      return box;
+    }
+
     /// Nodes that share a force, and whose mean displacement with the same shares is what it moves.
     using Patch = std::vector<std::pair<unsigned int, double>>;
 
@@ -155,6 +169,13 @@ namespace tread::tests
     Patch sections(const double x, const double reach = 0.) const
     {
       return patch([&](const dealii::Point<3> &p) { return std::abs(p[0] - x) < reach + 1e-6; });
+    }
+
+    /// The cross-section of solid sleepers at y.
+    Patch section_of_sleepers(const double y) const
+    {
+      return patch(
+        [&](const dealii::Point<3> &p) { return p[2] < -height - 1e-6 && std::abs(p[1] - y) < 1e-6; });
     }
 
     /// The middle of the rail top at x.

@@ -264,6 +264,53 @@ namespace
                                                        answer.surface.peak.value > 1.01 * expected[0]);
   }
 
+  /// A wheel that presses and drives the surface at one instant and has left it at the next, when the block
+  /// is stretched along: there nothing acts on the surface, whatever did before.
+  void check_surface_that_is_left(tests::Check &check, ExplicitDynamics &dynamics)
+  {
+    const Mesh   &mesh = dynamics.mesh;
+    const Contact contact(mesh, ContactParameters(), std::make_shared<CoulombFriction>(0.3));
+    StressPeaks   peaks(dynamics, &contact, 0, ElasticMaterial(), region_of_peaks());
+    dynamics.time_step        = 1e-7;
+    constexpr double pressure = 300e6, shear = 50e6, area = 6e-6, strain = 1e-3;
+    const auto       stretch = [&](const double share, const double time) {
+      for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+        {
+          const Point<3> &p = mesh.nodes[i];
+          dynamics.set_position(i, Vector3{(1. + share) * p[0], p[1], p[2], 0.});
+        }
+      dynamics.time = time;
+    };
+    std::vector<ContactNodeState> states;
+    for (unsigned int k = 0; k < contact.surfaces.nodes.size(); ++k)
+      {
+        ContactNodeState state{};
+        state.node     = k;
+        state.position = contact.surfaces.nodes[k].reference;
+        state.normal   = Vector3{0., 0., 1., 0.};
+        state.area     = area;
+        state.impulse  = area * dynamics.time_step * Vector3{shear, 0., pressure, 0.};
+        states.push_back(state);
+      }
+    stretch(0., 1.);
+    peaks.sample(dynamics, states, 10.);
+    const Peak pressed = peaks.answer(dynamics).from_tractions;
+    stretch(strain, 2.);
+    peaks.sample(dynamics, {}, 20.);
+    const StressPeaks::Answer answer = peaks.answer(dynamics);
+    // Hooke's law with no strain along the surface, then with no stress across it. Strains are logarithmic,
+    // to second order: 4/3 of the square of 0.1 % is left.
+    const double nu = ElasticMaterial().poisson_ratio, E = ElasticMaterial().young_modulus;
+    check.relative("surface: under the wheel, MPa", 1e-6 * pressed.value,
+                   1e-6 * std::hypot(pressure * (1. - 2. * nu) / (1. - nu), std::sqrt(3.) * shear), 1e-12);
+    check.relative("surface: stretched when the wheel has left, MPa", 1e-6 * answer.from_tractions.value,
+                   1e-6 * E / (1. - nu * nu) * std::sqrt(1. - nu + nu * nu) * std::log1p(strain), 2e-6);
+    check.that("surface: the latter is larger", answer.from_tractions.value > pressed.value);
+    check.absolute("surface: its time", answer.from_tractions.time, 2., 0.);
+    check.relative("surface: largest pressure, MPa", 1e-6 * answer.pressure.value, 1e-6 * pressure, 1e-12);
+    check.relative("surface: largest shear stress, MPa", 1e-6 * answer.shear.value, 1e-6 * shear, 1e-12);
+  }
+
   /// Face of the surface in the plane z = 0, deformed by a known stretch and turned.
   void check_face(tests::Check &check)
   {
@@ -323,5 +370,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_probes(check, dynamics);
   check_peaks(check, dynamics);
   check_peaks_between_steps(check, mesh);
+  check_surface_that_is_left(check, dynamics);
   check_face(check);
 }

@@ -2,6 +2,7 @@
 // Rails and wheels: refined by their own rule, then volume, surfaces, cell shapes and boundaries against the
 // exact ones.
 #include <tread/mesh/rail_body.h>
+#include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/wheel_body.h>
 
 #include <deal.II/base/numbers.h>
@@ -207,6 +208,38 @@ namespace
                    1e3 * of_defect(Point<3>(0., 0.01, 0.))[2], 2., 1e-12);
   }
 
+  /// Half a sleeper: it rests on its bottom and is cut in the middle of the track.
+  void check_sleeper(tests::Check &check)
+  {
+    SleeperBox box;
+    box.x           = 0.6;
+    box.y_begin     = -0.7;
+    box.height      = 0.2;
+    const Body body = make_sleeper(box);
+    Mesh       mesh;
+    refine(body, mesh);
+    const double length = box.y_end - box.y_begin, volume = length * box.width * box.height;
+    check.that("sleeper: edges no longer than asked",
+               tests::largest_edge(mesh.begin_active()) < box.coarsest_cell_size * (1. + 1e-9));
+    Measured m = measure(body, mesh, box.coarsest_cell_size, [](const Point<3> &) { return true; });
+    check.relative("sleeper: volume, dm3", 1e3 * m.volume, 1e3 * volume, 1e-12);
+    const Point<3> middle(box.x, 0.5 * (box.y_begin + box.y_end), box.top - 0.5 * box.height);
+    check.below("sleeper: centre of gravity off its place, mm", 1e3 * (m.moment / m.volume - middle).norm(),
+                1e-9);
+    const auto area = [&](const Boundary boundary) {
+      return 1e4 * m.areas[static_cast<int>(boundary)];
+    };
+    check.relative("sleeper: bottom, cm2", area(Boundary::support), 1e4 * length * box.width, 1e-12);
+    check.relative("sleeper: cut, cm2", area(Boundary::end), 1e4 * box.width * box.height, 1e-12);
+    check.below("sleeper: nodes off the bottom, nm",
+                1e9 * off_surface(mesh, Boundary::support,
+                                  [&](const Point<3> &p) { return p[2] - box.top + box.height; }),
+                1e-3);
+    check.below("sleeper: nodes off the cut, nm",
+                1e9 * off_surface(mesh, Boundary::end, [&](const Point<3> &p) { return p[1] - box.y_begin; }),
+                1e-3);
+  }
+
   void check_sector(tests::Check &check, const double finest, const bool conical)
   {
     WheelSector sector;
@@ -312,6 +345,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 
   check_rule(check);
   check_inclination(check);
+  check_sleeper(check);
   check_block(check, 0.63e-3, 0.3);
   check_block(check, 0.63e-3, std::numeric_limits<double>::infinity());
   lap();

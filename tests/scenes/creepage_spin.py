@@ -68,6 +68,9 @@ with tempfile.TemporaryDirectory() as folder:
     slides = run(program, SCENE, path("slides"), falls_with_pressure + ["Motion/Creepage=0.05"], 2)
     check.relative("falls with pressure, sliding: traction over friction", share(slides, "longitudinal") / 0.3,
                    1. - 0.75 * wanted["max_pressure_Pa"] / 4e9, 0.005)
+    # Beside a run stands the half-space that slides as it does, and the same way.
+    check.relative("falls with pressure, sliding: the half-space beside the run", slides["reference"]["traction_coefficient"]["half-space"]["value"],
+                   share(slides, "longitudinal"), 0.0026)
     usual = run(program, SCENE, path("usual, half-space"), falls_with_pressure[:5] + ["Motion/Creepage=0.003"], more=["--reference-only"])
     check.that("and not that without it", share(wanted, "longitudinal") < 0.9 * share(usual, "longitudinal"))
 

@@ -276,6 +276,15 @@ with tempfile.TemporaryDirectory() as folder:
                                                                             "Motion/Hold distance (mm)=4"], 2)
         check.that("a torque that is not reached is told", short["traction_coefficient"] < 0.28
                    and any("aims at a traction coefficient of 0.3" in warning for warning in short["warnings"]))
+        # Until it has rolled the hold distance the wheel keeps its creepage, here none, and transmits nothing; then the torque turns it faster.
+        rows = rows_of(path("short"), "history.csv")
+        held = [row for row in rows if row["position_m"] < -8e-3 + 4e-3]
+        check.that("rows of the history on the hold distance", len(held) >= 10)
+        check.below("on the hold distance: largest creepage", max(abs(row["creepage"]) for row in held), 1e-12)
+        check.below("on the hold distance: largest traction coefficient", max(abs(row["traction_coefficient"]) for row in held), 1.6e-3)
+        # From the first rows in which it acts; they are two or three steps of 0.05 mm apart.
+        (x, first), (further, second) = ((row["position_m"], row["creepage"]) for row in rows[len(held) + 1:len(held) + 3])
+        check.absolute("the torque begins to act at, mm", 1e3 * (x - first * (further - x) / (second - first)), -8. + 4., 0.015)
 
     elif what == "drives":
         # At the start of the first one, two couplings of the contact alternate for ever.
@@ -422,6 +431,15 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("levels of time steps: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 0.03)
         for key in ("settlement_um", "residual_von_mises_MPa"):
             check.relative(f"levels of time steps: {key}", passages("levels")[1][key], second[key], 5e-3)
+
+        # On a rail that does not yield the second wheel does what the first one did: it comes new. The start ends where forces balance to within
+        # its tolerance, from a rail that is not as it was.
+        run(program, SCENE, path("new-wheel"), ["Mesh/Finest cell (mm)=2.6", "Motion/Rolled distance (mm)=2", "Motion/Passages=2",
+                                                "Output/Write volume=false", "Wheel/Yield stress (MPa)=500"])
+        on_new_rail, again = passages("new-wheel")
+        check.that("a new wheel yields", on_new_rail["plastic_work_J"] > 0.)
+        for key in ("plastic_work_J", "frictional_work_J", "traction_coefficient", "max_pressure_MPa"):
+            check.relative(f"a new wheel, the second against the first: {key}", again[key], on_new_rail[key], 2e-3)
 
         # Stopped while the second wheel rolls.
         process, _ = interrupt(path("parts"), settings, rows=65)

@@ -2,9 +2,13 @@
 // Rails of cells, a bar and the full sections, at rest on their supports against the Timoshenko beam:
 // deflection and share of each support.
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include "check.h"
 #include "track_rail.h"
+
+#include <algorithm>
 
 using namespace tread;
 
@@ -77,6 +81,145 @@ namespace
         const std::string name = "pad " + std::to_string(s) + ": ";
         check.below(name + "resultant off its place along the rail, mm", 1e3 * along / sum, 1e-6);
         check.absolute(name + "place of the resultant across, mm", 1e3 * across / sum, 7., 1e-6);
+      }
+  }
+
+  /// Half a sleeper on the springs of its ballast as Timoshenko's beam: it does not turn in the middle of the
+  /// track, by symmetry, and is free at its end.
+  struct HalfSleeper
+  {
+    SleeperBox          box;
+    double              stiffness; ///< of the whole ballast, N/m
+    std::vector<double> springs;   ///< where they are, from the middle of the track, m
+
+    /// Deflection (m) where a force of 1 N at b bends and shears it, held in the middle.
+    double influence(const double a, const double b) const
+    {
+      const double area = box.width * box.height, second = area * box.height * box.height / 12.;
+      const double nu    = tests::concrete().poisson_ratio;
+      const double shear = 10. * (1. + nu) / (12. + 11. * nu) * tests::concrete().shear_modulus() * area;
+      const double near = std::min(a, b), far = std::max(a, b);
+      return near * near * (3. * far - near) / (6. * tests::concrete().young_modulus * second) + near / shear;
+    }
+
+    /// Deflections (m) at places under equal parts of a load (N). Unknown are the forces of the springs and
+    /// how far the middle sinks.
+    std::vector<double> deflections(const std::vector<double> &places,
+                                    const std::vector<double> &loaded,
+                                    const double               load) const
+    {
+      const unsigned int         n = springs.size();
+      dealii::FullMatrix<double> matrix(n + 1);
+      dealii::Vector<double>     right(n + 1), unknown(n + 1);
+      const auto                 of_load = [&](const double place) {
+        double sum = 0.;
+        for (const double at : loaded)
+          sum += load / loaded.size() * influence(place, at);
+        return sum;
+      };
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          for (unsigned int j = 0; j < n; ++j)
+            matrix(i, j) = influence(springs[i], springs[j]);
+          matrix(i, i) += n / stiffness;
+          matrix(i, n) = -1.;
+          matrix(n, i) = 1.;
+          right(i)     = of_load(springs[i]);
+        }
+      right(n) = load;
+      matrix.gauss_jordan();
+      matrix.vmult(unknown, right);
+      std::vector<double> found;
+      for (const double place : places)
+        {
+          double w = unknown(n) + of_load(place);
+          for (unsigned int j = 0; j < n; ++j)
+            w -= unknown(j) * influence(place, springs[j]);
+          found.push_back(w);
+        }
+      return found;
+    }
+  };
+
+  /// A load on a short rail on one solid sleeper.
+  void solid_sleeper(tests::Check &check)
+  {
+    TrackParameters track;
+    track.pad_width = .05;
+    DynamicsParameters parameters;
+    parameters.gravity = 0.;
+    tests::TrackRail rail(MPI_COMM_WORLD, tests::bar(1, 12), 1, track, parameters, {}, true, 0, .03);
+    rail.load(rail.top(0.), load);
+    const unsigned int iterations = rail.dynamics->relax(1e-6, 100000, {});
+    std::printf("solid sleeper: %u iterations, %zu cells\n", iterations, rail.mesh->cells.size());
+
+    HalfSleeper sleeper{rail.sleeper_box(0.), track.springs.ballast_stiffness, {}};
+    const auto  from_middle = [&](const double y) {
+      return y - sleeper.box.y_begin;
+    };
+    const auto parts = [&](const double begin, const double end) {
+      std::vector<double> middles;
+      for (unsigned int i = 0; i < track.points_across; ++i)
+        middles.push_back(from_middle(begin + (end - begin) * (i + .5) / track.points_across));
+      return middles;
+    };
+    sleeper.springs                  = parts(sleeper.box.y_begin, sleeper.box.y_end);
+    const std::vector<double> places = {0., from_middle(0.), from_middle(sleeper.box.y_end)};
+    const auto  beam = sleeper.deflections(places, parts(-.5 * track.pad_width, .5 * track.pad_width), load);
+    const char *names[3] = {"in the middle of the track", "under the rail", "at its end"};
+    for (unsigned int k = 0; k < 3; ++k)
+      {
+        const double y = sleeper.box.y_begin + places[k];
+        // The beam has no dents below the pad and at the points of the ballast.
+        check.relative(std::string("solid sleeper: deflection ") + names[k] + " (mm)",
+                       1e3 * rail.displacement(rail.section_of_sleepers(y)), 1e3 * beam[k], .01);
+      }
+    check.relative("solid sleeper: its ballast carries the load (kN)",
+                   1e-3 * rail.supports->force(0, Supports::ballast), 1e-3 * load, 1e-6);
+  }
+
+  /// Rail and solid sleepers that sink together: the ballast of each resists with the stiffness and the
+  /// damping of the whole support, in the middle of the sleeper.
+  void ballast_of_solid_sleepers(tests::Check &check)
+  {
+    constexpr double depth = 1e-3, speed = .1; // m, m/s
+    TrackParameters  track;
+    track.pad_width                       = .05;
+    track.exceptions[2]                   = track.springs;
+    track.exceptions[2].ballast_stiffness = 20e6;
+    track.exceptions[2].ballast_damping   = 90e3;
+    tests::TrackRail rail(MPI_COMM_WORLD, tests::bar(3, 12), 3, track, DynamicsParameters(), {}, true);
+    NodalField       x(rail.mesh->nodes.size()), v(x.size()), force(x.size(), Vector3{});
+    for (unsigned int i = 0; i < x.size(); ++i)
+      {
+        const dealii::Point<3> &p = rail.mesh->nodes[i];
+        x[i]                      = Vector3{p[0], p[1], p[2] - depth, 0.};
+        v[i]                      = Vector3{0., 0., -speed, 0.};
+      }
+    rail.supports->set_at_rest(x.data());
+    rail.supports->set_velocities(v.data(), {});
+    rail.supports->add_forces(force.data());
+    for (unsigned int s = 0; s < 3; ++s)
+      {
+        const std::string               name  = "ballast below solid sleeper " + std::to_string(s) + ": ";
+        const TrackParameters::Springs &own   = track.springs_of(s);
+        const double                    total = own.ballast_stiffness * depth + own.ballast_damping * speed;
+        double                          sum = 0., along = 0., across = 0.;
+        for (unsigned int i = 0; i < x.size(); ++i)
+          if (rail.mesh->node_bodies[i] == s + 1)
+            {
+              sum += force[i][2];
+              along += force[i][2] * (rail.mesh->nodes[i][0] - rail.positions[s]);
+              across += force[i][2] * rail.mesh->nodes[i][1];
+            }
+        const SleeperBox box = rail.sleeper_box(rail.positions[s]);
+        check.relative(name + "stiffness x depth + damping x speed, kN",
+                       1e-3 * rail.supports->force(s, Supports::ballast), 1e-3 * total, 1e-9);
+        check.relative(name + "force on the sleeper, kN", 1e-3 * sum, 1e-3 * total, 1e-9);
+        check.below(name + "off its place along the rail, mm", 1e3 * along / sum, 1e-6);
+        check.absolute(name + "its place across, mm", 1e3 * across / sum, 500. * (box.y_begin + box.y_end),
+                       1e-6);
+        check.below(name + "force in the pad, N", rail.supports->force(s, Supports::pad), 1e-6);
       }
   }
 
@@ -197,6 +340,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   track.points_across = 2;
   const auto bar      = tests::bar(11, 20);
   place_of_springs(check);
+  solid_sleeper(check);
+  ballast_of_solid_sleepers(check);
   statics(check, "bar, over a sleeper", bar, 11, track, {0.}, .01);
   statics(check, "bar, at mid-span", bar, 11, track, {.3}, .01);
   statics(check, "bar, two wheels", bar, 11, track, {-.9, 1.2}, .01);
