@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pages: links lead somewhere, sections that pages name are there, doc/README.md lists every page, and the messages explained in doc/faq.md are
-the program's."""
+"""The pages: links lead somewhere, sections that pages name are there, doc/README.md lists every page, and the messages explained in doc/faq.md are the program's. Samples of measurements are what their script makes."""
 
 import glob
 import os
 import re
+import runpy
 import unittest
 
 from tread.runs import ROOT
@@ -95,6 +95,13 @@ class Pages(unittest.TestCase):
         for page in PAGES:
             for key in re.findall(r"\[([a-z]+\d{4})[],]", prose(text_of(page))):
                 self.assertIn(key, keys, page)
+
+    def test_samples(self):
+        folder = os.path.join(ROOT, "prm", "tutorial", "measured")
+        made = runpy.run_path(os.path.join(folder, "make-samples.py"))["samples"]()
+        self.assertEqual(len(made), 4)
+        for name, text in made.items():
+            self.assertEqual(text_of(os.path.join(folder, name)), text, f"{name}: run make-samples.py")
 
     def test_messages(self):
         sources = [path for folder in ("source", "include") for ending in ("cc", "h") for path in glob.glob(f"{ROOT}/{folder}/**/*.{ending}", recursive=True)]
