@@ -126,10 +126,7 @@ namespace tread
     rail_base  = &base;
     base_nodes = support_nodes(body);
     for (const unsigned int i : base_nodes)
-      {
-        carried[i] = true;
-        base_reference.push_back(position(i));
-      }
+      carried[i] = true;
     size_rank_sums();
     set_node_levels(); // the base moves in every step
   }

@@ -174,10 +174,11 @@ namespace tread
           v[i]                 = wheel.hub->velocity_at(x);
           set_position(i, x);
         }
-    for (unsigned int k = 0; k < base_nodes.size(); ++k)
+    for (const unsigned int i : base_nodes)
       {
-        v[base_nodes[k]] = rail_base->velocity();
-        set_position(base_nodes[k], base_reference[k] + rail_base->displacement());
+        const dealii::Point<3> &p = mesh.nodes[i];
+        v[i]                      = rail_base->velocity();
+        set_position(i, Vector3{p[0], p[1], p[2], 0.} + rail_base->displacement());
       }
   }
 

@@ -79,13 +79,13 @@ namespace tread
     /// What stands before one of the signs that programs begin comments with. Numbers may be in quotes.
     std::string without_comment(std::string text)
     {
-      text                       = text.substr(0, text.find_first_of("#!%"));
-      std::string       unquoted = text;
-      const auto        quotes   = std::remove(unquoted.begin(), unquoted.end(), '"');
-      const std::size_t n_quotes = unquoted.end() - quotes;
-      unquoted.erase(quotes, unquoted.end());
-      const bool are_balanced = n_quotes % 2 == 0;
-      return are_balanced && !numbers(unquoted).empty() ? unquoted : text.substr(0, text.find('"'));
+      text                = text.substr(0, text.find_first_of("#!%"));
+      const auto n_quotes = std::count(text.begin(), text.end(), '"');
+      if (n_quotes == 0)
+        return text;
+      std::string unquoted = text;
+      unquoted.erase(std::remove(unquoted.begin(), unquoted.end(), '"'), unquoted.end());
+      return n_quotes % 2 == 0 && !numbers(unquoted).empty() ? unquoted : text.substr(0, text.find('"'));
     }
 
     /// Whether a line begins with a number, so that it is no heading; 60E1 is a rail.

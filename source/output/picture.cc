@@ -147,5 +147,4 @@ namespace tread
       text += grid;
     return text + "</Grid>\n</Domain>\n</Xdmf>\n";
   }
-
 } // namespace tread

@@ -138,11 +138,9 @@ namespace tread
   } // namespace
 
 
-  void RunFolder::add_picture(const std::string &stem,
-                              const Picture     &of_rank,
-                              const double       time,
-                              Series            &series) const
+  void RunFolder::add_picture(const std::string &stem, const Picture &of_rank, const double time)
   {
+    Series &series = pictures[stem];
     // One of the same instant is the same picture: ParaView shows neither, or both.
     if (!series.files.empty() && series.files.back().first == time)
       {
@@ -185,26 +183,26 @@ namespace tread
   {
     if (!writes_tables || picture_format == PictureFormat::vtu)
       return;
-    for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
+    for (const auto &[stem, series] : pictures)
       {
-        const std::string                                joined = std::string(stem) + ".h5";
-        std::vector<std::pair<std::string, std::string>> pictures;
+        const std::string                                joined = stem + ".h5";
+        std::vector<std::pair<std::string, std::string>> all;
         std::vector<std::string>                         grids;
-        for (std::size_t i = 0; i < series->files.size(); ++i)
+        for (std::size_t i = 0; i < series.files.size(); ++i)
           {
-            const std::string &alone = series->files[i].second;
+            const std::string &alone = series.files[i].second;
             if (!std::filesystem::exists(path(alone))) // removed by hand
               continue;
             const std::string group = number_in(alone);
-            pictures.emplace_back(group, path(alone));
+            all.emplace_back(group, path(alone));
             grids.push_back(
-              std::regex_replace(series->grids[i], std::regex(alone + ":/"), joined + ":/" + group + "/"));
+              std::regex_replace(series.grids[i], std::regex(alone + ":/"), joined + ":/" + group + "/"));
           }
-        if (pictures.empty())
+        if (all.empty())
           continue;
-        write_through(joined, [&](const std::string &path) { join_hdf5_pictures(path, pictures); });
-        write(std::string(stem) + ".xdmf", xdmf_collection(stem, grids));
-        for (const auto &[group, alone] : pictures)
+        write_through(joined, [&](const std::string &path) { join_hdf5_pictures(path, all); });
+        write(stem + ".xdmf", xdmf_collection(stem, grids));
+        for (const auto &[group, alone] : all)
           std::filesystem::remove(alone);
       }
   }
@@ -260,7 +258,7 @@ namespace tread
     std::iota(cells.begin(), cells.end(), 0u);
     add_fields(picture, points.nodes, true, of_nodes, {});
     add_fields(picture, cells, false, {}, of_cells);
-    add_picture("volume", picture, dynamics.time, volume);
+    add_picture("volume", picture, dynamics.time);
   }
 
 
@@ -290,7 +288,7 @@ namespace tread
     for (const unsigned int node : points.nodes)
       values.push_back(of_nodes[node]);
     add_surface_fields(picture, values, true);
-    add_picture("surface", picture, dynamics.time, surface);
+    add_picture("surface", picture, dynamics.time);
   }
 
 
@@ -318,6 +316,6 @@ namespace tread
             }
         }
     add_surface_fields(picture, values, false);
-    add_picture("surface", picture, 0., surface);
+    add_picture("surface", picture, 0.);
   }
 } // namespace tread

@@ -250,9 +250,10 @@ namespace tread
     // Those that this part of the run does not write stay where they are.
     tables.insert(kept.begin(), kept.end());
     nlohmann::json all;
-    all["tables"] = tables;
-    for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
-      all[stem] = nlohmann::json::array({series->files, series->grids});
+    all["tables"]   = tables;
+    all["pictures"] = nlohmann::json::object();
+    for (const auto &[stem, series] : pictures)
+      all["pictures"][stem] = nlohmann::json::array({series.files, series.grids});
     return all.dump();
   }
 
@@ -263,16 +264,17 @@ namespace tread
       return;
     const auto all = nlohmann::json::parse(progress);
     all.at("tables").get_to(kept);
-    for (const auto &[stem, series] : {std::pair("volume", &volume), std::pair("surface", &surface)})
+    for (const auto &[stem, stored] : all.at("pictures").items())
       {
-        const auto files = all.at(stem).at(0).get<decltype(series->files)>();
-        const auto grids = all.at(stem).at(1).get<decltype(series->grids)>();
+        Series    &series = pictures[stem];
+        const auto files  = stored.at(0).get<decltype(series.files)>();
+        const auto grids  = stored.at(1).get<decltype(series.grids)>();
         for (std::size_t i = 0; i < files.size(); ++i)
           if (std::filesystem::exists(path(files[i].second)))
             {
-              series->files.push_back(files[i]);
+              series.files.push_back(files[i]);
               if (!grids.empty())
-                series->grids.push_back(grids.at(i));
+                series.grids.push_back(grids.at(i));
             }
       }
   }

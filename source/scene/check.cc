@@ -277,10 +277,6 @@ namespace tread
     require(track.has_supports() || rail.ends == EndKind::symmetric,
             "'Rail/Ends' " + name_of(rail.ends) +
               " needs a rail on supports: 'Track/Foundation' must be one-layer or two-layer");
-    if (track.foundation != Foundation::rigid)
-      require(general.density_scale == 1., "'Scene/Density scale' must be 1 with 'Track/Foundation' " +
-                                             name_of(track.foundation) +
-                                             ": the inertia of rail and track is part of the answer");
     require(
       !track.runs_along() || (n_wheels() == 1 && !wheelset.both_wheels),
       "'Track/Foundation' co-running is for one wheel: 'Further wheels' and 'Wheelset/Both wheels' must "

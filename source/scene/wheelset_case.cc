@@ -131,6 +131,7 @@ namespace tread
       require(none, what + " where 'Wheelset' has a position and the wheel is meshed");
     };
     without(!track.has_supports(), "'Track/Foundation' must be rigid or co-running");
+    check_track();
     without(!wheel.is_full(), "'Wheel/Shape' must be sector");
     without(!peak_stress.is_wanted(), "'Peak stress/Region' must be none");
     without(output.cells.empty(), "'Output/Cells' must be empty");

@@ -71,8 +71,8 @@ namespace tread
     for (const int number : scene.output.supports)
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
     return all.substr(0, all.find("subsection Output")) + "set Supports = " + supports +
-           "\nset Cells = " + scene.output.cells +
-           "\nset Pictures = " + (scene.output.pictures == PictureFormat::vtu ? "vtu" : "xdmf") + "\n";
+           "\nset Cells = " + scene.output.cells + "\nset Pictures = " + name_of(scene.output.pictures) +
+           "\n";
   }
 
 

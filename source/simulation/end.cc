@@ -395,12 +395,12 @@ namespace tread
                          (2. * scene.mesh.finest_cell * hertz(touching).max_pressure);
     if (!(share > large))
       return "";
-    return format("the profiles of wheel and rail have detail of %.2g um within a finest cell, which a "
-                  "pressure of %.0f %% of "
-                  "Hertz's presses flat (above %g %%): the cells do not see the surface that half-space "
-                  "theory does; smooth "
-                  "the measured profile, or use smaller cells",
-                  1e6 * detail, 100. * share, 100. * large);
+    return format(
+      "the profiles of wheel and rail have detail of %.2g um within a finest cell, which a pressure of %.0f "
+      "%% "
+      "of Hertz's presses flat (above %g %%): the cells do not see the surface that half-space theory does; "
+      "smooth the measured profile, or use smaller cells",
+      1e6 * detail, 100. * share, 100. * large);
   }
 
 

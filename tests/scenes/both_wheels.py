@@ -122,6 +122,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     must_fail("a roll", {"Wheelset/Roll (mrad)": 1}, "Wheelset/Roll (mrad)", "Both wheels")
     must_fail("no inertia", {"Guidance/Yaw inertia (kg m2)": 0}, "Guidance/Yaw inertia (kg m2)", "Both wheels")
+    must_fail("a track for one wheel", {"Track/Foundation": "co-running"}, "co-running is for one wheel", "Both wheels")
     must_fail("no position", {"Wheelset/Lateral shift (mm)": "none"}, "Wheelset/Lateral shift (mm)")
     must_fail("more than the wheel's circumference", {"Motion/Rolled distance (mm)": 1200}, "Rolled distance", "circumference")
     must_fail("a wheelset between the rails", {"Wheelset/Lateral shift (mm)": 80}, "no half-space answer", "roll that is found")

@@ -426,7 +426,6 @@ namespace tread
     std::unique_ptr<RailBeam>                          rail_beam;
     RailBase                                          *rail_base = nullptr;
     std::vector<unsigned int>                          base_nodes;
-    std::vector<Vector3>                               base_reference; ///< of these nodes, m
     /// Sums over the ranks in a step: of each wheel force and moment on the hub and moments of the
     /// compensated loads; then the force on the rail's base; then those of the supports.
     std::vector<double>           rank_sums;

@@ -163,10 +163,7 @@ namespace tread
       std::vector<std::string>                    grids;
     };
     /// Write a picture and the list of all of its series. Collective. @param of_rank its part
-    void add_picture(const std::string &stem,
-                     const Picture     &of_rank,
-                     const double       time,
-                     Series            &series) const;
+    void add_picture(const std::string &stem, const Picture &of_rank, const double time);
 
     std::string   folder;
     MPI_Comm      comm;
@@ -191,7 +188,7 @@ namespace tread
     using TableMark = std::pair<std::uint64_t, std::uint32_t>;
     std::map<std::string, TableMark> kept; ///< of the run that is resumed, by their names
     Columns<HistoryRow>              of_history, of_cells;
-    Series                           volume, surface;
+    std::map<std::string, Series>    pictures; ///< of the volume and of the surface
   };
 } // namespace tread
 

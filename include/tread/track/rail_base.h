@@ -71,10 +71,9 @@ namespace tread
   private:
     struct State
     {
-      Vector3 displacement{}, velocity{};
-      Vector3 held{}; ///< constant part of the springs, N
-      bool    is_held = false;
-      double  work = 0., gross = 0.;
+      Vector3                displacement{}, velocity{};
+      std::optional<Vector3> held; ///< constant part of the springs, N; none: before the first step
+      double                 work = 0., gross = 0.;
     };
 
     RailBaseParameters parameters;
