@@ -151,6 +151,13 @@ namespace tread
                   of_wheel[d] += load[d];
                   of_wheel[3 + d] += moment[d];
                 }
+              if (!wheel.hub->flexible_axle())
+                continue;
+              const FlexibleAxle::Side side = wheel.hub->side_of(position(i));
+              const Vector3            on_side =
+                quanta.on_hubs.round(cross(position(i) - wheel.hub->middle_of(side), force[i]));
+              for (unsigned int d = 0; d < 3; ++d)
+                of_wheel[12 + 3 * side + d] += on_side[d];
             }
         of_wheel += n_hub_sums;
       }
@@ -264,8 +271,9 @@ namespace tread
     for (const Wheel &wheel : wheels)
       {
         const Vector3 before = wheel.hub->velocity(), axle = wheel.hub->axle();
-        wheel.hub->advance(Vector3{sums[0], sums[1], sums[2], 0.}, Vector3{sums[3], sums[4], sums[5], 0.},
-                           time_step);
+        wheel.hub->advance(
+          Vector3{sums[0], sums[1], sums[2], 0.}, Vector3{sums[3], sums[4], sums[5], 0.}, time_step,
+          {Vector3{sums[12], sums[13], sums[14], 0.}, Vector3{sums[15], sums[16], sums[17], 0.}});
         // The compensation acts on mass that is not there, so the axle feels nothing of it. Its work with the
         // motion about the axle is a potential, that with the axle's motion in this step is summed here.
         const double work =

@@ -330,6 +330,14 @@ namespace tread
 
   namespace
   {
+    std::vector<Sample> read_placed(const std::string &file, const ProfilePlacement &placement)
+    {
+      std::vector<Sample> samples = read_samples(file);
+      for (Sample &s : samples)
+        s.x = (placement.is_mirrored ? -s.x : s.x) + placement.shift;
+      return samples;
+    }
+
     /// z up: the sides of a rail head lie below its middle, whose height is given.
     void point_up(std::vector<Sample> &samples, const double middle)
     {
@@ -396,18 +404,22 @@ namespace tread
   } // namespace
 
 
-  MeasuredLine read_rail_head(const std::string &file, const double half_width)
+  MeasuredLine read_rail_head(const std::string      &file,
+                              const double            half_width,
+                              const ProfilePlacement &placement)
   {
-    std::vector<Sample> samples = around_middle(file, read_samples(file), half_width);
+    std::vector<Sample> samples = around_middle(file, read_placed(file, placement), half_width);
     point_up(samples, line_through(samples)(0.));
     put_top_to_zero(samples);
     return line_through(samples);
   }
 
 
-  MeasuredLine read_wheel_tread(const std::string &file, const double half_width)
+  MeasuredLine read_wheel_tread(const std::string      &file,
+                                const double            half_width,
+                                const ProfilePlacement &placement)
   {
-    std::vector<Sample> samples = read_samples(file);
+    std::vector<Sample> samples = read_placed(file, placement);
     orient_by_flange(samples);
     samples            = around_middle(file, samples, half_width);
     const double level = line_through(samples)(0.);
@@ -417,18 +429,18 @@ namespace tread
   }
 
 
-  std::vector<dealii::Point<2>> read_rail_points(const std::string &file)
+  std::vector<dealii::Point<2>> read_rail_points(const std::string &file, const ProfilePlacement &placement)
   {
-    std::vector<Sample> samples = read_samples(file);
+    std::vector<Sample> samples = read_placed(file, placement);
     point_up(samples, next_to_middle(samples).z);
     put_top_to_zero(samples);
     return as_curve(file, samples);
   }
 
 
-  std::vector<dealii::Point<2>> read_wheel_points(const std::string &file)
+  std::vector<dealii::Point<2>> read_wheel_points(const std::string &file, const ProfilePlacement &placement)
   {
-    std::vector<Sample> samples = read_samples(file);
+    std::vector<Sample> samples = read_placed(file, placement);
     if (!orient_by_flange(samples))
       fail(file, "has no flange: nothing lies 10 mm below the tread");
     constexpr double    near_middle = 5e-3;

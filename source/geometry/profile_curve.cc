@@ -248,7 +248,7 @@ namespace tread
   }
 
 
-  ProfileCurve wheel_curve(const std::string &tread)
+  ProfileCurve wheel_curve(const std::string &tread, const ProfilePlacement &placement)
   {
     if (tread == "cylinder")
       {
@@ -261,7 +261,7 @@ namespace tread
       return ProfileCurve(cone_points(tread == "cone 1:40" ? 1. / 40. : 1. / 20.));
     if (tread == "S1002")
       return ProfileCurve(s1002_points(-70e-3, 60e-3));
-    std::vector<Point> points = read_wheel_points(tread);
+    std::vector<Point> points = read_wheel_points(tread, placement);
     return ProfileCurve(points);
   }
 
@@ -277,8 +277,8 @@ namespace tread
   }
 
 
-  ProfileCurve measured_rail_curve(const std::string &file)
+  ProfileCurve measured_rail_curve(const std::string &file, const ProfilePlacement &placement)
   {
-    return ProfileCurve(read_rail_points(file));
+    return ProfileCurve(read_rail_points(file, placement));
   }
 } // namespace tread

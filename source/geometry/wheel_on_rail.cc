@@ -113,7 +113,7 @@ namespace tread
     : wheel_profile(wheel)
     , rail_profile(rail)
     , nominal_radius(radius)
-    , wheel_y(0.5 * gauge.back_distance - gauge.back_position)
+    , wheel_y(gauge.wheel_origin())
   {
     const auto [face_y, top] = gauge_face(rail, gauge.measuring_depth);
     rail_y                   = 0.5 * gauge.gauge - face_y;

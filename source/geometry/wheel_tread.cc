@@ -74,7 +74,9 @@ namespace tread
   }
 
 
-  std::function<double(double)> tread_offset(const std::string &tread, const double half_width)
+  std::function<double(double)> tread_offset(const std::string      &tread,
+                                             const double            half_width,
+                                             const ProfilePlacement &placement)
   {
     if (tread == "cylinder")
       return nullptr;
@@ -89,7 +91,7 @@ namespace tread
           return s1002_offset(std::min(y, end));
         },
         -50e-3);
-    const MeasuredLine line = read_wheel_tread(tread, half_width);
+    const MeasuredLine line = read_wheel_tread(tread, half_width, placement);
     return without_flange([line](const double y) { return -line(y); }, line.begin());
   }
 } // namespace tread

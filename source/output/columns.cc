@@ -119,6 +119,32 @@ namespace tread
       return columns;
     }
 
+    /// Of a wheelset on a flexible axle.
+    const Columns<WheelRecord> &flexible_axle_columns()
+    {
+      using R = WheelRecord;
+      static const Columns<R> columns{{"axle_twist", "rad",
+                                       [](const R &r) {
+                                         return r.twist;
+                                       }},
+                                      {"own_wheel_roll", "rad",
+                                       [](const R &r) {
+                                         return r.own_tilt.roll;
+                                       }},
+                                      {"own_wheel_yaw", "rad",
+                                       [](const R &r) {
+                                         return r.own_tilt.yaw;
+                                       }},
+                                      {"other_wheel_roll", "rad",
+                                       [](const R &r) {
+                                         return r.other_tilt.roll;
+                                       }},
+                                      {"other_wheel_yaw", "rad", [](const R &r) {
+                                         return r.other_tilt.yaw;
+                                       }}};
+      return columns;
+    }
+
     const Columns<EnergyLedger> &energy_columns()
     {
       using R = EnergyLedger;
@@ -206,6 +232,8 @@ namespace tread
       add_columns(columns, across_columns(), "", wheel(0));
     if (parts.has_both_wheels)
       add_columns(columns, both_wheels_columns(), "", wheel(0));
+    if (parts.has_flexible_axle)
+      add_columns(columns, flexible_axle_columns(), "", wheel(0));
     if (!parts.supports.empty())
       columns.push_back({"spring_energy", "J", [](const R &r) {
                            return r.energy.springs;

@@ -74,6 +74,7 @@ namespace tread
     motion.check();
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     check_suspension();
+    check_axle();
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
           traction != 0. && !is_positioned() && !(motion.drive == Drive::creepage && motion.creepage))
@@ -86,15 +87,43 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// A hundred times what the time step of the smallest cells resolves is not what anyone means, 1/s.
+    constexpr double fastest = 1e5;
+  } // namespace
+
+
+  void Scene::check_axle() const
+  {
+    if (!wheelset.has_flexible_axle())
+      return;
+    const double wheel_inertia = wheel.moment_of_inertia,
+                 of_chord      = guidance.yaw_inertia - 2. * FlexibleAxle::about_diameter(wheel_inertia);
+    require(of_chord > 0.,
+            "'Guidance/Yaw inertia (kg m2)' " + text_of(guidance.yaw_inertia) +
+              " is that of the wheelset: on a flexible axle it must be above what both wheels have "
+              "about their own diameters, 'Wheel/Moment of inertia (kg m2)' " +
+              text_of(wheel_inertia));
+    const FlexibleAxle axle(
+      {wheelset.axle_torsion, wheelset.axle_bending, wheelset.axle_damping, wheelset.track.wheel_origin()});
+    const double frequency = axle.largest_frequency(wheel_inertia, of_chord),
+                 rate      = std::max(frequency, wheelset.axle_damping * frequency * frequency);
+    require(rate <= fastest,
+            "'Wheelset/Axle torsional stiffness (MN m per rad)', 'Axle bending stiffness (MN m2)' and "
+            "'Axle damping (us)' swing or settle within " +
+              text_of(1e6 / rate) + " us, which no axle does; at least " + text_of(1e6 / fastest) +
+              " us are allowed. A rigid one is 'rigid'");
+  }
+
+
   void Scene::check_suspension() const
   {
     if (vehicle.sprung_mass == 0.)
       return;
-    // A hundred times what the time step of the smallest cells resolves is not what anyone means.
-    constexpr double fastest = 1e5; // 1/s
-    const double     inverse = 1. / wheel.mass + 1. / vehicle.sprung_mass,
-                 rate        = std::max(std::sqrt(vehicle.suspension_stiffness * inverse),
-                                        vehicle.suspension_damping * inverse);
+    const double inverse = 1. / wheel.mass + 1. / vehicle.sprung_mass,
+                 rate    = std::max(std::sqrt(vehicle.suspension_stiffness * inverse),
+                                    vehicle.suspension_damping * inverse);
     require(rate <= fastest,
             "'Vehicle/Sprung mass (kg)' " + text_of(vehicle.sprung_mass) +
               ", 'Suspension stiffness (kN per m)' and 'Suspension damping (N s per m)' swing or settle "

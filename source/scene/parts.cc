@@ -189,6 +189,9 @@ namespace tread
     p.gravity                   = scene.vehicle.gravity;
     p.yaw_inertia               = scene.guidance.yaw_inertia;
     p.roll_inertia              = scene.wheelset.both_wheels ? p.yaw_inertia : 0.;
+    if (scene.wheelset.has_flexible_axle())
+      p.axle = {scene.wheelset.axle_torsion, scene.wheelset.axle_bending, scene.wheelset.axle_damping,
+                scene.wheelset.track.wheel_origin()};
     return p;
   }
 

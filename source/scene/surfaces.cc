@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
 #include <tread/geometry/wheel_tread.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/half_space.h>
@@ -59,13 +60,28 @@ namespace tread
   }
 
 
+  std::string Scene::defect_in_words() const
+  {
+    const Defect *made = made_defect();
+    if (!made)
+      return "";
+    return format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * made->begin,
+                  1e3 * (made->begin + made->length), 1e3 * made->depth,
+                  made->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : "") +
+           (made->repeated_at.empty()
+              ? ""
+              : format("; %u more like it", static_cast<unsigned int>(made->repeated_at.size())));
+  }
+
+
   void Scene::shape_wheel(RunningSurfaces &surfaces) const
   {
     surfaces.radius = wheel.radius;
     try
       {
-        if (const auto offset = tread_offset(located(wheel.tread_profile),
-                                             running_half_width + std::abs(wheel.lateral_position)))
+        if (const auto offset =
+              tread_offset(located(wheel.tread_profile),
+                           running_half_width + std::abs(wheel.lateral_position), wheel.profile_placement))
           surfaces.tread_offset = [offset, y_circle = wheel.lateral_position](const double y) {
             return offset(y - y_circle);
           };
@@ -101,8 +117,9 @@ namespace tread
         if (!rail.measured_head.empty())
           try
             {
-              const MeasuredLine line = read_rail_head(located(rail.measured_head), running_half_width);
-              height                  = [line, nominal, edge](const double y) {
+              const MeasuredLine line =
+                read_rail_head(located(rail.measured_head), running_half_width, rail.head_placement);
+              height = [line, nominal, edge](const double y) {
                 const double measured =
                   std::clamp(y, std::max(line.begin(), -edge), std::min(line.end(), edge));
                 const double fade = std::max(0., 1. - std::abs(y - measured) / fading_length);

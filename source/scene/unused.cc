@@ -76,7 +76,7 @@ namespace tread
        rail.is_block(),
        "block"},
       {"Rail",
-       {"Profile", "Measured head", "Inclination"},
+       {"Profile", "Measured head", "Measured head mirrored", "Measured head shift (mm)", "Inclination"},
        "Shape",
        !rail.is_block(),
        "head or full section"},

@@ -12,7 +12,7 @@ namespace tread
     const auto wheel_profile = [&] {
       try
         {
-          return wheel_curve(located(wheel.tread_profile));
+          return wheel_curve(located(wheel.tread_profile), wheel.profile_placement);
         }
       catch (const std::runtime_error &error)
         {
@@ -25,7 +25,7 @@ namespace tread
         return rail_curve(rail.standard_profile());
       try
         {
-          return measured_rail_curve(located(rail.measured_head));
+          return measured_rail_curve(located(rail.measured_head), rail.head_placement);
         }
       catch (const std::runtime_error &error)
         {

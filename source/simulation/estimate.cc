@@ -95,6 +95,8 @@ namespace tread
       {
         for (const std::string &unused : scene.unused_parameters())
           std::printf("WARNING: %s\n", unused.c_str());
+        if (const std::string defect = scene.defect_in_words(); !defect.empty())
+          std::printf("%s\n", defect.c_str());
         if (const std::string unseen = unseen_detail(); !unseen.empty())
           std::printf("WARNING: %s\n", unseen.c_str());
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);

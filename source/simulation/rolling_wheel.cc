@@ -70,15 +70,24 @@ namespace tread
                                          const unsigned int            n_steps,
                                          const double                  seconds)
   {
-    const WheelRecord record{(1. / n_steps) * interval_force,
-                             creepage(scene),
-                             measure(now),
-                             (hub.motion.velocity_z - interval_start_speed) / seconds,
-                             hub.motion.y + scene.wheelset.position().shift,
-                             hub.motion.yaw,
-                             hub.guidance_force(),
-                             hub.motion.roll,
-                             (1. / n_steps) * interval_other_force};
+    WheelRecord record{(1. / n_steps) * interval_force,
+                       creepage(scene),
+                       measure(now),
+                       (hub.motion.velocity_z - interval_start_speed) / seconds,
+                       hub.motion.y + scene.wheelset.position().shift,
+                       hub.motion.yaw,
+                       hub.guidance_force(),
+                       hub.motion.roll,
+                       (1. / n_steps) * interval_other_force};
+    if (const FlexibleAxle *axle = hub.flexible_axle())
+      {
+        record.twist    = 2. * axle->twist(FlexibleAxle::own);
+        const auto tilt = [&](const FlexibleAxle::Side side) {
+          return WheelRecord::Tilt{-axle->tilt(side).x, axle->tilt(side).z};
+        };
+        record.own_tilt   = tilt(FlexibleAxle::own);
+        record.other_tilt = tilt(FlexibleAxle::other);
+      }
     interval_force = interval_other_force = Vector3{};
     interval_start_speed                  = hub.motion.velocity_z;
     return record;

@@ -374,7 +374,8 @@ namespace tread
     scene.print(effective, true);
     folder.write("parameters.prm", effective.str());
     folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
-                           scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along()},
+                           scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along(),
+                           scene.wheelset.has_flexible_axle()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.surface_interval > 0.)
       folder.open_patches(wheels.size());
@@ -432,13 +433,8 @@ namespace tread
       progress.say("assumed: " + assumption);
     for (const std::string &unused : scene.unused_parameters())
       progress.say("WARNING: " + unused);
-    if (const Defect *defect = scene.made_defect())
-      progress.say(format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * defect->begin,
-                          1e3 * (defect->begin + defect->length), 1e3 * defect->depth,
-                          defect->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : "") +
-                   (defect->repeated_at.empty()
-                      ? ""
-                      : format("; %u more like it", static_cast<unsigned int>(defect->repeated_at.size()))));
+    if (const std::string defect = scene.defect_in_words(); !defect.empty())
+      progress.say(defect);
     if (const double gain = dynamics.ideal_gain_of_levels(); gain > 1.)
       progress.say(
         format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));
@@ -552,7 +548,11 @@ namespace tread
   void Simulation::keep_checkpoint(Checkpoint &checkpoint, const Progress &progress, Pace &pace)
   {
     const double now = progress.seconds(), interval = scene.output.checkpoint_interval;
-    const bool   due = interval > 0. && now - pace.last_checkpoint > interval;
+    // A start that took long is not lost with what comes after it.
+    constexpr double long_start = 60.; // s
+    const bool       is_first   = pace.last_checkpoint == pace.began;
+    const bool       due =
+      interval > 0. && (now - pace.last_checkpoint > interval || (is_first && pace.began > long_start));
     if (!dealii::Utilities::MPI::max(due ? 1 : 0, comm))
       return;
     watch(dynamics.ledger()); // nothing is kept to go on from that has gone wrong

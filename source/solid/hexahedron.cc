@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
 #include <tread/solid/hexahedron.h>
 
 #include <deal.II/base/tensor.h>
@@ -121,9 +122,13 @@ namespace tread
           }
         const double weight = determinant(jacobian);
         if (!(weight > 0.))
-          throw std::runtime_error("mesh: a cell near (" + std::to_string(nodes[0][0]) + ", " +
-                                   std::to_string(nodes[0][1]) + ", " + std::to_string(nodes[0][2]) +
-                                   ") m is turned inside out");
+          throw std::runtime_error(
+            "mesh: a cell near x = " + text_in_mm(nodes[0][0]) + ", y = " + text_in_mm(nodes[0][1]) +
+            ", z = " + text_in_mm(nodes[0][2]) +
+            " mm is turned inside out: the surface there is steeper or rougher than its "
+            "cells can follow. Look at what is measured ('Rail/Measured head', 'Wheel/Tread "
+            "profile', 'Defect/Profile file'), or give a rail's flanks to a wheelset in its "
+            "track ('Wheelset/Lateral shift (mm)')");
         const dealii::Tensor<2, 3> inverse = invert(jacobian);
         point_volume[q]                    = weight;
         volume += weight;

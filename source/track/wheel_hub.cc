@@ -17,6 +17,8 @@ namespace tread
     reference_y            = middle[1];
     motion.z = reference_z = middle[2];
     guidance               = Guidance::rigid;
+    if (flexible)
+      flexible->place();
     balance_suspension();
   }
 
@@ -30,8 +32,7 @@ namespace tread
 
   Vector3 WheelHub::turning() const
   {
-    return motion.angular_velocity * present.y + motion.yaw_rate * present.z -
-           motion.roll_rate * Vector3{1., 0., 0., 0.};
+    return motion.angular_velocity * present.y + tilting();
   }
 
 
@@ -97,22 +98,16 @@ namespace tread
   }
 
 
-  Vector3 WheelHub::gyroscopic_moment() const
+  double WheelHub::guide(const double  lateral,
+                         const Vector3 moment,
+                         const double  of_wheels,
+                         const double  time_step)
   {
-    if (!rolls())
-      return Vector3{};
-    // What is left of the change of the angular momentum about the axle.
-    const Vector3 turning = motion.yaw_rate * present.z - motion.roll_rate * Vector3{1., 0., 0., 0.};
-    return -parameters.moment_of_inertia * motion.angular_velocity * cross(turning, present.y);
-  }
-
-
-  double WheelHub::guide(const double lateral, const Vector3 moment, const double time_step)
-  {
-    const Motion before = motion;
+    const Motion before      = motion;
+    const double yaw_inertia = parameters.yaw_inertia - of_wheels;
     if (rolls())
       {
-        motion.roll_rate -= time_step * moment[0] / parameters.roll_inertia;
+        motion.roll_rate -= time_step * moment[0] / (parameters.roll_inertia - of_wheels);
         motion.roll += time_step * motion.roll_rate;
       }
     if (guidance == Guidance::rigid)
@@ -130,7 +125,7 @@ namespace tread
         if (!rolls())
           motion.roll_rate = (next.roll - motion.roll) / time_step;
         lateral_guidance = parameters.mass * (motion.velocity_y - before.velocity_y) / time_step - lateral;
-        yaw_support = parameters.yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - yaw_moment;
+        yaw_support      = yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - yaw_moment;
         // Free rolling may lie beside what theory takes for it.
         if (next.angular_velocity)
           motion.angular_velocity += *next.angular_velocity - *across(guidance_time).angular_velocity;
@@ -146,8 +141,8 @@ namespace tread
         yaw_support = *springs.moment - springs.yaw_stiffness * (motion.yaw - released_yaw) -
                       springs.yaw_damping * motion.yaw_rate;
         motion.velocity_y += time_step * (lateral + lateral_guidance) / parameters.mass;
-        if (parameters.yaw_inertia > 0.)
-          motion.yaw_rate += time_step * (yaw_moment + yaw_support) / parameters.yaw_inertia;
+        if (yaw_inertia > 0.)
+          motion.yaw_rate += time_step * (yaw_moment + yaw_support) / yaw_inertia;
       }
     guidance_time += time_step;
     motion.y += time_step * motion.velocity_y;
@@ -162,7 +157,10 @@ namespace tread
   }
 
 
-  void WheelHub::advance(const Vector3 force, const Vector3 moment_about_middle, const double time_step)
+  void WheelHub::advance(const Vector3  force,
+                         const Vector3  moment_about_middle,
+                         const double   time_step,
+                         const OfSides &on_wheels)
   {
     const Motion before     = motion;
     const double moment     = dot(axle(), moment_about_middle);
@@ -178,9 +176,35 @@ namespace tread
     // The rest that balances the cells lags behind when the axle moves up: a moment.
     const double lag = -by_turning[2] * acceleration;
     // Its centrifugal force is no work from outside.
-    const double centrifugal = before.angular_velocity * before.angular_velocity * moments[2];
-    const double guiding = guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1],
-                                 moment_about_middle + gyroscopic_moment(), time_step);
+    const double centrifugal    = before.angular_velocity * before.angular_velocity * moments[2];
+    Vector3      tilting_moment = moment_about_middle;
+    if (rolls())
+      tilting_moment += gyroscopic_moment(parameters.moment_of_inertia, tilting());
+    FlexibleAxle::OfSides<FlexibleAxle::Tilt> unbalanced{};
+    double                                    of_wheels = 0.;
+    if (flexible)
+      {
+        FlexibleAxle::OfSides<FlexibleAxle::Tilt> outside;
+        for (const FlexibleAxle::Side side : {FlexibleAxle::own, FlexibleAxle::other})
+          {
+            const Vector3 against_chord = in_space(flexible->tilt_rate(side));
+            tilting_moment += gyroscopic_moment(inertia_of_wheel(), against_chord);
+            outside[side] =
+              in_chord(on_wheels[side] + gyroscopic_moment(inertia_of_wheel(), tilting() + against_chord));
+          }
+        unbalanced = flexible->unbalanced(outside);
+        for (const FlexibleAxle::Tilt &moment : unbalanced)
+          tilting_moment -= in_space(moment);
+        if (flexible->bends())
+          of_wheels = 2. * FlexibleAxle::about_diameter(inertia_of_wheel());
+      }
+    const Vector3 tilting_before = tilting();
+    const double  guiding = guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1],
+                                  tilting_moment, of_wheels, time_step);
+    if (flexible)
+      flexible->advance(
+        unbalanced, {dot(axle(), on_wheels[FlexibleAxle::own]), dot(axle(), on_wheels[FlexibleAxle::other])},
+        in_chord((1. / time_step) * (tilting() - tilting_before)), inertia_of_wheel(), time_step);
     // with it the angular velocity is as prescribed; includes the weight's moment
     double turning_outside =
       parameters.moment_of_inertia * (motion.angular_velocity - before.angular_velocity) / time_step -
@@ -214,15 +238,34 @@ namespace tread
   }
 
 
-  Vector3 WheelHub::position_of(const Vector3 reference) const
+  Vector3 WheelHub::position_of(const Vector3 arm) const
   {
-    return middle() + turned(reference, motion.angle);
+    if (!flexible)
+      return middle() + turned(arm, motion.angle);
+    const auto    side = dot(reference.y, arm) > 0. ? FlexibleAxle::own : FlexibleAxle::other;
+    const Vector3 from = middle_of(side),
+                  way  = middle() + turned(arm, motion.angle + flexible->twist(side)) - from;
+    const Vector3 tilt = in_space(flexible->tilt(side));
+    // Rodrigues.
+    const double angle = std::sqrt(dot(tilt, tilt));
+    if (angle == 0.)
+      return from + way;
+    const Vector3 about = (1. / angle) * tilt;
+    return from + std::cos(angle) * way + std::sin(angle) * cross(about, way) +
+           (1. - std::cos(angle)) * dot(about, way) * about;
   }
 
 
   Vector3 WheelHub::velocity_at(const Vector3 x) const
   {
-    return velocity() + cross(turning(), x - middle());
+    const Vector3 of_chord = velocity() + cross(turning(), x - middle());
+    if (!flexible)
+      return of_chord;
+    const FlexibleAxle::Side side  = side_of(x);
+    const double             twist = flexible->twist_rate(side), spin = motion.angular_velocity + twist;
+    const Vector3            tilted = cross(in_space(flexible->tilt(side)), present.y);
+    return of_chord + cross(twist * present.y + spin * tilted + in_space(flexible->tilt_rate(side)),
+                            x - middle_of(side));
   }
 
 
@@ -234,7 +277,8 @@ namespace tread
            motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity +
            0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate +
-           0.5 * parameters.roll_inertia * motion.roll_rate * motion.roll_rate;
+           0.5 * parameters.roll_inertia * motion.roll_rate * motion.roll_rate +
+           (flexible ? flexible->kinetic_energy(in_chord(tilting()), inertia_of_wheel()) : 0.);
   }
 
 
@@ -243,5 +287,7 @@ namespace tread
     archive.same(drive, drive_torque, motion, reference, present, reference_x, reference_y, reference_z,
                  equilibrium_z, work, gross, guidance, guidance_time, lateral_guidance, springs,
                  released_yaw);
+    if (flexible)
+      flexible->serialize(archive);
   }
 } // namespace tread

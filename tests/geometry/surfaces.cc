@@ -330,6 +330,31 @@ namespace
       check.absolute("mirrored and shifted .prr at " + std::to_string(y) + " mm, um", 1e6 * head(1e-3 * y),
                      -1e3 * worn(y), 0.02);
 
+    // The same in a table whose y has the other sign and another origin, placed by the caller.
+    std::string mirrored;
+    for (int y = 30; y >= -30; --y)
+      mirrored += std::to_string(12 - y) + " " + std::to_string(-worn(y)) + "\n";
+    std::ofstream("geometry_surfaces.txt") << mirrored;
+    const MeasuredLine placed = read_rail_head("geometry_surfaces.txt", 25e-3, {true, 12e-3});
+    const std::vector<dealii::Point<2>> placed_points =
+      read_rail_points("geometry_surfaces.txt", {true, 12e-3});
+    for (const double y : {-13.3, 7., 21.2})
+      check.absolute("mirrored and shifted table at " + std::to_string(y) + " mm, um", 1e6 * placed(1e-3 * y),
+                     -1e3 * worn(y), 0.02);
+    check.absolute("mirrored and shifted points begin at, mm", 1e3 * placed_points.front()[0], -30., 1e-9);
+    check.absolute("with, um", 1e6 * placed_points.front()[1], -1e3 * worn(-30.), 1e-3);
+
+    // A wheel whose y begins at the back of the flange and points away from it.
+    std::string from_back;
+    for (double s = -70.; s <= 45.; s += 0.125)
+      from_back += std::to_string(s + 70.) + " " + std::to_string(-1e3 * s1002_offset(1e-3 * s)) + "\n";
+    std::ofstream("geometry_surfaces.txt") << from_back;
+    const std::vector<dealii::Point<2>> wheel_points =
+      read_wheel_points("geometry_surfaces.txt", {false, -70e-3});
+    check.absolute("wheel from the back of its flange begins at, mm", 1e3 * wheel_points.front()[0], -70.,
+                   1e-9);
+    check.absolute("and ends with, um", 1e6 * wheel_points.back()[1], -1e6 * s1002_offset(45e-3), 1.);
+
     // A hollow tread without a flange: nothing says that it should be turned.
     std::string hollow;
     for (int y = -30; y <= 40; ++y)

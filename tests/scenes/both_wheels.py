@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Both wheels of a wheelset on a rigid axle: symmetry, equilibrium with the roll found, the first part of Klingel's wave, ranks,
+"""Both wheels of a wheelset on a rigid and on a flexible axle: symmetry, equilibrium with the roll found, the first part of Klingel's wave, ranks,
 resuming, and what is refused."""
 
 import importlib.util
@@ -17,6 +17,8 @@ program = sys.argv[1]
 check = Check()
 SCENE = "curves/klingel.prm"
 LOAD = 150e3  # N, on each wheel
+RADIUS, INERTIA = 0.2, 10.  # m, kg m2, of each wheel
+TORSION = 3.4  # MN m/rad
 HELD = {"Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance",
         "Motion/Rolled distance (mm)": 10, "Output/Write volume": "false", "Mesh/Fine half width (mm)": 0, "Mesh/Fine layers": 4}
 
@@ -104,17 +106,35 @@ with tempfile.TemporaryDirectory() as folder:
     # No guidance: what the rails do to the wheelset across is its momentum.
     check.below("free: guidance force, N", np.abs(rows["guidance_force_N"]).max(), 1e-9)
 
-    # Ranks and resuming.
+    # Ranks and resuming, on an axle of steel of 160 mm.
     short = {**free, "Motion/Rolled distance (mm)": 20}
-    for ranks in (1, 3):
-        run(program, SCENE, path(f"ranks{ranks}"), short, ranks)
+    axle = lambda factor: {"Wheelset/Axle torsional stiffness (MN m per rad)": TORSION * factor, "Wheelset/Axle bending stiffness (MN m2)": 6.6 * factor}
+    for name, settings in (("rigid", {}), ("stiff", axle(300))):
+        run(program, SCENE, path(name), {**short, **settings}, 2)
+    rigid, stiff = history_of(path("rigid")), history_of(path("stiff"))
+    short |= axle(1)
+    bent, _ = (run(program, SCENE, path(f"ranks{ranks}"), short, ranks) for ranks in (1, 3))
     one, three = history_of(path("ranks1")), history_of(path("ranks3"))
     for name, scale in (("lateral_shift_m", 1e-6), ("yaw_rad", 1e-5), ("roll_rad", 1e-5), ("other_normal_force_N", LOAD)):
         check.below(f"3 ranks: {name}", np.abs(one[name] - three[name]).max() / scale, 1e-5)
+    check.energy("flexible axle: ", bent, 0.02)
+    for name in ("lateral_shift_m", "yaw_rad", "other_normal_force_N", "other_longitudinal_force_N"):
+        check.below(f"300 times as stiff: {name} beside a rigid axle's, share of the difference of steel",
+                    np.abs(stiff[name] - rigid[name]).max() / np.abs(one[name] - rigid[name]).max(), 0.05)
+    # Two discs on a shaft under the couple of the longitudinal forces that came since the start, of which rows have the means; the
+    # scaled mass of the cells makes the wheels some per cent slower.
+    couple = RADIUS * (2 * one["other_longitudinal_force_N"] - one["longitudinal_force_N"])
+    held, time, twist, rate = 1.5 * couple[0] - 0.5 * couple[1], np.append(0., one["time_s"]), 0., 0.
+    for moment, begin, end in zip(couple, time, time[1:]):
+        for step in np.full(100, (end - begin) / 100):
+            rate += step * (moment - held - 2e6 * TORSION * twist) / INERTIA
+            twist += step * rate
+    check.relative("twist of the axle beside that of two discs on a shaft, mrad", 1e3 * one["axle_twist_rad"][-1], 1e3 * twist, 0.1)
+    check.that("wheels roll and yaw on the bent axle", min(np.abs(one[f"{wheel}_wheel_{way}_rad"]).max() for wheel in ("own", "other") for way in ("roll", "yaw")) > 1e-5)
     run_stopped(program, SCENE, path("stopped"), short, 3)
     run(program, SCENE, path("stopped"), short, 1, ["--resume"])
     resumed = history_of(path("stopped"))
-    for name in ("lateral_shift_m", "yaw_rad", "roll_rad", "other_normal_force_N", "external_work_J"):
+    for name in ("lateral_shift_m", "yaw_rad", "roll_rad", "other_normal_force_N", "external_work_J", "axle_twist_rad", "own_wheel_roll_rad"):
         check.that(f"resumed: {name} has the same bits", np.array_equal(resumed[name], one[name]))
 
     def must_fail(name, settings, *words):
@@ -122,6 +142,10 @@ with tempfile.TemporaryDirectory() as folder:
 
     must_fail("a roll", {"Wheelset/Roll (mrad)": 1}, "Wheelset/Roll (mrad)", "Both wheels")
     must_fail("no inertia", {"Guidance/Yaw inertia (kg m2)": 0}, "Guidance/Yaw inertia (kg m2)", "Both wheels")
+    must_fail("a flexible axle of one wheel", {**axle(1), "Wheelset/Both wheels": "false", "Guidance/Yaw inertia (kg m2)": 0}, "Axle torsional stiffness", "Both wheels")
+    must_fail("an axle that swings within a step", axle(1e6), "Axle torsional stiffness", "which no axle does")
+    must_fail("a wheelset lighter than its wheels", {**axle(1), "Guidance/Yaw inertia (kg m2)": 8}, "Yaw inertia", "diameters")
+    must_fail("no stiffness", axle(0), "must be above 0")
     must_fail("a track for one wheel", {"Track/Foundation": "co-running"}, "co-running is for one wheel", "Both wheels")
     must_fail("no position", {"Wheelset/Lateral shift (mm)": "none"}, "Wheelset/Lateral shift (mm)")
     must_fail("more than the wheel's circumference", {"Motion/Rolled distance (mm)": 1200}, "Rolled distance", "circumference")

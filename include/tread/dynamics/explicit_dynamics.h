@@ -426,10 +426,10 @@ namespace tread
     std::unique_ptr<RailBeam>                          rail_beam;
     RailBase                                          *rail_base = nullptr;
     std::vector<unsigned int>                          base_nodes;
-    /// Sums over the ranks in a step: of each wheel force and moment on the hub and moments of the
-    /// compensated loads; then the force on the rail's base; then those of the supports.
+    /// Sums over the ranks in a step: of each wheel force and moment on the hub, moments of the
+    /// compensated loads, and moments on both wheels of a flexible axle; then the force on the rail's base; then those of the supports.
     std::vector<double>           rank_sums;
-    static constexpr unsigned int n_hub_sums = 12, n_base_sums = 3;
+    static constexpr unsigned int n_hub_sums = 18, n_base_sums = 3;
 
     /// What is rounded before sums over nodes or ranks, so that they do not depend on the ranks; 0: nothing.
     struct Quanta

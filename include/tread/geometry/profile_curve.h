@@ -2,6 +2,8 @@
 #ifndef tread_geometry_profile_curve_h
 #define tread_geometry_profile_curve_h
 
+#include <tread/geometry/measured_line.h>
+
 #include <deal.II/base/point.h>
 
 #include <string>
@@ -70,14 +72,14 @@ namespace tread
   /// @param tread "cylinder" (from -70 to 60 mm, no flange), "cone 1:40", "cone 1:20" (with the flange of
   /// S1002, joined by the arc R13 of its throat), "S1002" (EN 13715), or a file. @throws std::runtime_error,
   /// one line.
-  ProfileCurve wheel_curve(const std::string &tread);
+  ProfileCurve wheel_curve(const std::string &tread, const ProfilePlacement &placement = {});
 
   /// The head of a rail from flank to flank, upright: the rail top's middle at the origin.
   ProfileCurve rail_curve(const RailProfile &profile);
 
   /// A measured head as in the file, its highest point within 20 mm of y = 0 at z = 0. @throws
   /// std::runtime_error, one line.
-  ProfileCurve measured_rail_curve(const std::string &file);
+  ProfileCurve measured_rail_curve(const std::string &file, const ProfilePlacement &placement = {});
 } // namespace tread
 
 #endif

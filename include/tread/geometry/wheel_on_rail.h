@@ -37,6 +37,11 @@ namespace tread
     double measuring_depth = 14e-3;  ///< of the gauge below the rail tops
     double back_distance   = 1.36;   ///< between the backs of the wheels' flanges
     double back_position   = -70e-3; ///< of the flange's back in the wheel's profile
+                                     /// Of the wheel's profile on the axle, from the middle, m.
+    double wheel_origin() const
+    {
+      return 0.5 * back_distance - back_position;
+    }
   };
 
   /// One wheel of a wheelset, a surface of revolution about the axle, over its rail, a prism along x: both

@@ -2,6 +2,8 @@
 #ifndef tread_geometry_wheel_tread_h
 #define tread_geometry_wheel_tread_h
 
+#include <tread/geometry/measured_line.h>
+
 #include <functional>
 #include <string>
 
@@ -16,7 +18,9 @@ namespace tread
   /// meshed.
   /// @param tread "cylinder", "cone 1:40", "cone 1:20", "S1002", or a file (read_wheel_tread).
   /// @param half_width that a file must cover (m). @throws std::runtime_error, one line.
-  std::function<double(double)> tread_offset(const std::string &tread, const double half_width);
+  std::function<double(double)> tread_offset(const std::string      &tread,
+                                             const double            half_width,
+                                             const ProfilePlacement &placement = {});
 } // namespace tread
 
 #endif

@@ -70,11 +70,12 @@ namespace tread
   /// What has columns in history.csv.
   struct HistoryParts
   {
-    unsigned int     n_wheels;              ///< all but the first have their number in the name
-    bool             moves_across;          ///< the first one, across its track
-    bool             has_both_wheels;       ///< the first one's wheelset
-    std::vector<int> supports;              ///< their numbers
-    bool             has_rail_base = false; ///< one that moves
+    unsigned int     n_wheels;                  ///< all but the first have their number in the name
+    bool             moves_across;              ///< the first one, across its track
+    bool             has_both_wheels;           ///< the first one's wheelset
+    std::vector<int> supports;                  ///< their numbers
+    bool             has_rail_base     = false; ///< one that moves
+    bool             has_flexible_axle = false; ///< the first one's wheelset
   };
   /// history.csv.
   Columns<HistoryRow> history_columns(const HistoryParts &parts);

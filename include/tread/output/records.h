@@ -31,6 +31,13 @@ namespace tread
     double        guidance_force;        ///< lateral, on the wheelset, at the end of the interval
     double        roll;                  ///< of a wheelset with both wheels, likewise
     Vector3       other_force;           ///< of `force`, that on the other wheel
+    /// Of a flexible axle, at the end of the interval: twist of the own wheel against the other, and what the
+    /// wheels have in addition to the roll and yaw of the wheelset.
+    double twist = 0.;
+    struct Tilt
+    {
+      double roll = 0., yaw = 0.;
+    } own_tilt{}, other_tilt{};
   };
 
   /// One row of history.csv and of cells.csv, SI units.

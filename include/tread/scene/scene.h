@@ -119,6 +119,9 @@ namespace tread
       return assumptions(start.tractions == StartTractions::predicted);
     }
 
+    /// Where the defect lies and how deep, one line; empty: there is none.
+    std::string defect_in_words() const;
+
     /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;
 
@@ -273,6 +276,7 @@ namespace tread
     void check() const;
     void check_motion() const;
     void check_suspension() const;
+    void check_axle() const;
     void check_wheelset() const;
     void check_surfaces() const;
     void check_defect() const;

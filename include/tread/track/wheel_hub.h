@@ -4,6 +4,7 @@
 
 #include <tread/base/archive.h>
 #include <tread/base/simd.h>
+#include <tread/track/flexible_axle.h>
 
 #include <functional>
 #include <optional>
@@ -54,6 +55,8 @@ namespace tread
     double gravity              = 9.81; ///< m/s^2
     double yaw_inertia          = 0.;   ///< of the wheelset without the cells, about the vertical, kg m^2
     double roll_inertia = 0.; ///< likewise, about x, where both wheels carry it; 0: roll is prescribed
+    /// Between both wheels, which then are alike; none: rigid.
+    std::optional<FlexibleAxleParameters> axle{};
   };
 
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
@@ -61,7 +64,9 @@ namespace tread
   /// turns about its axle, which is y or stands in a yaw and a roll. Positive angular velocity rolls towards
   /// +x. Across the track it moves as its guidance lets it. With a roll inertia it rolls freely, and the
   /// gyroscopic moments of its turning about the axle couple yaw and roll; without one they are left out, as
-  /// the roll that they would cause is held. Products of inertia of the rigid rest are left out.
+  /// the roll that they would cause is held. Products of inertia of the rigid rest are left out. On a
+  /// flexible axle the two wheels turn against this motion, which then is that of the chord between their
+  /// middles.
   class WheelHub
   {
   public:
@@ -77,6 +82,8 @@ namespace tread
     explicit WheelHub(const WheelHubParameters &parameters)
       : parameters(parameters)
     {
+      if (parameters.axle)
+        flexible.emplace(*parameters.axle);
     }
 
     /// Put the middle of the wheel into its reference position (x, y, z), m, and the axle into a yaw and a
@@ -119,9 +126,31 @@ namespace tread
     /// centrifugal force.
     void take_out(const double mass, const double moment_of_inertia, const Vector3 first_moment);
 
+    /// Moments about the middles of both wheels (N m).
+    using OfSides = FlexibleAxle::OfSides<Vector3>;
+
     /// One central-difference step under the force (N) and the moment about the middle (N m) that
-    /// the flexible cells exert.
-    void advance(const Vector3 force, const Vector3 moment, const double time_step);
+    /// the flexible cells exert. @param on_wheels of a flexible axle: what carried nodes exert on its wheels
+    void advance(const Vector3  force,
+                 const Vector3  moment,
+                 const double   time_step,
+                 const OfSides &on_wheels = {});
+
+    /// The axle between both wheels; nullptr: it is rigid.
+    const FlexibleAxle *flexible_axle() const
+    {
+      return flexible ? &*flexible : nullptr;
+    }
+    /// The side of a point at present. @pre flexible_axle()
+    FlexibleAxle::Side side_of(const Vector3 x) const
+    {
+      return dot(present.y, x - middle()) > 0. ? FlexibleAxle::own : FlexibleAxle::other;
+    }
+    /// Present middle of a wheel, m. @pre flexible_axle()
+    Vector3 middle_of(const FlexibleAxle::Side side) const
+    {
+      return middle() + (side == FlexibleAxle::own ? 1. : -1.) * flexible->half_length() * present.y;
+    }
 
     /// Vertical force of everything but the cells, at rest and in steady rotation, N (negative: down).
     double static_force() const;
@@ -169,16 +198,16 @@ namespace tread
       return Vector3{reference_x, reference_y, reference_z, 0.};
     }
 
-    /// Work done so far on hub and cells by drive, guidance, suspension and weight, J.
+    /// Work done so far on hub and cells by drive, guidance, suspension, weight and a flexible axle, J.
     double external_work() const
     {
-      return work;
+      return work + (flexible ? flexible->work() : 0.);
     }
 
     /// Sum of the absolute amounts of that work, J: the scale for energy residuals.
     double gross_work() const
     {
-      return gross;
+      return gross + (flexible ? flexible->gross_work() : 0.);
     }
 
     /// Store or restore the state: all but parameters and balance, which place() and take_out() set.
@@ -201,10 +230,35 @@ namespace tread
     Vector3 turned(const Vector3 reference, const double angle) const;
 
     /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
-    /// moment of all but guidance (N, N m). @returns work of guidance, J
-    double guide(const double lateral, const Vector3 moment, const double time_step);
-    /// Gyroscopic moment of the rigid part where yaw and roll are free, about x and about the vertical, N m.
-    Vector3 gyroscopic_moment() const;
+    /// moment of all but guidance (N, N m). @param of_wheels inertia that turns with flexibly held wheels, kg
+    /// m^2
+    /// @returns work of guidance, J
+    double guide(const double lateral, const Vector3 moment, const double of_wheels, const double time_step);
+    /// Angular velocity of the axle itself, rad/s.
+    Vector3 tilting() const
+    {
+      return motion.yaw_rate * present.z - motion.roll_rate * Vector3{1., 0., 0., 0.};
+    }
+    /// What is left of the change of the angular momentum about an axle that tilts: a moment, N m. @param
+    /// inertia of that part about the axle, kg m^2
+    Vector3 gyroscopic_moment(const double inertia, const Vector3 tilting) const
+    {
+      return -inertia * motion.angular_velocity * cross(tilting, present.y);
+    }
+    /// A tilt of a wheel or its rate as a vector.
+    Vector3 in_space(const FlexibleAxle::Tilt tilt) const
+    {
+      return tilt.x * present.x + tilt.z * present.z;
+    }
+    FlexibleAxle::Tilt in_chord(const Vector3 v) const
+    {
+      return {dot(v, present.x), dot(v, present.z)};
+    }
+    /// Inertia of one wheel of a flexible axle about it, kg m^2.
+    double inertia_of_wheel() const
+    {
+      return 0.5 * parameters.moment_of_inertia;
+    }
 
     Frame    reference, present;
     double   reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
@@ -214,6 +268,7 @@ namespace tread
     std::function<Across(double)> across;
     GuidanceSprings               springs;
     double                        released_yaw = 0.;
+    std::optional<FlexibleAxle>   flexible;
   };
 } // namespace tread
 

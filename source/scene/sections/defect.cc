@@ -12,6 +12,8 @@ namespace tread
 {
   namespace
   {
+    constexpr double deepest = 10e-3; // m
+
     std::shared_ptr<Defect> make_dip(const DefectSection &section, const std::string &)
     {
       const double length = section.length;
@@ -131,7 +133,7 @@ namespace tread
                 "Lateral. 0: as long as it is wide, for a dip; as in the file, for a map.", Double(0., 200.));
     section.add("Depth (mm)", depth,
                 "Of the deepest point. A profile or a map is scaled to it; 0: as in the file.",
-                Double(0., 10.));
+                Double(0., 1e3 * deepest));
     section.add("Lateral position (mm)", lateral_position,
                 "y of its middle, along the rail's top; the gauge side is y < 0.", Double(-50., 50.));
     section.add("Rounded leading edge (mm)", leading_rounding,
@@ -166,6 +168,9 @@ namespace tread
       defect->length = length;
     if (depth > 0.)
       defect->depth = depth;
+    require(defect->depth <= deepest, "'Defect/Profile file': " + text_in_mm(defect->depth) +
+                                        " mm deep, where at most " + text_in_mm(deepest) +
+                                        " mm are allowed; heights in it are in mm");
     defect->begin       = position;
     defect->repeated_at = repeated_at;
     defect->y_middle += lateral_position;

@@ -53,7 +53,9 @@ namespace tread
     section.add("Write volume", write_volume, "Whether pictures of the bodies are written at all.");
     section.choose("Pictures", pictures, "Format of the pictures for ParaView.");
     section.add("Checkpoint interval (minutes)", checkpoint_interval,
-                "Wall time between checkpoints, from which --resume goes on; 0: only when interrupted.",
+                "Wall time between checkpoints, from which --resume goes on, the first one after a start of "
+                "more than a minute; 0: only when "
+                "interrupted.",
                 Double(0.));
   }
 } // namespace tread

@@ -61,6 +61,11 @@ namespace tread
       "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
       "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. Empty: a new rail.",
       Anything());
+    section.add("Measured head mirrored", head_placement.is_mirrored,
+                "Take the file's y with the other sign: its gauge side is at y > 0.");
+    section.add("Measured head shift (mm)", head_placement.shift,
+                "Added to the file's y, after mirroring: where its y = 0 lies from the rail's middle line.",
+                Double(-200., 200.));
     section.choose("Inclination", inclination,
                    "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
                    "same slope touches it on the "
@@ -124,6 +129,9 @@ namespace tread
   {
     require(!is_block() || (inclination == RailInclination::none && measured_head.empty()),
             "'Rail/Inclination' and 'Rail/Measured head' are for 'Rail/Shape' head or full section");
+    require(
+      !measured_head.empty() || (!head_placement.is_mirrored && head_placement.shift == 0.),
+      "'Rail/Measured head mirrored' and 'Measured head shift (mm)' are of the file 'Rail/Measured head'");
     if (!is_block())
       return;
     require(crown_radius > 0.5 * block_width, "'Rail/Crown radius (mm)' " + text_in_mm(crown_radius) +

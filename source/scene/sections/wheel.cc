@@ -58,6 +58,13 @@ namespace tread
       "mm "
       "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
       Anything());
+    section.add("Tread profile mirrored", profile_placement.is_mirrored,
+                "Take the file's y with the other sign.");
+    section.add(
+      "Tread profile shift (mm)", profile_placement.shift,
+      "Added to the file's y, after mirroring: where its y = 0 lies from the running circle, 70 mm from the "
+      "back of the flange. A file that counts y from this back needs -70.",
+      Double(-200., 200.));
     section.add("Lateral position (mm)", lateral_position,
                 "y of the running circle over the rail's middle; the flange lies at y < 0.",
                 Double(-30., 30.));
@@ -67,6 +74,12 @@ namespace tread
 
   void WheelSection::check() const
   {
+    const bool is_name = tread_profile == "cylinder" || tread_profile == "cone 1:40" ||
+                         tread_profile == "cone 1:20" || tread_profile == "S1002";
+    require(!is_name || (!profile_placement.is_mirrored && profile_placement.shift == 0.),
+            "'Wheel/Tread profile mirrored' and 'Tread profile shift (mm)' are of a file, not of "
+            "'Wheel/Tread profile' " +
+              tread_profile);
     require(is_full() || sector_thickness < radius,
             "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + text_in_mm(radius));
     require(!is_full() || (bore_radius < hub_outer_radius && hub_outer_radius < rim_inner_radius &&

@@ -35,10 +35,21 @@ namespace tread
       "5 degrees.",
       Double());
     section.add("Roll (mrad)", roll, "Positive when the own side goes down. Up to 5 degrees.", Double());
+    section.add("Both wheels", both_wheels,
+                "Mesh both wheels on one axle, over both rails. Mass, inertia, load and suspension of the "
+                "wheel are those of each. The roll follows from both contacts. false: the own wheel alone.");
     section.add(
-      "Both wheels", both_wheels,
-      "Mesh both wheels on a rigid axle, over both rails. Mass, inertia, load and suspension of the "
-      "wheel are those of each. The roll follows from both contacts. false: the own wheel alone.");
+      "Axle torsional stiffness (MN m per rad)", axle_torsion, "rigid",
+      "Of the axle between both wheels, which twists from the start on. A number; rigid: it does not.",
+      Double(0.));
+    section.add(
+      "Axle bending stiffness (MN m2)", axle_bending, "rigid",
+      "E I of the axle between both wheels, which bends from the start on: what it bears then belongs to the "
+      "position. A number; rigid: it does not.",
+      Double(0.));
+    section.add("Axle damping (us)", axle_damping,
+                "Of a flexible axle, over its stiffness: twice the damping ratio over the angular frequency.",
+                Double(0., 1e5));
     section.add("Track gauge (mm)", track.gauge, "Between the gauge faces of both rails.",
                 Double(500., 3000.));
     section.add("Gauge depth (mm)", track.measuring_depth,
@@ -66,6 +77,17 @@ namespace tread
                                             text_of(1e3 * largest) + " mrad");
     require(!both_wheels || shift,
             "'Wheelset/Both wheels' needs 'Wheelset/Lateral shift (mm)': a number, 0 too");
+    require(both_wheels || !has_flexible_axle(),
+            "'Wheelset/Axle torsional stiffness (MN m per rad)' and 'Axle bending stiffness (MN m2)' are of "
+            "the axle between two wheels: 'Wheelset/Both wheels' must be true");
+    require(
+      !(axle_torsion == 0. || axle_bending == 0.),
+      "a flexible axle must have some stiffness: 'Wheelset/Axle torsional stiffness (MN m per rad)' and "
+      "'Axle bending stiffness (MN m2)' must be above 0");
+    require(
+      axle_damping == 0. || has_flexible_axle(),
+      "'Wheelset/Axle damping (us)' is of a flexible axle: 'Axle torsional stiffness (MN m per rad)' or "
+      "'Axle bending stiffness (MN m2)' must be a number");
     require(!both_wheels || roll == 0.,
             "'Wheelset/Roll (mrad)' is found where 'Wheelset/Both wheels' is true");
   }

@@ -2,6 +2,7 @@
 #ifndef tread_scene_sections_rail_h
 #define tread_scene_sections_rail_h
 
+#include <tread/geometry/measured_line.h>
 #include <tread/geometry/rail_profile.h>
 #include <tread/scene/sections/material.h>
 
@@ -52,6 +53,7 @@ namespace tread
     ProfileName           profile     = ProfileName::rail_54e1;
     RailInclination       inclination = RailInclination::none;
     std::string           measured_head;     ///< file; empty: a new rail
+    ProfilePlacement      head_placement;    ///< of that file
     std::optional<double> begin;             ///< x of the first end; none: automatic
     double                length       = 0.; ///< 0: from margin to margin
     double                crown_radius = 0.3, block_width = 0.12, block_height = 0.06;

@@ -2,6 +2,7 @@
 #ifndef tread_scene_sections_wheel_h
 #define tread_scene_sections_wheel_h
 
+#include <tread/geometry/measured_line.h>
 #include <tread/scene/sections/material.h>
 
 namespace tread
@@ -18,16 +19,17 @@ namespace tread
   /// Section `Wheel`. Lengths in m.
   struct WheelSection
   {
-    WheelShape      shape             = WheelShape::sector;
-    double          radius            = 0.46; ///< where the tread has its running circle
-    double          mass              = 900.; ///< unsprung, kg
-    double          moment_of_inertia = 58.;  ///< about the axle, kg m^2
-    double          sector_thickness = 0.06, sector_width = 0.12, sector_margin = 0.06;
-    double          rim_inner_radius = 0.38, rim_width = 0.135, web_thickness = 0.0523;
-    double          hub_outer_radius = 0.14, hub_length = 0.18, bore_radius = 0.0925;
-    std::string     tread_profile    = "cylinder"; ///< name or file
-    double          lateral_position = 0.;         ///< of the running circle over the rail's middle
-    MaterialSection material;
+    WheelShape       shape             = WheelShape::sector;
+    double           radius            = 0.46; ///< where the tread has its running circle
+    double           mass              = 900.; ///< unsprung, kg
+    double           moment_of_inertia = 58.;  ///< about the axle, kg m^2
+    double           sector_thickness = 0.06, sector_width = 0.12, sector_margin = 0.06;
+    double           rim_inner_radius = 0.38, rim_width = 0.135, web_thickness = 0.0523;
+    double           hub_outer_radius = 0.14, hub_length = 0.18, bore_radius = 0.0925;
+    std::string      tread_profile = "cylinder"; ///< name or file
+    ProfilePlacement profile_placement;          ///< of that file
+    double           lateral_position = 0.;      ///< of the running circle over the rail's middle
+    MaterialSection  material;
 
     bool is_full() const
     {

@@ -22,7 +22,10 @@ namespace tread
   {
     std::optional<double> shift; ///< y of the wheelset's middle in the track; none: see is_positioned()
     double                yaw = 0., roll = 0.;
-    bool                  both_wheels = false; ///< on a rigid axle; then the roll is found
+    bool                  both_wheels = false; ///< on one axle; then the roll is found
+    std::optional<double> axle_torsion;        ///< stiffness between both wheels, N m/rad; none: rigid
+    std::optional<double> axle_bending;        ///< E I, N m^2; none: rigid
+    double                axle_damping = 0.;   ///< time, s
     TrackGauge            track;
     SlipOverPatch         slip_over_patch = SlipOverPatch::surface;
     double patch_distance = 8e-3; ///< along the surface, from which on half-spaces do not feel each other
@@ -37,6 +40,10 @@ namespace tread
     WheelsetPosition position() const
     {
       return {shift.value_or(0.), yaw, roll, 0.};
+    }
+    bool has_flexible_axle() const
+    {
+      return axle_torsion || axle_bending;
     }
     unsigned int n_wheels() const
     {
