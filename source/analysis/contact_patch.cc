@@ -28,7 +28,9 @@ namespace tread
                                                        &PatchMeasures::lateral_force,
                                                        &PatchMeasures::spin_moment,
                                                        &PatchMeasures::x_middle,
-                                                       &PatchMeasures::y_middle};
+                                                       &PatchMeasures::y_middle,
+                                                       &PatchMeasures::x_of_pressure,
+                                                       &PatchMeasures::y_of_pressure};
   } // namespace
 
 
@@ -112,6 +114,8 @@ namespace tread
     };
     m.pressure_semi_axis_x = from_moments(0);
     m.pressure_semi_axis_y = from_moments(1);
+    m.x_of_pressure        = force > 0. ? first[0] / force : 0.;
+    m.y_of_pressure        = force > 0. ? first[1] / force : 0.;
     return m;
   }
 

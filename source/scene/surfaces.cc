@@ -34,6 +34,20 @@ namespace tread
   }
 
 
+  std::map<std::string, std::string> Scene::files() const
+  {
+    std::map<std::string, std::string> found;
+    for (const auto &[name, file] :
+         {std::pair("Wheel/Tread profile", wheel.tread_profile),
+          std::pair("Rail/Measured head", rail.measured_head),
+          std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
+          std::pair("Track/Support file", track.support_file)})
+      if (const std::string path = located(file); !file.empty() && std::filesystem::exists(path))
+        found[name] = path;
+    return found;
+  }
+
+
   std::shared_ptr<Scene::Shapes> Scene::make_path() const
   {
     auto         made   = std::make_shared<Shapes>();

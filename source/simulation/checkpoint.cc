@@ -23,7 +23,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-17";
+    constexpr const char *layout = "tread-checkpoint-18";
 
     std::uint32_t checksum(const std::string &content)
     {
@@ -70,9 +70,17 @@ namespace tread
     std::string       supports;
     for (const int number : scene.output.supports)
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
+    std::string contents;
+    for (const auto &[name, path] : scene.files())
+      {
+        std::ifstream     file(path, std::ios::binary);
+        const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+        contents +=
+          "contents of '" + name + "' with the checksum " + std::to_string(checksum(content)) + "\n";
+      }
     return all.substr(0, all.find("subsection Output")) + "set Supports = " + supports +
            "\nset Cells = " + scene.output.cells + "\nset Pictures = " + name_of(scene.output.pictures) +
-           "\n";
+           "\n" + contents;
   }
 
 

@@ -209,8 +209,10 @@ namespace tread
         throw InputError(std::string("no half-space answer: ") + error.what());
       }
 
-    Summary summary;
-    summarise(summary, scene, "half-space solver", contact_answer(estimate), true);
+    Summary       summary;
+    ContactAnswer answer = contact_answer(estimate);
+    answer.patch.y_of_pressure += scene.first_contact().y;
+    summarise(summary, scene, "half-space solver", answer, true);
     const reference::RollingResult &half_space = estimate.fields;
     for (const auto &[name, value] :
          {std::pair<const char *, const reference::Estimate &>{"creepage", estimate.creepage},

@@ -73,6 +73,8 @@ namespace
     check.absolute("semi-axis by extent, along (mm)", 1e3 * m.semi_axis_x, 1e3 * a, 1e-9);
     check.absolute("semi-axis by extent, across (mm)", 1e3 * m.semi_axis_y, 1e3 * b, 1e-9);
     check.absolute("middle, along (mm)", 1e3 * m.x_middle, 1e3 * x_middle, 1e-9);
+    check.absolute("pressure, along (mm)", 1e3 * m.x_of_pressure, 1e3 * x_middle, 1e-9);
+    check.absolute("pressure, across (mm)", 1e3 * m.y_of_pressure, 1e3 * y_middle, 1e-9);
     check.absolute("middle, across (mm)", 1e3 * m.y_middle, 1e3 * y_middle, 1e-9);
   }
 

@@ -117,6 +117,13 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"3 ranks against 1: {key}", on_three[key], whole[key], 1e-7)
     run_stopped(program, SCENE, path("parts"), short, 6)
     check.that("Ctrl-C: not complete", read_summary(path("parts"))["completed"] is False)
+    with open(short["Guidance/File"], encoding="utf-8") as file:
+        as_it_was = file.read()
+    with open(short["Guidance/File"], "a", encoding="utf-8") as file:
+        file.write("# measured again\n")
+    check.refused("resumed with another table", program, SCENE, path("parts"), short, ("contents of 'Guidance/File'",), more=["--resume"])
+    with open(short["Guidance/File"], "w", encoding="utf-8") as file:
+        file.write(as_it_was)
     resumed = run(program, SCENE, path("parts"), short, more=["--resume"])
     for key in keys:
         check.relative(f"resumed against never stopped: {key}", resumed[key], whole[key], 1e-12)

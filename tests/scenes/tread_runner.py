@@ -89,9 +89,9 @@ class Check:
         self.below(f"{name}work of contact on the nodes less that of the pairs, over what was dissipated",
                    (summary["contact_work_on_nodes_J"] - pairs) / summary["dissipated_work_J"], 1e-9)
 
-    def refused(self, what, program, scene, output, settings, words):
+    def refused(self, what, program, scene, output, settings, words, more=()):
         """A scene that must end at once with one line that has all of the words."""
-        ended = execute(arguments_of(scene, settings, output), program=program)
+        ended = execute(arguments_of(scene, settings, output) + list(more), program=program)
         lines = [line for line in ended.stderr.splitlines() if line.startswith("tread:")]
         if not self.that(f"{what}: exit code 1, one line with {words}", ended.returncode == 1 and len(lines) == 1
                          and all(word in lines[0] for word in words)):

@@ -33,7 +33,8 @@ namespace tread
     double pressure_semi_axis_x = 0., pressure_semi_axis_y = 0.;
     /// Resultants on the wheel, N, and the moment of the shear about the normal through the origin, N m.
     double normal_force = 0., longitudinal_force = 0., lateral_force = 0., spin_moment = 0.;
-    double x_middle = 0., y_middle = 0.; ///< of the extent
+    double x_middle = 0., y_middle = 0.;           ///< of the extent
+    double x_of_pressure = 0., y_of_pressure = 0.; ///< where the resultant of the pressure acts
   };
 
   /// The patch at one instant. @param centre_x position of the wheel's centre, m; @param time_step s.

@@ -28,6 +28,8 @@
 #include <tread/track/supports.h>
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 namespace tread
 {
@@ -118,6 +120,9 @@ namespace tread
     {
       return assumptions(start.tractions == StartTractions::predicted);
     }
+
+    /// Files that the scene reads: paths by the names of their parameters.
+    std::map<std::string, std::string> files() const;
 
     /// Where the defect lies and how deep, one line; empty: there is none.
     std::string defect_in_words() const;
