@@ -119,8 +119,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("Ctrl-C: not complete", read_summary(path("parts"))["completed"] is False)
     with open(short["Guidance/File"], encoding="utf-8") as file:
         as_it_was = file.read()
-    with open(short["Guidance/File"], "a", encoding="utf-8") as file:
-        file.write("# measured again\n")
+    names, *rows = as_it_was.splitlines()
+    when, where = rows[-1].split(",", 1)
+    with open(short["Guidance/File"], "w", encoding="utf-8") as file:
+        file.write("\n".join([names, *rows, f"{1.01 * float(when):.12g},{where}"]) + "\n")
     check.refused("resumed with another table", program, SCENE, path("parts"), short, ("contents of 'Guidance/File'",), more=["--resume"])
     with open(short["Guidance/File"], "w", encoding="utf-8") as file:
         file.write(as_it_was)
