@@ -98,12 +98,30 @@ namespace tread
   }
 
 
-  double WheelHub::guide(const double  lateral,
-                         const Vector3 moment,
-                         const double  of_wheels,
-                         const double  time_step)
+  Vector3 WheelHub::gyroscopic_moment() const
   {
-    const Motion before      = motion;
+    if (!flexible)
+      return gyroscopic_moment(parameters.moment_of_inertia, tilting());
+    return gyroscopic_moment_of(FlexibleAxle::own) + gyroscopic_moment_of(FlexibleAxle::other);
+  }
+
+
+  WheelHub::OfSides WheelHub::unbalanced_on_wheels(const OfSides &on_wheels)
+  {
+    FlexibleAxle::OfSides<FlexibleAxle::Tilt> outside;
+    for (const FlexibleAxle::Side side : {FlexibleAxle::own, FlexibleAxle::other})
+      outside[side] = in_chord(on_wheels[side] + gyroscopic_moment_of(side));
+    const auto unbalanced = flexible->unbalanced(outside);
+    return {{in_space(unbalanced[FlexibleAxle::own]), in_space(unbalanced[FlexibleAxle::other])}};
+  }
+
+
+  double WheelHub::guide(const double lateral, const Vector3 moment, const double time_step)
+  {
+    const Motion before = motion;
+    // Wheels on an axle that bends turn by themselves.
+    const double of_wheels =
+      flexible && flexible->bends() ? 2. * FlexibleAxle::about_diameter(inertia_of_wheel()) : 0.;
     const double yaw_inertia = parameters.yaw_inertia - of_wheels;
     if (rolls())
       {
@@ -176,34 +194,18 @@ namespace tread
     // The rest that balances the cells lags behind when the axle moves up: a moment.
     const double lag = -by_turning[2] * acceleration;
     // Its centrifugal force is no work from outside.
-    const double centrifugal    = before.angular_velocity * before.angular_velocity * moments[2];
-    Vector3      tilting_moment = moment_about_middle;
+    const double centrifugal = before.angular_velocity * before.angular_velocity * moments[2];
+    const auto   unbalanced  = flexible ? unbalanced_on_wheels(on_wheels) : OfSides{};
+    Vector3 on_chord = moment_about_middle - unbalanced[FlexibleAxle::own] - unbalanced[FlexibleAxle::other];
     if (rolls())
-      tilting_moment += gyroscopic_moment(parameters.moment_of_inertia, tilting());
-    FlexibleAxle::OfSides<FlexibleAxle::Tilt> unbalanced{};
-    double                                    of_wheels = 0.;
-    if (flexible)
-      {
-        FlexibleAxle::OfSides<FlexibleAxle::Tilt> outside;
-        for (const FlexibleAxle::Side side : {FlexibleAxle::own, FlexibleAxle::other})
-          {
-            const Vector3 against_chord = in_space(flexible->tilt_rate(side));
-            tilting_moment += gyroscopic_moment(inertia_of_wheel(), against_chord);
-            outside[side] =
-              in_chord(on_wheels[side] + gyroscopic_moment(inertia_of_wheel(), tilting() + against_chord));
-          }
-        unbalanced = flexible->unbalanced(outside);
-        for (const FlexibleAxle::Tilt &moment : unbalanced)
-          tilting_moment -= in_space(moment);
-        if (flexible->bends())
-          of_wheels = 2. * FlexibleAxle::about_diameter(inertia_of_wheel());
-      }
+      on_chord += gyroscopic_moment();
     const Vector3 tilting_before = tilting();
-    const double  guiding = guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1],
-                                  tilting_moment, of_wheels, time_step);
+    const double  guiding =
+      guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1], on_chord, time_step);
     if (flexible)
       flexible->advance(
-        unbalanced, {dot(axle(), on_wheels[FlexibleAxle::own]), dot(axle(), on_wheels[FlexibleAxle::other])},
+        {{in_chord(unbalanced[FlexibleAxle::own]), in_chord(unbalanced[FlexibleAxle::other])}},
+        {{dot(axle(), on_wheels[FlexibleAxle::own]), dot(axle(), on_wheels[FlexibleAxle::other])}},
         in_chord((1. / time_step) * (tilting() - tilting_before)), inertia_of_wheel(), time_step);
     // with it the angular velocity is as prescribed; includes the weight's moment
     double turning_outside =

@@ -230,21 +230,27 @@ namespace tread
     Vector3 turned(const Vector3 reference, const double angle) const;
 
     /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
-    /// moment of all but guidance (N, N m). @param of_wheels inertia that turns with flexibly held wheels, kg
-    /// m^2
-    /// @returns work of guidance, J
-    double guide(const double lateral, const Vector3 moment, const double of_wheels, const double time_step);
+    /// moment of all but guidance (N, N m). @returns work of guidance, J
+    double guide(const double lateral, const Vector3 moment, const double time_step);
     /// Angular velocity of the axle itself, rad/s.
     Vector3 tilting() const
     {
       return motion.yaw_rate * present.z - motion.roll_rate * Vector3{1., 0., 0., 0.};
     }
-    /// What is left of the change of the angular momentum about an axle that tilts: a moment, N m. @param
-    /// inertia of that part about the axle, kg m^2
+    /// What is left of the change of the angular momentum about an axle that tilts, N m. @param inertia of
+    /// the part that does so, about the axle, kg m^2
     Vector3 gyroscopic_moment(const double inertia, const Vector3 tilting) const
     {
       return -inertia * motion.angular_velocity * cross(tilting, present.y);
     }
+    /// Of all of the rigid part, and of one wheel on a flexible axle.
+    Vector3 gyroscopic_moment() const;
+    Vector3 gyroscopic_moment_of(const FlexibleAxle::Side side) const
+    {
+      return gyroscopic_moment(inertia_of_wheel(), tilting() + in_space(flexible->tilt_rate(side)));
+    }
+    /// Moments on the wheels of a flexible axle that it does not balance, N m. @param on_wheels of the cells
+    OfSides unbalanced_on_wheels(const OfSides &on_wheels);
     /// A tilt of a wheel or its rate as a vector.
     Vector3 in_space(const FlexibleAxle::Tilt tilt) const
     {
