@@ -112,6 +112,27 @@ namespace
       check.below(name + ": residual/damping", worst_of_damping, 0.01);
   }
 
+  /// A hub that is thrown up under its sprung mass: both swing against each other about their common middle.
+  void sprung_hub_alone(tests::Check &check)
+  {
+    WheelHubParameters parameters = tests::sprung_hub();
+    parameters.gravity            = 0.;
+    WheelHub hub(parameters);
+    hub.place(Vector3{});
+    hub.motion.velocity_z = .2;
+    const double step = 2e-6, end = 0.02, hub_mass = parameters.mass, above = parameters.sprung_mass;
+    for (unsigned int n = 0; n < end / step; ++n)
+      hub.advance(Vector3{}, Vector3{}, step);
+    const double reduced   = hub_mass * above / (hub_mass + above),
+                 decay     = .5 * parameters.suspension_damping / reduced,
+                 frequency = std::sqrt(parameters.suspension_stiffness / reduced - decay * decay);
+    check.relative("sprung hub: from the mass above, mm", 1e3 * (hub.motion.z - hub.motion.sprung_z),
+                   1e3 * .2 / frequency * std::exp(-decay * end) * std::sin(frequency * end), 1e-3);
+    check.relative("sprung hub: momentum, kg m/s",
+                   hub_mass * hub.motion.velocity_z + above * hub.motion.sprung_velocity, .2 * hub_mass,
+                   1e-12);
+  }
+
   /// A hub alone on its guidance: damped oscillations across the track and in yaw.
   void free_hub(tests::Check &check)
   {
@@ -158,6 +179,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   hub_energy(check, Drive::creepage, 4., 2000., Guidance::file);
   hub_energy(check, Drive::torque, 1., 0., Guidance::springs);
   free_hub(check);
+  sprung_hub_alone(check);
   Body body = tests::make_box("block", Point<3>(), Point<3>(.06, .02, .02), {{6, 2, 2}},
                               {{tests::Side::left, Boundary::support}});
   tests::refine_near(body, Point<3>(.06, .02, .02), .012, .005);

@@ -196,6 +196,16 @@ namespace
         x[i]                      = Vector3{p[0], p[1], p[2] - depth, 0.};
         v[i]                      = Vector3{0., 0., -speed, 0.};
       }
+    // Pairs of nodes beside the middle, where no node lies in it.
+    double off_middle = 0., furthest = 0.;
+    for (const unsigned int i : rail.supports->guided_nodes(0))
+      {
+        const double off = rail.mesh->nodes[i][0] - rail.positions[rail.mesh->node_bodies[i] - 1];
+        off_middle += off;
+        furthest = std::max(furthest, std::abs(off));
+      }
+    check.below("solid sleepers are held along the track off their middle by, mm", 1e3 * off_middle, 1e-6);
+    check.below("and at nodes as far from it, mm", 1e3 * furthest, 30.);
     rail.supports->set_at_rest(x.data());
     rail.supports->set_velocities(v.data(), {});
     rail.supports->add_forces(force.data());
