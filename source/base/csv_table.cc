@@ -35,7 +35,7 @@ namespace tread
     /// The same in any locale.
     std::optional<double> number(std::string_view text)
     {
-      if (!text.empty() && text.front() == '+')
+      if (text.size() > 1 && text.front() == '+' && text[1] != '-')
         text.remove_prefix(1);
       double     value  = 0.;
       const auto result = std::from_chars(text.data(), text.data() + text.size(), value);

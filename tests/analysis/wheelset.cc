@@ -221,7 +221,29 @@ namespace
     check.absolute("angle on the tread, degrees", 180. / M_PI * tread.angle(), 180. / M_PI / 40., 0.01);
     check.relative("their vertical forces add to the load, kN", 1e-3 * (flange.force()[2] + tread.force()[2]),
                    60., 2e-6);
+    // Each is a force on a half-space that the other one stands on, as far as both press in the same
+    // direction.
+    const double way = std::hypot(flange.region.reference[0] - tread.region.reference[0],
+                                  flange.region.reference[1] - tread.region.reference[1],
+                                  flange.region.reference[2] - tread.region.reference[2]);
+    check.relative("tread sinks under the flange, um", 1e6 * tread.sink_by_others,
+                   1e6 * (1. - 0.3 * 0.3) / (M_PI * 210e9) * 2. * flange.solution.normal_force *
+                     std::cos(flange.angle() - tread.angle()) / way,
+                   1e-6);
     check.that("and both press", flange.solution.normal_force > 1e3 && tread.solution.normal_force > 1e3);
+  }
+
+  /// Both wheels of a wheelset in the middle of its track: mirror images.
+  void check_both_wheels(tests::Check &check)
+  {
+    const WheelOnRail cone(wheel_curve("cone 1:40"), rail_60e1(1. / 40.), radius, {});
+    const BothWheels  both  = contact_of_both_wheels(cone, rolling_at(20. / radius), {}, 200e3);
+    const WheelPatch &other = of_other_wheel(both.other).patches[0], &own = both.own.patches[0];
+    check.absolute("both wheels: y of the other one, mm", 1e3 * other.region.reference[1],
+                   -1e3 * own.region.reference[1], 1e-6);
+    check.relative("both wheels: normal force of the other one, kN", 1e-3 * other.solution.normal_force,
+                   1e-3 * own.solution.normal_force, 1e-8);
+    check.that("both wheels: whose patch it is", other.is_of_other_wheel && !own.is_of_other_wheel);
   }
 
   void check_refusals(tests::Check &check)
@@ -248,5 +270,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_rolling(check);
   check_mirror(check);
   check_two_patches(check);
+  check_both_wheels(check);
   check_refusals(check);
 }
