@@ -223,13 +223,16 @@ namespace
   };
 
   /// By one rank, from these impulses.
-  Solution solve(const RandomProblem &r, const FrictionLaw &friction, const std::vector<Vector3> &start)
+  Solution solve(const RandomProblem           &r,
+                 const FrictionLaw             &friction,
+                 const std::vector<Vector3>    &start,
+                 const CoulombSolverParameters &parameters = solver_parameters())
   {
     Strips            whole(r.problem);
     std::vector<char> slips;
     Solution          s{r.velocity, start, 0, 0.};
     const auto        result =
-      solve_coulomb(r.problem, friction, solver_parameters(), whole, r.offset, s.velocity, s.impulse, slips);
+      solve_coulomb(r.problem, friction, parameters, whole, r.offset, s.velocity, s.impulse, slips);
     s.sweeps = result.sweeps;
     s.change = result.change;
     return s;
@@ -362,6 +365,17 @@ namespace
     check.that("a few constraints are one rank's", dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD) == 6 &&
                                                      dealii::Utilities::MPI::max(own, MPI_COMM_WORLD) >= 3);
   }
+
+  /// Not more sweeps than the largest number, however far the impulses are from the solution.
+  void largest_number_of_sweeps(Check &check, std::mt19937 &random)
+  {
+    CoulombSolverParameters few = solver_parameters();
+    few.max_sweeps              = 3;
+    const RandomProblem r       = make_problem(n_constraints, random);
+    const Solution cut = solve(r, CoulombFriction(0.3), std::vector<Vector3>(n_constraints, Vector3{}), few);
+    check.that("sweeps end at their largest number", cut.sweeps <= few.max_sweeps + 1);
+    check.that("and the change tells that they had not come to an end", cut.change > 100. * few.tolerance);
+  }
 } // namespace
 
 void run_test(Check &check, const tests::Arguments &)
@@ -372,4 +386,5 @@ void run_test(Check &check, const tests::Arguments &)
   for (const double mu : {0., 0.3, 0.8})
     random_problems(check, mu, random);
   few_constraints(check, random);
+  largest_number_of_sweeps(check, random);
 }
