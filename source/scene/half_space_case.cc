@@ -227,8 +227,9 @@ namespace tread
                ellipse.semi_axis_x);
     with_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, patch.pressure_semi_axis_y,
                ellipse.semi_axis_y);
-    summary.show("pressure_centre_x_m", "pressure acts ahead of the axle, mm", 1e3, patch.x_of_pressure);
-    summary.show("pressure_centre_y_m", "pressure acts at y, mm", 1e3, patch.y_of_pressure);
+    // Of the resultant of the pressure: ahead of the axle, and from the rail's middle.
+    summary.set("pressure_centre_x_m", patch.x_of_pressure);
+    summary.set("pressure_centre_y_m", patch.y_of_pressure);
 
     summary.show("creepage", "creepage, 1e-3", 1e3, answer.creepage);
     summary.show("adhesion_share", "adhesion share, %", 1e2, patch.adhesion_share);
