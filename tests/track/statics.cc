@@ -188,6 +188,10 @@ namespace
     track.exceptions[2]                   = track.springs;
     track.exceptions[2].ballast_stiffness = 20e6;
     track.exceptions[2].ballast_damping   = 90e3;
+    check.absolute("layers of a support that differs: stiffness of its ballast, MN/m",
+                   1e-6 * track.layers(2).ballast_stiffness, 20., 1e-12);
+    check.absolute("and of its neighbour", 1e-6 * track.layers(1).ballast_stiffness,
+                   1e-6 * track.springs.ballast_stiffness, 1e-12);
     tests::TrackRail rail(MPI_COMM_WORLD, tests::bar(3, 12), 3, track, DynamicsParameters(), {}, true);
     NodalField       x(rail.mesh->nodes.size()), v(x.size()), force(x.size(), Vector3{});
     for (unsigned int i = 0; i < x.size(); ++i)
