@@ -649,7 +649,7 @@ namespace
                            behind = touching_wheelset(wheel.surfaces, right).position;
     // Elastic wheels touch on an area over which the slopes change.
     check.relative("both wheels: roll rate, mrad/s", 1e3 * wheel.rise().roll_rate,
-                   1e3 * speed * (behind.roll - before.roll) / (2. * step), 0.015);
+                   1e3 * speed * (behind.roll - before.roll) / (2. * step), 0.01);
   }
 
 

@@ -119,7 +119,7 @@ def pictures_have_the_tables(name, folder):
             distance = np.linalg.norm(places - wanted[i], axis=1)
             far = max(far, distance.min())
             worst = max(worst, np.abs(fields[distance.argmin()] - values[i]).max())
-        check.below(f"{name}: places of {file} in the picture, um", 1e6 * far, 0.1)
+        check.below(f"{name}: places of {file} in the picture, um", 1e6 * far, 0.02)
         check.below(f"{name}: values of {file} over the largest", worst / np.abs(values).max(), 1e-5)
 
 
@@ -337,7 +337,7 @@ with tempfile.TemporaryDirectory() as folder:
                    SHORT + ["Solid/Element=fully-integrated"], 2)
         one = run(program, "smooth-rolling.prm", path("one"), SHORT, 2)
         check.relative("fully integrated cells: maximum pressure", full["max_pressure_Pa"], one["max_pressure_Pa"], 0.02)
-        check.relative("fully integrated cells: traction", full["longitudinal_force_N"], one["longitudinal_force_N"], 0.02)
+        check.relative("fully integrated cells: traction", full["longitudinal_force_N"], one["longitudinal_force_N"], 5e-3)
         # What a user is told of: assumptions at the start, measures and warnings at the end.
         check.that("scaled density, mass damping and the predicted start are named", len(drive["assumptions"]) == 3 and all(
             any(word in line for line in drive["assumptions"]) for word in ("density", "mass damping", "predicts")))
