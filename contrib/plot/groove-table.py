@@ -41,17 +41,20 @@ def ridge():
     """The wheel's profile, z up: arc, tangents, a plane above, and a flange far beside the groove's block."""
     around = arc(WHEEL_RADIUS)
     end = around[-1][0] + (9. - around[-1][1]) / np.tan(np.radians(HALF_ARC))
-    return [*polygon([(-70, -10), (-68, -28), (-38, -28), (-36, 9), (-end, 9), around[0]], 1.), *around[1:],
-            *polygon([around[-1], (end, 9), (25, 9)], 1.)[1:]]
+    return [*polygon([(-70, -10), (-68, -28), (-38, -28), (-36, 9), (-end, 9)], 1.), *polygon([(-end, 9), around[0]], 0.2)[1:], *around[1:],
+            *polygon([around[-1], (end, 9)], 0.2)[1:], *polygon([(end, 9), (25, 9)], 1.)[1:]]
 
 
 def groove(radius):
-    """The rail's, z up: a plane with a gauge face 30 mm beside the middle of its groove."""
+    """The rail's, z up: a plane with a gauge face 30 mm beside the middle of its groove, whose edges are rounded: splines overshoot corners."""
     around = arc(radius)
-    top, corner = around[0][1], 5.
+    slope, edge, corner = np.radians(HALF_ARC), 2., 5.
+    outside, top = around[-1][0] + edge * np.sin(slope), around[-1][1] + edge * (1. - np.cos(slope))
+    falling = [(outside - edge * np.sin(t), top - edge * (1. - np.cos(t))) for t in slope * np.linspace(0.9, 0., 10)]
+    edges = falling, [(-y, z) for y, z in falling[::-1]]
     rounded = [(-30 + corner * (1. - np.cos(t)), top - corner * (1. - np.sin(t))) for t in np.radians(np.arange(0., 90.5, 1.5))]
-    return [*polygon([(-30, top - 30), rounded[0]], 0.5), *rounded[1:], *polygon([rounded[-1], around[0]], 0.5)[1:], *around[1:],
-            *polygon([around[-1], (30, top), (30, top - 30)], 1.)[1:]]
+    return [*polygon([(-30, top - 30), rounded[0]], 0.5), *rounded[1:], *polygon([rounded[-1], edges[1][0]], 0.5)[1:], *edges[1][1:], *around,
+            *edges[0], *polygon([edges[0][-1], (30, top), (30, top - 30)], 0.5)[1:]]
 
 
 def write_profiles():

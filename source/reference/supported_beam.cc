@@ -140,7 +140,7 @@ namespace tread::reference
   }
 
 
-  SupportedBeam::Response SupportedBeam::respond(const std::vector<Load> &loads, const Complex omega) const
+  SupportedBeam::Response SupportedBeam::respond(const std::vector<Load> &loads, const Complex omega) const &
   {
     const unsigned int n = nodes.size();
     std::vector<Block> diagonal(n, Block{}), upper(n, Block{}); // lower is upper transposed

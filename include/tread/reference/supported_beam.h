@@ -91,8 +91,10 @@ namespace tread::reference
       std::vector<std::array<std::complex<double>, 2>> nodes; ///< deflection (m), rotation (rad)
     };
 
+    /// It refers to this beam, which must not be a temporary.
     /// @param omega rad/s; 0: static; omega - i eta: of forces and displacements times exp(-eta t)
-    Response respond(const std::vector<Load> &loads, std::complex<double> omega = 0.) const;
+    Response respond(const std::vector<Load> &loads, std::complex<double> omega = 0.) const &;
+    Response respond(const std::vector<Load> &, std::complex<double> = 0.) const && = delete;
 
     const std::vector<SupportLayers> layers;   ///< by support
     const std::vector<double>        supports; ///< m
