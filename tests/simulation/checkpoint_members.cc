@@ -233,7 +233,7 @@ namespace
   template <typename T, typename A>
   bool same_bits(const std::vector<T, A> &a, const std::vector<T, A> &b)
   {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
   }
 
   template <typename T>
