@@ -11,8 +11,6 @@ fi
 export OMPI_MCA_btl_vader_single_copy_mechanism=none
 # Open MPI looks 0.2 s for network cards that one machine has no use for; memory that the ranks share is fastest.
 export OMPI_MCA_pml=ob1
-# Ranks that wait give their processor to others: with more ranks than processors a run is some forty times as fast, else as fast.
-export OMPI_MCA_mpi_yield_when_idle=1
 
 # configure_release DIRECTORY: a Release build directory, kept if it is there.
 configure_release()

@@ -89,17 +89,21 @@ namespace
   /// A checkpoint in parts: what stands before the state, and the groups of values of the state.
   struct Content
   {
-    std::string              parameters; ///< with their size
-    std::vector<std::string> groups;     ///< each with its number and size of values
+    std::string              texts;  ///< parameters and progress of the tables, each with its size
+    std::vector<std::string> groups; ///< each with its number and size of values
 
     explicit Content(const std::string &file)
     {
-      const std::string all = file.substr(file.find('\n') + 1);
-      std::uint64_t     size;
-      std::memcpy(&size, all.data(), sizeof size);
-      std::size_t begin = sizeof size + size;
-      parameters        = all.substr(0, begin);
-      begin += sizeof size; // of the only part
+      const std::string all   = file.substr(file.find('\n') + 1);
+      std::size_t       begin = 0;
+      for (unsigned int text = 0; text < 2; ++text)
+        {
+          std::uint64_t size;
+          std::memcpy(&size, all.data() + begin, sizeof size);
+          begin += sizeof size + size;
+        }
+      texts = all.substr(0, begin);
+      begin += sizeof(std::uint64_t); // size of the only part
       while (begin < all.size())
         {
           std::uint64_t head[2];
@@ -116,8 +120,7 @@ namespace
       for (const std::string &group : groups)
         state += group;
       const std::uint64_t size = state.size();
-      const std::string   all =
-        parameters + std::string(reinterpret_cast<const char *>(&size), sizeof size) + state;
+      const std::string all = texts + std::string(reinterpret_cast<const char *>(&size), sizeof size) + state;
       boost::crc_32_type crc;
       crc.process_bytes(all.data(), all.size());
       std::ostringstream text;

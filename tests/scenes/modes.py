@@ -14,9 +14,9 @@ from tread_runner import Check, rows_of, run
 
 program = sys.argv[1]
 check = Check()
-# A sector on a bar of four spans.
+# A sector on a bar of four spans, as wide as cells of 20 mm fit.
 SCENE = "tutorial/track.prm"
-COARSE = ["Mesh/Finest cell (mm)=2.5", "Mesh/Coarsest cell (mm)=50", "Rail/Begin (mm)=-1350", "Rail/Length (mm)=2400", "Mesh/Fine half width (mm)=10"]
+COARSE = ["Rail/Block width (mm)=80", "Mesh/Finest cell (mm)=2.5", "Mesh/Coarsest cell (mm)=50", "Rail/Begin (mm)=-1350", "Rail/Length (mm)=2400", "Mesh/Fine half width (mm)=10"]
 SHARES = ["rail_share", "sleeper_share", "rim_share", "web_share", "hub_share", "sprung_share"]
 
 with tempfile.TemporaryDirectory() as folder:

@@ -459,8 +459,8 @@ with tempfile.TemporaryDirectory() as folder:
         check.energy("full wheel: ", wheel, 0.005)
 
     elif what == "shipped":
-        # Many scenes differ in what decides nothing here, and one of them then stands for all: the dry run does not ask for
-        # loads and materials, and with the same mesh for all, several make the same short run.
+        # Many scenes differ in what decides nothing here, and one of them then stands for all, that with the largest cells: the
+        # dry run does not ask for loads and materials, and with the same mesh for all, several make the same short run.
         seen, cut_short = set(), set()
 
         def is_first(settings, ignored):
@@ -468,15 +468,15 @@ with tempfile.TemporaryDirectory() as folder:
             return not (kind in seen or seen.add(kind))
 
         no_mesh = ("Title", "Rounded trailing edge (mm)", "Depth (mm)", "Creepage", "Friction coefficient", "Traction coefficient",
-                   "Yield stress (MPa)", "Tangent modulus (GPa)")
+                   "Yield stress (MPa)", "Tangent modulus (GPa)", "Finest cell (mm)")
         start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "0", "Mesh/Fine layers": "2",
                  "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false"}
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
         shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
                    if name.endswith(".prm")]
-        for scene in sorted(shipped):
+        all_settings = {scene: parameters_of(scene, program=program) for scene in sorted(shipped)}
+        for scene, settings in sorted(all_settings.items(), key=lambda entry: -float(entry[1]["Mesh/Finest cell (mm)"])):
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
-            settings = parameters_of(scene, program=program)
             if settings["Wheelset/Lateral shift (mm)"] != "none":  # wheelset_rolling.py rolls them
                 check.that(f"{name}: has a half-space answer", run(program, name, path("start"), more=["--reference-only"])["completed"])
                 continue
@@ -501,8 +501,6 @@ with tempfile.TemporaryDirectory() as folder:
                     check.energy(f"{name}: ", short, 0.1)
                 else:
                     check.absolute(f"{name}: energy residual, J", short["energy_residual_J"], 0., 0.015)
-            elif not new_mesh:
-                check.that(f"{name}: can be read", execute([scene, "--print-parameters"], program=program).returncode == 0)
 
     elif what == "files":
         run(program, "smooth-rolling.prm", path("files"), SHORT + [

@@ -69,8 +69,8 @@ with tempfile.TemporaryDirectory() as folder:
                            summary["lateral_force_N"] - smooth["lateral_force_N"], half_space["lateral_force_N"], 0.05)
             check.that(name + "is long enough to be steady", summary["long_enough_to_be_steady"])
 
-    whole = path("54E1full section")
-    settings = S1002 + WIDE + ["Rail/Profile=54E1"]
+    whole = path("60E1head")
+    settings = S1002 + ["Rail/Profile=60E1", "Rail/Shape=head"]
     strip = table(whole, "strip.csv")
     run(program, SCENE, path("two"), settings, 2)
     other = table(path("two"), "strip.csv")
