@@ -22,8 +22,8 @@ from tread.tables import fill, machine, markdown, number, rows_of
 MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
             ("residual [%]", "energy_residual_of_dissipated", 100, 2.),
             ("contact loss [%]", "contact_loss_of_dissipated", 100, 2.),
-            ("damping over friction and plasticity [%]", "damping_of_friction_and_plasticity", 100, 10.),
-            ("hourglass over internal energy [%]", "hourglass_of_internal_energy", 100, 5.),
+            ("damping over friction and plasticity [%]", "damping_of_friction_and_plasticity", 100, 20.),
+            ("hourglass over internal energy [%]", "hourglass_of_internal_energy", 100, 8.),
             ("slip chatter [%]", "slip_chatter_share", 100, 10.),
             ("contact unconverged [% of steps]", "contact_unconverged_share", 100, 1.))
 

@@ -52,12 +52,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
                              }},
                         Case{"damping", "damping takes",
                              [](Quality &q) {
-                               q.energy.damping = 0.5;
-                               q.energy.external_work += 0.4;
+                               q.energy.damping = 0.9;
+                               q.energy.external_work += 0.8;
                              }},
                         Case{"hourglass energy", "hourglass",
                              [](Quality &q) {
-                               q.energy.stored_hourglass = 0.5;
+                               q.energy.stored_hourglass = 0.65;
                              }},
                         Case{"chatter", "chatters",
                              [](Quality &q) {
