@@ -104,26 +104,23 @@ namespace
     if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
-    if (!line.batch.empty() &&
-        (!line.scene.empty() || !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
-         line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run))
-      throw tread::InputError(
-        "--batch reads a table of cases; -s, --print-parameters, --resume, --reference-only, "
-        "--modes, --contact-points and --dry-run are for a scene");
-    if (!line.dynamic.run.empty() && !line.scene.empty())
-      throw tread::InputError("--dynamic-force reads two runs; it takes no scene");
-    if (!line.dynamic.run.empty() &&
-        (line.resume || line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run))
-      throw tread::InputError(
-        "--dynamic-force reads what two runs left; --resume, --reference-only, --modes, "
-        "--contact-points and --dry-run are for a scene");
-    if (!line.sleeper.run.empty() && !line.scene.empty())
-      throw tread::InputError("--sleeper-stress reads a run; it takes no scene");
-    if (!line.sleeper.run.empty() &&
-        (line.resume || line.reference_only || line.modes.wanted || line.dry_run ||
-         !line.print_parameters.empty() || !line.settings.empty()))
-      throw tread::InputError("--sleeper-stress reads what a run left; -s, --print-parameters, --resume, "
-                              "--reference-only, --modes, --contact-points and --dry-run are for a scene");
+    const bool rolls = !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
+                       line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run;
+    struct Tool
+    {
+      std::string name, reads;
+      bool        is_asked;
+    };
+    for (const Tool &tool : {Tool{"--batch", "a table of cases", !line.batch.empty()},
+                             Tool{"--dynamic-force", "what two runs left", !line.dynamic.run.empty()},
+                             Tool{"--sleeper-stress", "what a run left", !line.sleeper.run.empty()}})
+      if (tool.is_asked)
+        {
+          tread::require(line.scene.empty(), tool.name + " reads " + tool.reads + "; it takes no scene");
+          tread::require(!rolls, tool.name + " reads " + tool.reads +
+                                   "; -s, --print-parameters, --resume, --reference-only, --modes, "
+                                   "--contact-points and --dry-run are for a scene");
+        }
     return line;
   }
 

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace tread
 {
@@ -23,7 +24,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-18";
+    constexpr const char *layout = "tread-checkpoint-19";
 
     std::uint32_t checksum(const std::string &content)
     {
@@ -67,7 +68,12 @@ namespace tread
     std::ostringstream text;
     scene.print(text, false);
     const std::string all = text.str();
-    std::string       supports;
+    // At the beginning of a line: a value may have the same words.
+    const auto section = [&all](const std::string &name) {
+      const std::size_t begin = all.find("\nsubsection " + name + "\n");
+      return std::make_pair(begin, all.substr(begin, all.find("\nend\n", begin) - begin));
+    };
+    std::string supports;
     for (const int number : scene.output.supports)
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
     std::string contents;
@@ -78,9 +84,11 @@ namespace tread
         contents +=
           "contents of '" + name + "' with the checksum " + std::to_string(checksum(content)) + "\n";
       }
-    return all.substr(0, all.find("subsection Output")) + "set Supports = " + supports +
-           "\nset Cells = " + scene.output.cells + "\nset Pictures = " + name_of(scene.output.pictures) +
-           "\n" + contents;
+    return all.substr(0, section("Output").first) + section("Peak stress").second +
+           "\nset Supports = " + supports + "\nset Cells = " + scene.output.cells +
+           "\nset Pictures = " + name_of(scene.output.pictures) +
+           "\nset Strip half width (mm) = " + std::to_string(1e3 * scene.output.strip_half_width) + "\n" +
+           contents;
   }
 
 

@@ -73,7 +73,14 @@ namespace tread
       for (std::size_t i = 0; i < of_run.size(); ++i)
         {
           const std::string &path = of_run[i].path;
-          const bool         may_be_unlike =
+          if (path == "Defect/Shape")
+            {
+              require(of_twin[i].value == "none",
+                      "no smooth twin: '" + path + "' is '" + of_twin[i].value + "' in " + twin);
+              require(of_run[i].value != "none",
+                      "nothing to find the effect of: '" + path + "' is 'none' in " + run);
+            }
+          const bool may_be_unlike =
             path.compare(0, 7, "Defect/") == 0 || path.compare(0, 7, "Output/") == 0 || path == "Scene/Title";
           if (!may_be_unlike && !same(of_run[i].value, of_twin[i].value))
             throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +

@@ -53,7 +53,7 @@ def write_parameters(folder, settings):
 def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_force_N", "support_1_pad_N"), steps=None, settings=()):
     """What a run leaves; the last row is a short one, as a run's end gives. `shift`: rows begin later, m. `steps`: rows end with
     the first group of time steps, of this length (m), behind their place."""
-    write_parameters(folder, settings)
+    write_parameters(folder, [*settings, *(["Defect/Shape=dip", f"Defect/Position (mm)={1e3 * BEGIN:g}", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"] if defect else [])])
     with open(os.path.join(folder, "history.csv"), "w", encoding="utf-8") as stream:
         stream.write(",".join(("time_s", "position_m") + columns + ("creepage",)) + "\n")
         positions = [-0.3 + shift + ROW * i for i in range(rows)]
@@ -189,6 +189,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     fails("no twin named", ["--dynamic-force", path("run")], ["--smooth-twin"])
     fails("a scene beside", both + ["scene.prm"], ["takes no scene"])
+    fails("a parameter beside", both + ["-s", "Motion/Speed (km per h)=100"], ["--dynamic-force", "-s", "for a scene"])
+    fails("another tool's", ["--sleeper-stress", path("run"), "--contact-points"], ["--sleeper-stress", "--contact-points"])
     fails("no such folder", ["--dynamic-force", path("none"), "--smooth-twin", path("twin")], ["no folder", "none"])
     os.makedirs(path("empty"))
     fails("no history", ["--dynamic-force", path("run"), "--smooth-twin", path("empty")], ["history.csv", "empty"])
@@ -238,6 +240,12 @@ with tempfile.TemporaryDirectory() as folder:
         write_parameters(path("twin"), ["Motion/Speed (km per h)=140", "Time stepping/Levels=2", setting])
         name, _, value = setting.partition("=")
         fails(f"the twin has another {name}", both, [f"'{name}'", f"'{before}'", f"'{value}'", path("run"), path("twin")])
+    write_parameters(path("twin"), ["Motion/Speed (km per h)=140", "Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"])
+    fails("the twin has a defect, too", both, ["'Defect/Shape'", "'dip'", path("twin")])
+    fails("both folders are one", ["--dynamic-force", path("run"), "--smooth-twin", path("run")], ["'Defect/Shape'", path("run")])
+    write_parameters(path("twin"), ["Motion/Speed (km per h)=140"])
+    fails("exchanged", ["--dynamic-force", path("twin"), "--smooth-twin", path("run")], ["'Defect/Shape'", "'dip'", path("run")])
+    fails("neither has a defect", ["--dynamic-force", path("twin"), "--smooth-twin", path("twin")], ["'Defect/Shape' is 'none'", path("twin")])
     os.remove(path("twin/parameters.prm"))
     fails("no parameters", both, ["twin/parameters.prm"])
 

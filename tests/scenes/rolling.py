@@ -178,7 +178,7 @@ with tempfile.TemporaryDirectory() as folder:
         # Small steps, so that there is time for an interruption; a tight tolerance, so that the sweeps of other ranks end as near;
         # one level, because other ranks begin anew with the steady shares of slow cells' forces. Levels follow below.
         settings = SHORT + ["Output/Checkpoint interval (minutes)=0", "Scene/Density scale=1", "Contact/Tolerance=1e-12",
-                            "Time stepping/Levels=1", "Output/Surface interval (mm)=0.5"]
+                            "Time stepping/Levels=1", "Output/Surface interval (mm)=0.5", "Scene/Title=parameters are kept up to subsection Output"]
         whole = run(program, "smooth-rolling.prm", path("whole"), settings)
         process, _ = interrupt(path("parts"), settings)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
@@ -218,6 +218,9 @@ with tempfile.TemporaryDirectory() as folder:
               ["Friction coefficient"])
         fails("other columns of the history are refused",
               arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])
+        for what, setting, words in (("stresses that are looked for", "Peak stress/Depth (mm)=7", ["Depth (mm)", "7"]),
+                                     ("another strip", "Output/Strip half width (mm)=8", ["Strip half width", "8.0"])):
+            fails(f"{what} are refused", arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", setting], words)
         for name, word in (("damaged", "damaged"), ("foreign", "version")):
             with open(os.path.join(path(name), "checkpoint.last"), encoding="utf-8") as stream:
                 checkpoint = os.path.join(path(name), stream.read().strip())
