@@ -9,10 +9,13 @@ import json
 import os
 import sys
 import tempfile
+import time
 
 import matplotlib
 
 matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
 
 import tread
 from tread import runs
@@ -40,18 +43,48 @@ def first_hour(names):
     check.that("first hour: pictures", len(os.listdir("results/first/pictures")) > 2)
     check.that("first hour: more friction, more adhesion", len(rows) == 2 and rows[1]["adhesion_share"] > rows[0]["adhesion_share"] + 0.05)
     check.that("first hour: both runs are compared", {"max_pressure_Pa", "adhesion_share"} <= {row["name"] for row in names["rows"]})
+    # At 1.3 mm and this strain a run is 1.0, 1.3, 2.9 and 2.8 % off CONTACT (doc/verification.md has the finer meshes); patches taken with the wrong sign
+    # or place are off by tens of per cent.
+    measures = names["measures"]
+    check.below("first hour: normal force less CONTACT's", measures["normal_force_relative_difference"], 0.003)
+    check.below("first hour: largest pressure less CONTACT's", measures["max_pressure_relative_difference"], 0.015)
+    check.below("first hour: creepage less CONTACT's", measures["creepage_at_this_traction_relative_difference"], 0.02)
+    check.below("first hour: RMS of the pressure", measures["pressure_rms_over_max"], 0.04)
+    check.below("first hour: RMS of the shear stress", measures["shear_rms_over_max"], 0.04)
 
 
 def measured(names):
-    check.relative("measured: first contact, mm", 1e3 * names["half"].summary["first_contact_y_m"], 2.32, 0.05)
-    static, force = names["twin"].history["normal_force_N"][0], names["run"].history["normal_force_N"]
-    check.that("measured: the squat adds a third to a half of the load", 1.3 < force.max() / static < 1.6)
-    check.that("measured: a spectrum", len(names["spectrum"]["frequency_Hz"]) > 10)
+    # doc/measured.md has the same figures from the command line, and doc.measured allows as much.
+    check.relative("measured: first contact, mm", 1e3 * names["half"].summary["first_contact_y_m"], 2.32, 0.01)
+    check.relative("measured: static load, kN", 1e-3 * names["half"].summary["normal_force_N"], 116.8, 0.01)
+    check.relative("measured: largest force on the smooth rail, kN", 1e-3 * names["twin"].history["normal_force_N"].max(), 117.57, 0.01)
+    check.relative("measured: largest force at the squat, kN", 1e-3 * names["run"].history["normal_force_N"].max(), 166.98, 0.01)
+    contact = names["dynamic"]["forces"]["normal_force_N"]
+    check.relative("measured: what the squat adds, kN", 1e-3 * contact["peak_N"], 49.40, 0.01)
+    spectrum = names["spectrum"]
+    frequency, force = spectrum["frequency_Hz"], spectrum[next(name for name in spectrum if name.startswith("normal_force"))]
+    check.absolute("measured: strongest frequency, Hz", frequency[force.argmax()], 263., 13.6)
+    check.that("measured: pictures of the forces", {"contact-force.png", "dynamic-force.png"} <= {os.path.basename(path) for path in names["pictures"]})
+
+
+def execute(name, code, names):
+    """Whether all cells ran, in one namespace; the first that raises ends the notebook."""
+    for number, text in enumerate(code, 1):
+        try:
+            exec(compile(text, f"{name}, code {number}", "exec"), names)
+        except Exception as error:
+            print(f"{name}: code {number}: {type(error).__name__}: {error}")
+            return False
+        finally:
+            plt.close("all")
+    return True
 
 
 FIGURES = {"first-hour.ipynb": first_hour, "measured.ipynb": measured}
 shipped = sorted(name for name in os.listdir(NOTEBOOKS) if name.endswith(".ipynb"))
 check.that("each notebook has its figures here", shipped == sorted(FIGURES))
+names = {}
+check.that("a cell that raises is found, and none runs behind it", not execute("made up", ["a = 1", "a / 0", "b = a"], names) and names["a"] == 1 and "b" not in names)
 # The notebooks name no program: they take the one that is built or installed.
 for function in (tread.run, tread.study):
     function.__kwdefaults__["program"] = program
@@ -61,13 +94,10 @@ for name in chosen or shipped:
     code = cells(name)
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for number, text in enumerate(code, 1):
-            try:
-                exec(compile(text, f"{name}, code {number}", "exec"), names)
-            except Exception as error:
-                check.that(f"{name}: code {number}: {type(error).__name__}: {error}", False)
-                break
-        else:
+        began = time.time()
+        if check.that(f"{name}: all cells run", execute(name, code, names)):
             FIGURES[name](names)
+        used = os.times()
+        print(f"{name}: {time.time() - began:.1f} s; with those before it {used.user + used.system + used.children_user + used.children_system:.1f} s of processors")
         os.chdir(os.path.dirname(program))
 check.exit()
