@@ -1,52 +1,80 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""doc/scenes.md: every shipped scene and study: what it shows, how it is run, and what half-space theory says of it.
+"""doc/scenes.md: every shipped scene and study: what it shows, how it is run, how long that takes, its pictures, and what half-space theory says of it.
 
-Texts are those at the head of the parameter files. Figures stay as the page has them unless --run asks the program for them anew, which takes some
-minutes. With --check the page is only compared; the exit code is 1 if it is not current.
+Texts and times are those at the head of the parameter files. Figures are those of doc/scenes.csv, which --run asks the program for: those of scenes
+that are new or whose parameters or profiles are no longer the ones the figures are of, with --all those of all scenes, which takes some minutes.
+With --check the page is only compared; the exit code is 1 if it is not current, or if the figures are not.
 """
 
+import csv
 import glob
+import hashlib
+import io
+import json
 import os
 import re
 import sys
 import tempfile
 
 from tread.commands import command_parser, run_command
-from tread.files import read_summary
-from tread.runs import ROOT, arguments_of, execute, must_end_well, parameters_of
+from tread.files import DataError, own_parameters, parameter_lines, read_summary
+from tread.runs import PROGRAM, ROOT, arguments_of, execute, must_end_well
 from tread.tables import markdown, number
 
+PRM = os.path.join(ROOT, "prm")
 PAGE = os.path.join(ROOT, "doc", "scenes.md")
+RECORD = os.path.join(ROOT, "doc", "scenes.csv")
 HEAD = """# Scenes
 
-What is shipped in `prm/`: each file begins with what this page says of it, and states only what differs from the defaults ([parameters](parameters.md)).
-`tread SCENE.prm --dry-run` says how large a scene is before it runs, `--reference-only` what half-space theory says of it, `-s "Section/Name=value"` changes it, and
+What is shipped in `prm/`: each file begins with what this page says of it, and states only what differs from the defaults ([parameters](parameters.md)) and from
+the file it is built on. Commands are written for an installed program; in the source tree it is `build/source/tread`.
+`tread SCENE.prm --dry-run` says how large a scene is and how long it will take here, `--reference-only` what half-space theory says of it, `-s "Section/Name=value"` changes it, and
 `contrib/plot/plot-run.py FOLDER` draws what came. The tables have the half-space's figures: what a run should come near to where the bodies act as
-half-spaces, steel does not yield and the rail is smooth. How near is on the page that is named.
+half-spaces, steel does not yield and the rail is smooth. How near is on the page that is named. Creepage is that of the patch with the largest force where there
+are several; of two wheels on one rail the figures are the first one's, of a wheelset with both wheels force and area are those of both. Times are the recorded ones.
 
 This page is written by `contrib/scenes-page.py`.
 """
-# (heading, name of the files, pages that show their results, pictures of doc/pictures and what they show, what the files share: these are then
-# listed by a line each)
+# (heading, name of the files, pages that show their results, picture of doc/pictures and what it shows, files that the scenes share: these
+# scenes are then listed by a line each)
 GROUPS = (
-    ("First runs", "smooth-rolling.prm", ("verification.md",), (("half-space-map.png", "Pressure and shear on Kalker's case, beside CONTACT"),)),
-    ("Tutorials", "tutorial/*.prm", ("measured.md", "track.md", "geometry.md"),
-     (("measured-contact-force.png", "The contact force at the squat of tutorial/measured.prm"),)),
+    ("First runs", "smooth-rolling.prm", ("verification.md",), None),
+    ("Tutorials", "tutorial/*.prm", ("measured.md", "track.md", "geometry.md", "crossing.md"),
+     ("measured-contact-force.png", "The contact force at the squat of tutorial/measured.prm, beside the smooth twin")),
     ("Curves: wheelsets in any position", "curves/*.prm", ("kinematics.md", "curve.md"),
-     (("two-patches.png", "curves/two-patches.prm: tread and gauge corner at once"), ("klingel.png", "curves/klingel.prm: the first quarter of Klingel's wave"))),
+     ("two-patches.png", "curves/two-patches.prm: tread and gauge corner at once")),
     ("Half-spaces: Kalker's case and its relatives", "verification/*.prm", ("verification.md", "track.md"),
-     (("half-space-axis.png", "Pressure and shear along the middle of the patch, beside CONTACT"), ("p2-force.png", "verification/p2-force.prm: the wheel lands behind the joint"))),
-    ("Thesis, section 3.1: smooth rolling", "thesis/3.1-*.prm", ("verification.md",), (), "thesis/3.1-common.inc"),
-    ("Thesis, section 3.2: steel that yields", "thesis/3.2-*.prm", ("plasticity.md",), (("plastic-patch.png", "The patch on steel that yields"),), "thesis/3.2-common.inc"),
-    ("Thesis, chapter 4: squats on a track", "thesis/4.*.prm", ("squats.md", "axle-box.md", "crossing.md"),
-     (("squat-contact-force.png", "The contact force while the wheel crosses a squat"),)),
+     ("half-space-axis.png", "verification/half-space-0.33-mu0.30.prm: pressure, shear stress and micro-slip along the patch, beside Hertz and CONTACT")),
+    ("Thesis, section 3.1: smooth rolling", "thesis/3.1-*.prm", ("verification.md",), None, "thesis/3.1-common.inc"),
+    ("Thesis, section 3.2: steel that yields", "thesis/3.2-*.prm", ("plasticity.md",),
+     ("plastic-patch.png", "thesis/3.2-1.3-mu0.30.prm beside its elastic twin: patch, pressure, shear stress and micro-slip"),
+     "thesis/3.2-common.inc", "thesis/3.2-yielding.inc"),
+    ("Thesis, chapter 4: squats on a track", "thesis/4.*.prm", ("squats.md", "axle-box.md", "sleeper.md", "modes.md"),
+     ("squat-contact-force.png", "thesis/4.1-case1.prm, deeper: the contact force while the wheel crosses a squat")),
     ("Thesis, section 5.1: the critical size of a defect", "thesis/5.1-*.prm", ("critical-size.md",),
-     (("critical-size.png", "The largest stress over the length of the defect"),), "thesis/5.1-common.inc"),
-    ("Local time steps", "benchmarks/*.prm", ("performance.md",), ()),
+     ("critical-size.png", "studies/critical-size.study: the largest von Mises stress over the depth of the defect"), "thesis/5.1-common.inc"),
+    ("Local time steps", "benchmarks/*.prm", ("performance.md",), None),
 )
+# Further pictures of doc/pictures: (picture, what it shows), by scene or study.
+PICTURES = {
+    "smooth-rolling.prm": (("s1002-patch.png", "the patch of an S1002 in the wheel's place"),),
+    "tutorial/dip.prm": (("crossing-axis.png", "stress along the patch at a dip of 10 mm"), ("crossing-stress.png", "stress over the patch there"),
+                         ("crossing-slip.png", "slip and adhesion there")),
+    "tutorial/measured.prm": (("measured-dynamic-force.png", "dynamic forces and their spectra"),),
+    "curves/klingel.prm": (("klingel.png", "the first quarter of Klingel's wave"),),
+    "verification/half-space-0.33-mu0.30.prm": (("half-space-map.png", "adhesion and slip, beside CONTACT"), ("half-space-vectors.png", "shear stress and micro-slip")),
+    "verification/p2-force.prm": (("p2-force.png", "the normal force behind the joint"),),
+    "thesis/3.2-1.3-mu0.30.prm": (("plastic-material.png", "settlement, plastic strain and von Mises stress"),),
+    "thesis/4.1-case1.prm": (("squat-dynamic-force.png", "dynamic forces and their spectra"), ("axle-box-case1.png", "acceleration of the axle box, at 110 km/h")),
+    "thesis/4.1-case2.prm": (("squat-weld.png", "normal force, largest pressure and area of the patch"),),
+    "thesis/4.2-axle-box.prm": (("axle-box.png", "acceleration of the axle box and its wavelet spectrum"),),
+    "thesis/4.3-M1.prm": (("modes-M1.png", "receptances of rail and wheel"), ("sleeper-stress.png", "stress in the sleeper")),
+    "studies/critical-size-fine.study": (("critical-size-fine.png", "largest von Mises stress over depth, cells of 0.28 mm"),),
+}
 STUDIES = "studies/*.study"
-HEADER = ("scene", "load, kN", "traction coefficient", "largest pressure, MPa", "area, mm2", "cells", "steps")
+FIGURES = ("load, kN", "traction coefficient", "creepage, 1e-3", "largest pressure, MPa", "area, mm2", "cells", "steps")
+HEADER = ("scene", *FIGURES, "time")
 
 
 def comment(path):
@@ -76,85 +104,160 @@ def command_of(path, name):
     return found[1].split("  ")[0].strip() if found else f"mpirun -np 2 tread prm/{name}"
 
 
-def figures(name):
-    """The cells of a scene's row but for the first one, by the program."""
-    settings = parameters_of(name)
-    whole = must_end_well(execute([*arguments_of(name), "--dry-run"])).stdout if settings["Mesh/Finest cell (mm)"] else ""
-    size = [(re.search(rf"^{what} +(\d+)", whole, re.MULTILINE) or [None, "-"])[1] for what in ("cells", "steps")]
+def included(name):
+    """The files that a file of prm/ includes, also of prm/."""
+    with open(os.path.join(PRM, name), encoding="utf-8") as stream:
+        return [os.path.normpath(os.path.join(os.path.dirname(name), other)) for _, kind, other, _ in parameter_lines(stream) if kind == "include"]
+
+
+def time_of(name):
+    """How long it takes, as the head of the file says, or of what it shares with others."""
+    said = dict(comment(os.path.join(PRM, name))[1])
+    if "Cost" in said:
+        return said["Cost"].split(": ")[-1]
+    found = re.search(r"(?:^|; )([^;]*\b(?:s|seconds?|minutes?)\b[^;]*)$", said.get("Size", ""))
+    if found:
+        return found[1].strip()
+    return next((time_of(other) for other in included(name) if other.endswith(".inc")), "-")
+
+
+def input_of(name):
+    """A digest of what a scene's figures follow from: its parameters, and the profiles they name. Titles and what is written do not matter."""
+    path = os.path.join(PRM, name)
+    own = {key: value for key, value in own_parameters(path).items() if key != "Scene/Title" and not key.startswith("Output/")}
+    digest = hashlib.sha256(json.dumps(own, sort_keys=True).encode())
+    for value in sorted(set(own.values())):
+        profile = os.path.join(os.path.dirname(path), value)
+        if value and os.path.isfile(profile):
+            with open(profile, "rb") as stream:
+                digest.update(stream.read())
+    return digest.hexdigest()[:8]
+
+
+def figures(name, program):
+    """{name of FIGURES: cell} of a scene, by the program."""
+    size = ["-", "-"]
+    if "--reference-only" not in command_of(os.path.join(PRM, name), name):
+        whole = must_end_well(execute([*arguments_of(os.path.join(PRM, name)), "--dry-run"], program=program)).stdout
+        size = [re.search(rf"^{what} +(\d+)", whole, re.MULTILINE)[1] for what in ("cells", "steps")]
     with tempfile.TemporaryDirectory() as folder:
-        must_end_well(execute([*arguments_of(name, output=folder), "--reference-only"]))
+        must_end_well(execute([*arguments_of(os.path.join(PRM, name), output=folder), "--reference-only"], program=program))
         summary = read_summary(folder)
-    half = summary.get("half_space", summary)
     load = summary["normal_force_N"]
-    return [number(1e-3 * load), f"{round(summary['longitudinal_force_N'] / load, 3) + 0.:.3f}", number(1e-6 * half["max_pressure_Pa"]),
-            number(1e6 * summary["patch_area_m2"]), *size]
+    patch = max(summary.get("patches", [summary]), key=lambda patch: patch["normal_force_N"])
+    cells = (number(1e-3 * load), f"{round(summary['longitudinal_force_N'] / load, 3) + 0.:.3f}", f"{round(1e3 * patch['creepage'], 2) + 0.:.2f}",
+             number(1e-6 * summary["max_pressure_Pa"]), number(1e6 * summary["patch_area_m2"]), *size)
+    return dict(zip(FIGURES, cells))
+
+
+def recorded():
+    """{scene: {name of FIGURES, and "input": cell}}"""
+    if not os.path.exists(RECORD):
+        return {}
+    with open(RECORD, encoding="utf-8", newline="") as stream:
+        return {row.pop("scene"): row for row in csv.DictReader(stream)}
+
+
+def record(rows):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, ("scene", "input", *FIGURES), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({"scene": name, **rows[name]} for name in sorted(rows))
+    with open(RECORD, "w", encoding="utf-8") as stream:
+        stream.write(text.getvalue())
+
+
+def link(name):
+    return f"[`{name}`](../prm/{name})"
+
+
+def pictures_of(name):
+    return [f"[{what}](pictures/{picture})" for picture, what in PICTURES.get(name, ())]
 
 
 def described(name, command=True):
     """What a file is, how it is run, and the list at its head."""
-    path = os.path.join(ROOT, "prm", name)
+    path = os.path.join(PRM, name)
     what, entries = comment(path)
-    text = f"**[`{name}`](../prm/{name})** {what}\n\n" + (f"    {command_of(path, name)}\n\n" if command else "")
+    text = f"**{link(name)}** {what}\n\n" + (f"    {command_of(path, name)}\n\n" if command else "")
     lines = [f"- {word}: {said}" for word, said in entries if word not in ("Compare", "Source", "Reference", "Files")]
+    if name.endswith(".prm"):
+        lines += [f"- Built on: {link(other)}" for other in included(name)]
+    if pictures_of(name):
+        lines.append("- Pictures: " + ", ".join(pictures_of(name)))
     return text + "\n".join(lines) + ("\n\n" if lines else "")
 
 
 def line(name):
-    path = os.path.join(ROOT, "prm", name)
-    return f"- [`{name}`](../prm/{name}): {comment(path)[0]}\n"
+    return f"- {link(name)}: {comment(os.path.join(PRM, name))[0]}" + "".join(f" See {picture}." for picture in pictures_of(name)) + "\n"
 
 
 def names_of(pattern):
     found = sorted(os.path.relpath(path, os.path.join(ROOT, "prm")) for path in glob.glob(os.path.join(ROOT, "prm", pattern)))
     if not found:
-        raise ValueError(f"no file {pattern} in prm/")
+        raise DataError(f"no file {pattern} in prm/")
+    return found
+
+
+def groups():
+    """The groups with the names of their scenes. @raises DataError for scenes without one"""
+    found = [(names_of(group[1]), group) for group in GROUPS]
+    shipped = {os.path.relpath(path, PRM) for path in glob.glob(os.path.join(PRM, "**/*.prm"), recursive=True)}
+    without = shipped - {name for names, _ in found for name in names}
+    if without:
+        raise DataError(f"scenes without a group in contrib/scenes-page.py: {', '.join(sorted(without))}")
+    strangers = {name for name in PICTURES if not os.path.exists(os.path.join(PRM, name))}
+    if strangers:
+        raise DataError(f"pictures of scenes that are not there in contrib/scenes-page.py: {', '.join(sorted(strangers))}")
     return found
 
 
 def page(rows):
-    """@param rows {scene: [cell]}"""
-    text, listed = HEAD, set()
-    for heading, pattern, pages, pictures, *shared in GROUPS:
-        names = names_of(pattern)
-        listed.update(names)
+    """@param rows as of recorded()"""
+    text = HEAD
+    for names, (heading, _, pages, picture, *shared) in groups():
         text += f"\n## {heading}\n\nResults: " + ", ".join(f"[{os.path.splitext(p)[0].replace('-', ' ')}]({p})" for p in pages) + ".\n\n"
         text += "".join(described(name, command=False) for name in shared)
-        text += "".join(map(line, names)) + f"\n    mpirun -np 2 tread prm/{names[0]}\n\n" if shared else "".join(map(described, names))
-        text += markdown(HEADER, [[f"`{name}`", *rows.get(name, ["-"] * (len(HEADER) - 1))] for name in names]) + "\n"
-        text += "".join(f"\n![{what}](pictures/{picture})\n\n{what}.\n" for picture, what in pictures)
+        text += "".join(map(line, names)) + f"\n    mpirun -np 2 tread prm/{names[0]}\n\nand so with the others.\n\n" if shared else "".join(map(described, names))
+        text += markdown(HEADER, [[f"`{name}`", *(rows.get(name, {}).get(figure, "-") for figure in FIGURES), time_of(name)] for name in names]) + "\n"
+        if picture:
+            text += f"\n![{picture[1]}](pictures/{picture[0]})\n\n{picture[1]}.\n"
     text += "\n## Studies: many runs by one command\n\n" + "".join(map(described, names_of(STUDIES)))
-    shipped = set(os.path.relpath(path, os.path.join(ROOT, "prm")) for path in glob.glob(os.path.join(ROOT, "prm/**/*.prm"), recursive=True))
-    if shipped != listed:
-        raise ValueError(f"scenes without a group in contrib/scenes-page.py: {', '.join(sorted(shipped - listed))}")
     return text.rstrip() + "\n"
-
-
-def rows_on(text):
-    """{scene: [cell]} of the page as it is."""
-    rows = (line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| `"))
-    return {row[0].strip("`"): row[1:] for row in rows if len(row) == len(HEADER)}
 
 
 def main():
     parser = command_parser(__doc__)
-    parser.add_argument("--run", action="store_true", help="ask the program for the figures")
+    parser.add_argument("--run", action="store_true", help="ask the program for the figures that are missing or not current")
+    parser.add_argument("--all", action="store_true", help="with --run: for all figures")
+    parser.add_argument("--program", default=PROGRAM, help="the program to ask")
     parser.add_argument("--check", action="store_true", help="write nothing")
     arguments = parser.parse_args()
-    kept = ""
-    if os.path.exists(PAGE):
-        with open(PAGE, encoding="utf-8") as stream:
-            kept = stream.read()
-    rows = rows_on(kept)
-    if arguments.run:
-        rows = {name: figures(name) for _, pattern, *_ in GROUPS for name in names_of(pattern)}
+    rows, inputs = recorded(), {name: input_of(name) for names, _ in groups() for name in names}
+    if arguments.run and not arguments.check:
+        rows = {name: row for name, row in rows.items() if name in inputs}
+        for name, digest in inputs.items():
+            if arguments.all or rows.get(name, {}).get("input") != digest:
+                print(name, flush=True)
+                rows[name] = {"input": digest, **figures(name, arguments.program)}
+                record(rows)
+        record(rows)
+    old = [name for name, digest in inputs.items() if rows.get(name, {}).get("input") != digest] + sorted(set(rows) - set(inputs))
     current = page(rows)
     if not arguments.check:
         with open(PAGE, "w", encoding="utf-8") as stream:
             stream.write(current)
-        return 0
-    if kept == current and all(name in rows for _, pattern, *_ in GROUPS for name in names_of(pattern)):
-        return 0
-    sys.exit("doc/scenes.md is not current: run contrib/scenes-page.py, with --run for scenes without figures")
+    kept = ""
+    if os.path.exists(PAGE):
+        with open(PAGE, encoding="utf-8") as stream:
+            kept = stream.read()
+    if old:
+        sys.exit(f"doc/scenes.csv: figures that are missing, or of other parameters: {', '.join(old)}: run contrib/scenes-page.py --run")
+    if kept != current:
+        before, now = kept.splitlines(), current.splitlines()
+        differs = next((i for i, pair in enumerate(zip(before, now)) if pair[0] != pair[1]), min(len(before), len(now)))
+        sys.exit(f"doc/scenes.md is not current from line {differs + 1} on: run contrib/scenes-page.py")
+    return 0
 
 
 if __name__ == "__main__":
