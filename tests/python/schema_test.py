@@ -24,7 +24,7 @@ CHECK = os.path.join(ROOT, "contrib/check-scene.py")
 
 class Words(unittest.TestCase):
     def test_what_the_program_says_is_allowed(self):
-        for text, wanted in ((None, {"type": "string"}), ("[Bool]", {"type": "boolean"}), ("0 to 2", {"type": "number", "minimum": 0, "maximum": 2}),
+        for text, wanted in ((None, {"type": "string"}), ("true or false", {"type": "boolean"}), ("0 to 2", {"type": "number", "minimum": 0, "maximum": 2}),
                              ("-1e+06 to 0.5", {"type": "number", "minimum": -1000000, "maximum": 0.5}), ("0 or more", {"type": "number", "minimum": 0}),
                              ("at most -1", {"type": "number", "maximum": -1}), ("a finite number", {"type": "number"}),
                              ("sector or full", {"enum": ["sector", "full"]}),

@@ -46,6 +46,7 @@ with tempfile.TemporaryDirectory() as folder:
     warned("too much damping", ["Motion/Traction coefficient=0.15", "Solid/Mass damping (1 per s)=1e4", "Motion/Rolled distance (mm)=15"], "numerical damping")
     warned("hourglass coefficient", ["Solid/Hourglass coefficient=10"], "hourglass modes", "fully-integrated")
     warned("contact that is not solved", ["Contact/Largest number of sweeps=1"], "contact did not reach its tolerance", "sweeps")
+    warned("a patch on long cells", ["Mesh/Path cell (mm)=2.6", "Mesh/Fine from (mm)=-3", "Mesh/Fine to (mm)=-2"], "'Mesh/Fine from (mm)'", "from -3 to -2 mm")
     warned("a torque that takes longer", ["Motion/Drive=torque", "Motion/Hold distance (mm)=1", "Start/Tractions=none"], "has reached", "Rolled distance")
     generator = random.Random(1)
 

@@ -82,7 +82,7 @@ def schema_of(text: str | None) -> dict:
         return {"type": "string"}
     if text in FORMS:
         return {"type": "string", "pattern": FORMS[text]}
-    if text == "[Bool]":
+    if text == "true or false":
         return {"type": "boolean"}
     found = re.fullmatch(r"up to (\d+) numbers from (.*), separated by commas", text)
     if found and limits_of(found[2]):
