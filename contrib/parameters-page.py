@@ -11,6 +11,7 @@ import sys
 from tread.commands import command_parser, run_command
 from tread.runs import PROGRAM, ROOT
 from tread.schema import listing
+from tread.tables import first_difference
 
 PAGE = os.path.join(ROOT, "doc", "parameters.md")
 HEAD = """# Parameters
@@ -51,12 +52,10 @@ def main():
             stream.write(current)
         return 0
     with open(PAGE, encoding="utf-8") as stream:
-        kept = stream.read()
-    if kept == current:
-        return 0
-    old, new = kept.splitlines(), current.splitlines()
-    differs = next((i for i, pair in enumerate(zip(old, new)) if pair[0] != pair[1]), min(len(old), len(new)))
-    sys.exit(f"doc/parameters.md is not current from line {differs + 1} on: run contrib/parameters-page.py")
+        line = first_difference(stream.read(), current)
+    if line:
+        sys.exit(f"doc/parameters.md is not current from line {line} on: run contrib/parameters-page.py")
+    return 0
 
 
 if __name__ == "__main__":

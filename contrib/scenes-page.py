@@ -20,7 +20,7 @@ import tempfile
 from tread.commands import command_parser, run_command
 from tread.files import DataError, own_parameters, parameter_lines, read_summary
 from tread.runs import PROGRAM, ROOT, arguments_of, execute, must_end_well
-from tread.tables import markdown, number
+from tread.tables import first_difference, markdown, number
 
 PRM = os.path.join(ROOT, "prm")
 PAGE = os.path.join(ROOT, "doc", "scenes.md")
@@ -193,7 +193,7 @@ def line(name):
 
 
 def names_of(pattern):
-    found = sorted(os.path.relpath(path, os.path.join(ROOT, "prm")) for path in glob.glob(os.path.join(ROOT, "prm", pattern)))
+    found = sorted(os.path.relpath(path, PRM) for path in glob.glob(os.path.join(PRM, pattern)))
     if not found:
         raise DataError(f"no file {pattern} in prm/")
     return found
@@ -244,19 +244,17 @@ def main():
         record(rows)
     old = [name for name, digest in inputs.items() if rows.get(name, {}).get("input") != digest] + sorted(set(rows) - set(inputs))
     current = page(rows)
-    if not arguments.check:
+    if arguments.check:
+        with open(PAGE, encoding="utf-8") as stream:
+            different = first_difference(stream.read(), current)
+    else:
         with open(PAGE, "w", encoding="utf-8") as stream:
             stream.write(current)
-    kept = ""
-    if os.path.exists(PAGE):
-        with open(PAGE, encoding="utf-8") as stream:
-            kept = stream.read()
+        different = None
     if old:
         sys.exit(f"doc/scenes.csv: figures that are missing, or of other parameters: {', '.join(old)}: run contrib/scenes-page.py --run")
-    if kept != current:
-        before, now = kept.splitlines(), current.splitlines()
-        differs = next((i for i, pair in enumerate(zip(before, now)) if pair[0] != pair[1]), min(len(before), len(now)))
-        sys.exit(f"doc/scenes.md is not current from line {differs + 1} on: run contrib/scenes-page.py")
+    if different:
+        sys.exit(f"doc/scenes.md is not current from line {different} on: run contrib/scenes-page.py")
     return 0
 
 

@@ -48,6 +48,14 @@ def rows_of(page, name):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[1:]]
 
 
+def first_difference(kept, current):
+    """Number of the first line in which two texts differ; None: they are the same."""
+    if kept == current:
+        return None
+    old, new = kept.splitlines(), current.splitlines()
+    return 1 + next((i for i, pair in enumerate(zip(old, new)) if pair[0] != pair[1]), min(len(old), len(new)))
+
+
 def fill(page, name, table):
     """Put a table between its marks on a page of doc/."""
     path = os.path.join(ROOT, "doc", page)
