@@ -104,8 +104,8 @@ namespace
     if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
-    const bool rolls = !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
-                       line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run;
+    const bool asks_of_scene = !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
+                               line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run;
     struct Tool
     {
       std::string name, reads;
@@ -117,9 +117,9 @@ namespace
       if (tool.is_asked)
         {
           tread::require(line.scene.empty(), tool.name + " reads " + tool.reads + "; it takes no scene");
-          tread::require(!rolls, tool.name + " reads " + tool.reads +
-                                   "; -s, --print-parameters, --resume, --reference-only, --modes, "
-                                   "--contact-points and --dry-run are for a scene");
+          tread::require(!asks_of_scene, tool.name + " reads " + tool.reads +
+                                           "; -s, --print-parameters, --resume, --reference-only, --modes, "
+                                           "--contact-points and --dry-run are for a scene");
         }
     return line;
   }

@@ -43,8 +43,8 @@ namespace tread
       on_rail.y_middle    = scene.path_y();
       if (scene.mesh.fine_from < scene.mesh.fine_to && scene.mesh.path_cell > scene.mesh.finest_cell)
         {
-          on_rail.cubes_begin = scene.defect.position + scene.mesh.fine_from;
-          on_rail.cubes_end   = scene.defect.position + scene.mesh.fine_to;
+          on_rail.cubes_begin = scene.cubes().begin;
+          on_rail.cubes_end   = scene.cubes().end;
           on_rail.path_level  = std::floor(std::log2(scene.mesh.path_cell / scene.mesh.finest_cell) + 1e-9);
           on_rail.path_stretch =
             std::ldexp(scene.mesh.path_cell / scene.mesh.finest_cell, -on_rail.path_level);

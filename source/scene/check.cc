@@ -19,20 +19,6 @@ namespace tread
 
     /// Places that should be equal may differ by this, m.
     constexpr double round_off = 1e-9;
-
-    /// Where 'Fine from' and 'Fine to' put the finest cells about what begins at x, m.
-    Scene::Range fine_range(const MeshSection &mesh, const double x)
-    {
-      return {x + mesh.fine_from, x + mesh.fine_to};
-    }
-
-    /// Whether all cells from begin to end have the finest size: in this range, or wherever nothing coarsens
-    /// the path.
-    bool is_finest(const MeshSection &mesh, const Scene::Range &fine, const double begin, const double end)
-    {
-      return mesh.fine_from == mesh.fine_to || mesh.path_cell <= mesh.finest_cell ||
-             (begin >= fine.begin && end <= fine.end);
-    }
   } // namespace
 
 
@@ -179,8 +165,8 @@ namespace tread
         require(k == 0 || begin >= before + made.length - round_off,
                 "'Defect/Repeated at (mm)': the defects from " + text_in_mm(before) + " and " +
                   text_in_mm(begin) + " mm overlap, being " + text_in_mm(made.length) + " mm long");
-        const Range fine = fine_range(mesh, made.begin);
-        require(begin == made.begin || is_finest(mesh, fine, begin, end),
+        const Range fine = cubes();
+        require(begin == made.begin || is_finest(begin, end),
                 "'Defect/Repeated at (mm)' " + text_in_mm(begin) +
                   " lies outside the cubes of 'Mesh/Fine from (mm)' to 'Fine to (mm)', from " +
                   text_in_mm(fine.begin) + " to " + text_in_mm(fine.end) + " mm");
@@ -214,9 +200,9 @@ namespace tread
             "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " +
               text_in_mm(region.end) + " mm, must lie on the path of the first wheel, which is from " +
               text_in_mm(path_begin()) + " to " + text_in_mm(last) + " mm");
-    const Range fine = fine_range(mesh, defect.position);
+    const Range fine = cubes();
     require(
-      is_finest(mesh, fine, region.begin, region.end),
+      is_finest(region.begin, region.end),
       "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " + text_in_mm(region.end) +
         " mm, must lie among the finest cells, which 'Mesh/Fine from (mm)' and 'Fine to (mm)' put from " +
         text_in_mm(fine.begin) + " to " + text_in_mm(fine.end) + " mm");
@@ -283,7 +269,7 @@ namespace tread
             "'Mesh/Fine layers' " + std::to_string(mesh.fine_layers) + " of 'Mesh/Finest cell (mm)' " +
               text_in_mm(finest) + " do not fit into rail and wheel; at most " +
               std::to_string(std::max(0, static_cast<int>(thickness / finest * (1. + 1e-9)) - 1)));
-    const Range fine = fine_range(mesh, defect.position);
+    const Range fine = cubes();
     require(mesh.fine_from == mesh.fine_to || (fine.begin < rail_end() && fine.end > rail_begin()),
             "'Mesh/Fine from (mm)' to 'Fine to (mm)', from the defect's leading edge at " +
               text_in_mm(defect.position) + " mm, must lie on the rail from " + text_in_mm(rail_begin()) +

@@ -442,18 +442,13 @@ namespace tread
                  "'Start/Tolerance', a longer way, or steel that hardens more",
                  1e-3 * normal_force, 1e-3 * load));
     // The patch at the end is compared as one on the finest cells.
-    if (const MeshSection &mesh = scene.mesh; !scene.is_positioned() && !scene.has_impacts() &&
-                                              mesh.fine_from != mesh.fine_to &&
-                                              mesh.path_cell > mesh.finest_cell)
-      {
-        const double x = scene.path_end(), a = hertz(scene, scene.static_load()).semi_axis_x,
-                     from = scene.defect.position + mesh.fine_from, to = scene.defect.position + mesh.fine_to;
-        if (x - a < from || x + a > to)
-          warnings.push_back(format(
-            "the patch at the end, from %.4g to %.4g mm, lies outside the cubes of 'Mesh/Fine from (mm)' "
-            "to 'Fine to (mm)', from %.4g to %.4g mm: its figures are those of longer cells",
-            1e3 * (x - a), 1e3 * (x + a), 1e3 * from, 1e3 * to));
-      }
+    const double semi_axis = hertz(scene, scene.static_load()).semi_axis_x;
+    if (const Scene::Range patch{scene.path_end() - semi_axis, scene.path_end() + semi_axis};
+        !scene.has_impacts() && !scene.is_finest(patch.begin, patch.end))
+      warnings.push_back(
+        format("the patch at the end, from %.4g to %.4g mm, lies outside the cubes of 'Mesh/Fine from (mm)' "
+               "to 'Fine to (mm)', from %.4g to %.4g mm: its figures are those of longer cells",
+               1e3 * patch.begin, 1e3 * patch.end, 1e3 * scene.cubes().begin, 1e3 * scene.cubes().end));
     const bool varies =
       scene.contact.friction_varies(scene.path_end() - 2. * last_way, scene.path_end() + last_way);
     if (const double share = ripple.share(); share > large_ripple && !scene.has_impacts() && !varies)

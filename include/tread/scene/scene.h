@@ -230,6 +230,18 @@ namespace tread
       double begin, end;
     };
     Range peak_range() const;
+    /// Where 'Mesh/Fine from (mm)' and 'Fine to (mm)' put the cubes of the finest cells, x in m.
+    Range cubes() const
+    {
+      return {defect.position + mesh.fine_from, defect.position + mesh.fine_to};
+    }
+    /// Whether all cells from begin to end have the finest size: among the cubes, or wherever nothing
+    /// coarsens the path.
+    bool is_finest(const double begin, const double end) const
+    {
+      return mesh.fine_from == mesh.fine_to || mesh.path_cell <= mesh.finest_cell ||
+             (begin >= cubes().begin && end <= cubes().end);
+    }
     /// And to each side of the first contact, m.
     double peak_half_width() const;
     /// Depth below the running surface of a point in the reference configuration, m.
