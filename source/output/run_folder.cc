@@ -242,6 +242,12 @@ namespace tread
   }
 
 
+  std::uint32_t RunFolder::history_checksum() const
+  {
+    return writes_tables ? growing.at("history.csv").checksum.checksum() : 0;
+  }
+
+
   std::string RunFolder::progress() const
   {
     std::map<std::string, TableMark> tables;

@@ -132,7 +132,16 @@ namespace tread
           sector.arc_begin          = -scene.wheel.sector_margin;
           sector.arc_end            = scene.motion.rolled_distance + scene.wheel.sector_margin;
           sector.coarsest_cell_size = scene.mesh.coarsest_cell;
-          return make_wheel_sector(sector, zone);
+          try
+            {
+              return make_wheel_sector(sector, zone);
+            }
+          catch (const std::invalid_argument &error)
+            {
+              throw InputError("'Wheel/Sector width (mm)' " + text_in_mm(sector.width) +
+                               ", 'Wheel/Sector thickness (mm)' " + text_in_mm(sector.thickness) + ": " +
+                               error.what());
+            }
         }
       FullWheel wheel;
       wheel.center_x           = scene.path_begin(number);

@@ -289,12 +289,22 @@ namespace tread
       std::optional<WheelOnRail::OutlinePoint> first;
       for (unsigned int i = 0; i <= n_instants; ++i)
         {
-          const Across     now = scene.across(duration * i / n_instants);
-          WheelsetPosition position{shift + now.y, now.yaw, now.roll, 0.};
-          if (scene.wheelset.both_wheels)
-            position = touching_wheelset(surfaces, position).position;
-          const WheelOnRail::OutlinePoint at =
-            surfaces.nearest(of_other_wheel ? position.mirrored() : position).point;
+          const Across              now = scene.across(duration * i / n_instants);
+          WheelsetPosition          position{shift + now.y, now.yaw, now.roll, 0.};
+          WheelOnRail::OutlinePoint at;
+          try
+            {
+              if (scene.wheelset.both_wheels)
+                position = touching_wheelset(surfaces, position).position;
+              at = surfaces.nearest(of_other_wheel ? position.mirrored() : position).point;
+            }
+          catch (const std::runtime_error &error)
+            {
+              throw InputError(
+                format("'Guidance/File', %.4g s after the start, at a lateral shift of %.4g mm: ",
+                       duration * i / n_instants, 1e3 * position.shift) +
+                error.what());
+            }
           if (!first)
             first = at;
           const auto on_rail = [&](const WheelOnRail::OutlinePoint &p) {

@@ -76,9 +76,17 @@ namespace tread
             "'Guidance/File' ends at " + text_of(wheelset_motion->end()) + " s; the run takes " +
               text_of(motion.rolled_distance / motion.speed) + " s");
     constexpr unsigned int n_instants = 200;
+    constexpr double       largest    = 0.2; // as of the creepages of 'Motion'
+    double                 before     = across(0.).y;
     for (unsigned int i = 0; i <= n_instants; ++i)
       {
-        const Across    now  = across(duration * i / n_instants);
+        const Across now      = across(duration * i / n_instants);
+        const double creepage = (now.y - before) / (duration / n_instants * motion.speed);
+        require(std::abs(creepage) <= largest, "'Guidance/File' moves the wheelset sideways at " +
+                                                 text_of(std::abs(creepage)) + " of its speed, " +
+                                                 text_of(duration * i / n_instants) +
+                                                 " s after the start; at most " + text_of(largest));
+        before               = now.y;
         WheelsetSection then = wheelset;
         then.yaw             = now.yaw;
         then.roll            = now.roll;

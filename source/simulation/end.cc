@@ -526,6 +526,7 @@ namespace tread
       add_doubts(warnings);
     const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     summary.set("warnings", warnings);
+    summary.set("history_crc32", folder.history_checksum());
     if (averaged)
       for (const RollingWheel &of_table : wheels)
         folder.write_patch(RunFolder::table_of_wheel("patch_averaged", of_table.number),

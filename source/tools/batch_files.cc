@@ -145,6 +145,19 @@ namespace tread
     write_answers(cases, output, answers);
     progress.say(
       format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
+    // Strains are about pressure over Young's modulus; NaN compares false.
+    constexpr double large_strain = 0.1;
+    const auto       is_large     = [&](const std::size_t row) {
+      return answers[row].max_pressure > large_strain * problems[row].young;
+    };
+    std::vector<std::size_t> large;
+    for (std::size_t row = 0; row < answers.size(); ++row)
+      if (is_large(row))
+        large.push_back(row);
+    if (!large.empty())
+      progress.say(format("WARNING: in %zu cases, the first in row %zu, the largest pressure is above %g of "
+                          "'young_Pa': too much for small strains; is its unit Pa?",
+                          large.size(), large.front() + 1, large_strain));
     if (failed > 0)
       {
         const std::size_t first =

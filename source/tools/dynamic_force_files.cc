@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/crc.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -86,6 +87,26 @@ namespace tread
             throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
                              " and '" + of_twin[i].value + "' in " + twin);
         }
+    }
+
+    /// What its summary says of a history: @throws InputError if rows were changed since
+    /// @returns a warning where the run did not come to its end, or ""
+    std::string doubt_of_history(const std::string &folder)
+    {
+      std::ifstream file(folder + "/summary.json");
+      const auto    summary = nlohmann::json::parse(file, nullptr, false);
+      if (!summary.is_object() || summary.value("completed", nlohmann::json()) != true)
+        return folder + " has no summary of a completed run: its history ends where it was interrupted";
+      if (const auto written = summary.find("history_crc32"); written != summary.end())
+        {
+          std::ifstream      table(folder + "/history.csv", std::ios::binary);
+          const std::string  text{std::istreambuf_iterator<char>(table), std::istreambuf_iterator<char>()};
+          boost::crc_32_type sum;
+          sum.process_bytes(text.data(), text.size());
+          require(*written == sum.checksum(),
+                  "'" + folder + "/history.csv' is not what its run wrote: rows are missing or changed");
+        }
+      return "";
     }
 
     double millimetres(const std::string &text, const std::string &option, const double otherwise)
@@ -243,6 +264,10 @@ namespace tread
       throw InputError("--from " + request.from_mm + " must not be above --to " + request.to_mm);
     const ForceHistory run = read_forces(request.run), smooth_twin = read_forces(request.smooth_twin);
     compare_parameters(request.run, request.smooth_twin);
+    std::vector<std::string> warnings;
+    for (const std::string &of : {request.run, request.smooth_twin})
+      if (const std::string doubt = doubt_of_history(of); !doubt.empty())
+        warnings.push_back(doubt);
     try
       {
         window  = window_of(request.window);
@@ -252,8 +277,14 @@ namespace tread
       {
         throw InputError(error.what());
       }
-    const std::vector<std::string> warnings = doubts(dynamic, window);
-    const RunFolder                folder(request.output.empty() ? request.run : request.output, comm);
+    for (const auto &[option, asked, had] : {std::make_tuple("--from", from, dynamic.position.front()),
+                                             std::make_tuple("--to", to, dynamic.position.back())})
+      if (std::isfinite(asked) && std::abs(asked - had) > 2. * dynamic.interval * dynamic.speed)
+        warnings.push_back(format("%s %.2f mm lies beyond what both runs have: the section reaches %.2f mm",
+                                  option, 1e3 * asked, 1e3 * had));
+    for (const std::string &doubt : doubts(dynamic, window))
+      warnings.push_back(doubt);
+    const RunFolder folder(request.output.empty() ? request.run : request.output, comm);
     folder.write("dynamic.csv", forces_text(dynamic));
     folder.write("spectrum.csv", spectra_text(dynamic));
     folder.write("dynamic.json", figures_text(dynamic, request, warnings));

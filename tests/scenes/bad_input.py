@@ -264,6 +264,8 @@ with tempfile.TemporaryDirectory() as folder:
               ["Defect/Profile file", "60000 x 60000", "x 1 mm, y 0 mm", "is missing"])
     must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["--batch", "twice"])
 
+    must_fail("a sector that is too narrow for its fine zone", base + coarse + ["-s", "Wheel/Sector width (mm)=20"], ["Wheel/Sector width (mm)", "too small"])
+
     # Root may write anywhere but not below a file.
     blocked = os.path.join(folder, "a-file")
     with open(blocked, "w", encoding="utf-8") as stream:
@@ -275,8 +277,10 @@ with tempfile.TemporaryDirectory() as folder:
     # What another parameter leaves without effect is named; what is set to what it is anyhow is not.
     unused = {"Defect/Depth (mm)=3": "Defect/Shape", "Track/Pad stiffness (MN per m)=100": "Track/Foundation", "Wheel/Bore radius (mm)=90": "Wheel/Shape",
               "Rail/Tangent modulus (GPa)=10": "Rail/Yield stress (MPa)", "Contact/Friction memory (mm)=1": "Contact/Friction law",
-              "Wheelset/Track gauge (mm)=1400": "Wheelset/Lateral shift (mm)", "Peak stress/To (mm)=5": "Peak stress/Region", "Rail/Absorbing length (m)=1": "Track/Foundation"}
-    settings = [text for setting in [*unused, "Guidance/File=", "Motion/Hold distance (mm)=15.0"] for text in ("-s", setting)]
+              "Wheelset/Track gauge (mm)=1400": "Wheelset/Lateral shift (mm)", "Peak stress/To (mm)=5": "Peak stress/Region", "Rail/Absorbing length (m)=1": "Track/Foundation",
+              "Mesh/Longest row (mm)=30": "Rail/Shape", "Vehicle/Sprung mass (kg)=9000": "Vehicle/Wheel load (kN)", "Wheel/Tangent modulus (GPa)=10": "Wheel/Hardening",
+              "Contact/Least speed of memory (m per s)=0.1": "Contact/Friction law"}
+    settings = [text for setting in [*unused, "Guidance/File=", "Vehicle/Wheel load (kN)=140", "Wheel/Yield stress (MPa)=500", "Wheel/Hardening=Armstrong-Frederick", "Wheel/Backstress moduli (GPa)=10", "Wheel/Backstress recoveries=100", "Motion/Hold distance (mm)=15.0"] for text in ("-s", setting)]
     said = [line for line in execute([scene, "--dry-run"] + coarse + settings, program=program).stdout.splitlines() if "WARNING" in line]
     for setting, needed in unused.items():
         check.that(f"{setting} without effect: needs {needed}", any(f"'{setting.split('=')[0]}' has no effect" in line and f"'{needed}'" in line for line in said))

@@ -7,6 +7,7 @@ import math
 import os
 import sys
 import tempfile
+import zlib
 
 from tread.runs import execute
 from tread_runner import Check, rows_of, script
@@ -50,10 +51,17 @@ def write_parameters(folder, settings):
         stream.write(printed.stdout)
 
 
+def write_summary(folder, **entries):
+    """summary.json, of which readers take whether the run came to its end and what its history was."""
+    with open(os.path.join(folder, "summary.json"), "w", encoding="utf-8") as stream:
+        json.dump(entries, stream)
+
+
 def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_force_N", "support_1_pad_N"), steps=None, settings=()):
     """What a run leaves; the last row is a short one, as a run's end gives. `shift`: rows begin later, m. `steps`: rows end with
     the first group of time steps, of this length (m), behind their place."""
     write_parameters(folder, [*settings, *(["Defect/Shape=dip", f"Defect/Position (mm)={1e3 * BEGIN:g}", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"] if defect else [])])
+    write_summary(folder, completed=True)
     with open(os.path.join(folder, "history.csv"), "w", encoding="utf-8") as stream:
         stream.write(",".join(("time_s", "position_m") + columns + ("creepage",)) + "\n")
         positions = [-0.3 + shift + ROW * i for i in range(rows)]
@@ -207,6 +215,17 @@ with tempfile.TemporaryDirectory() as folder:
     fails("a twin that stopped before the run", stopped, ["stopped", "to 74.", "does not cover", "to 199."])
     check.that("a section that it covers", execute(stopped + ["--to", "70"], program=program).returncode == 0)
     fails("a section of a few rows", both + ["--from", "10", "--to", "11"], ["4 intervals", "at least 16"])
+    said = execute(both + ["--from", "-100", "--to", "300", "--output", path("section")], program=program, check=True).stdout
+    check.that("a section beyond the history: where it ends instead", "WARNING: --to 300.00 mm" in said and "reaches 199." in said and "--from" not in said)
+    with open(path("run/history.csv"), "rb") as stream:
+        sum_of_history = zlib.crc32(stream.read())
+    write_summary(path("run"), completed=True, history_crc32=sum_of_history)
+    check.that("a history with its checksum", "has no summary" not in execute(both, program=program, check=True).stdout)
+    write_summary(path("run"), completed=True, history_crc32=sum_of_history ^ 1)
+    fails("a history that was edited", both, ["run/history.csv", "changed"])
+    write_summary(path("run"), completed=False, history_crc32=sum_of_history)
+    check.that("a run that was interrupted is named", f"WARNING: {path('run')} has no summary of a completed run" in execute(both, program=program, check=True).stdout)
+    write_summary(path("run"), completed=True)
     write(path("contact"), 2000, columns=("normal_force_N",))
     fails("a column that the twin has not", ["--dynamic-force", path("run"), "--smooth-twin", path("contact")],
           ["contact/history.csv", "support_1_pad_N"])

@@ -151,6 +151,8 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("an unknown column", with_rows("name.csv", time, yaw_rad=np.zeros(9)), "Guidance/File", "yaw_rad", "yaw_mrad")
     must_fail("time alone", write_motion(path("time.csv"), {"time_s": time}), "Guidance/File", "time_s")
     must_fail("more than 5 degrees", with_rows("far.csv", time, yaw_mrad=np.linspace(0., 120., 9)), "Wheelset/Yaw (mrad)", "5 degrees")
+    must_fail("sideways too fast", with_rows("fast.csv", time, lateral_shift_mm=np.linspace(0., 60., 9)), "Guidance/File", "sideways", "at most 0.2")
+    must_fail("beyond the rail's head", {"Wheelset/Lateral shift (mm)": -66, **with_rows("beyond.csv", time, lateral_shift_mm=np.linspace(-66., -71., 9))}, "Guidance/File", "after the start", "lateral shift")
     must_fail("two angular velocities", with_rows("two.csv", time, angular_velocity_rad_per_s=np.full(9, 84.4)), "Motion/Angular velocity (rad per s)")
     upright = execute([os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--dry-run", "-s", "Guidance/Kind=springs"], program=program)
     check.that("an upright wheel on springs", upright.returncode == 1 and "Guidance/Kind" in upright.stderr and "Wheelset/Lateral shift (mm)" in upright.stderr)

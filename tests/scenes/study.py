@@ -143,7 +143,10 @@ with tempfile.TemporaryDirectory() as folder:
             ["zip", "2 of 'Motion/Creepage'", "1 of"])
     for value in ("0.001", "1e-3"):
         refused(f"the same value twice, as 0.001 and {value}", write(path("bad.study"), {"Motion/Creepage": ["0.001", value]}),
-                ["same values", f"creepage-{value}"])
+                ["same values", f"Motion/Creepage={value}"])
+    refused("values whose folders have one name", write(path("bad.study"), {"Scene/Title": ["a b", "a-b"]}), ["same name of a folder", "Scene/Title=a b"])
+    refused("an empty value", write(path("bad.study"), {"Motion/Creepage": ["0.001", "", "0.003"]}), ["Motion/Creepage", "empty"])
+    refused("folders of runs", write(path("bad.study"), {"Output/Directory": ["a", "b"]}), ["Output/Directory", "folder of its own"])
     refused("no number of processes", write(path("bad.study"), vary, Processes="many"), ["Processes", "many"])
     refused("an unknown kind of figure", write(path("bad.study"), vary, Figures="mean(normal_force_N)"), ["mean", "max, min"])
     refused("a place without its column", write(path("bad.study"), vary, Figures="at(strip.csv:x_mm)"), ["at(TABLE.csv:COLUMN:OTHER"])

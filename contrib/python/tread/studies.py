@@ -108,9 +108,13 @@ class Study:
         self.processes, self.ranks = (self.count(path, entries, name) for name in ("Processes", "Ranks"))
         lists = [[split_together(value) for value in values_of(text)] for text in self.vary.values()]
         names = [split_together(name) for name in self.vary]
-        for together, name, values in zip(names, self.vary, lists):
+        for together, (name, text), values in zip(names, self.vary.items(), lists):
             if not values:
                 raise DataError(f"{path}: 'Vary/{name}' has no value")
+            if "" in (value.strip() for value in text.split("|")):
+                raise DataError(f"{path}: 'Vary/{name}' has an empty value")
+            if "Output/Directory" in together:
+                raise DataError(f"{path}: 'Vary/Output/Directory': each run of a study has a folder of its own, below 'Directory'")
             for value in values:
                 if len(value) != len(together):
                     raise DataError(f"{path}: 'Vary/{name}': '{' & '.join(value)}' must be {len(together)} values with & between them")
@@ -124,12 +128,14 @@ class Study:
         self.limits = [Limit.read(path, text, entries["Mesh"], self) for text in values_of(entries["Limit"])]
         if entries["Mesh"] and not self.limits:
             raise DataError(f"{path}: 'Mesh' says how sure a 'Limit' is; there is none")
-        seen = {}
-        for member in self.members:
-            for same in (folder_name(member), tuple(map(number_or_text, member.values()))):
-                other = seen.setdefault(same, member)
+        for what, same in (("the same values", lambda member: tuple(map(number_or_text, member.values()))),
+                           ("values that make the same name of a folder", folder_name)):
+            seen = {}
+            for member in self.members:
+                other = seen.setdefault(same(member), member)
                 if other is not member:
-                    raise DataError(f"{path}: two runs have the same values: {folder_name(other)} and {folder_name(member)}")
+                    texts = (", ".join(f"{name}={value}" for name, value in each.items()) for each in (other, member))
+                    raise DataError(f"{path}: two runs have {what}: {' and '.join(texts)}")
 
     @classmethod
     def of_file(cls, path):

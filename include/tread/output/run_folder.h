@@ -100,6 +100,9 @@ namespace tread
     /// rail_seats.csv: one row for each part of a recorded support's pad.
     void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
 
+    /// CRC-32 of history.csv as it stands, by which readers see whether it was changed since. On rank 0.
+    std::uint32_t history_checksum() const;
+
     /// How far the tables that grow and the series of pictures have come, for a checkpoint. On rank 0.
     std::string progress() const;
     /// Go on from there: tables that are opened and pictures that are written afterwards continue those of
