@@ -69,7 +69,8 @@ with tempfile.TemporaryDirectory() as folder:
     refused("a negative coefficient", batch(bad), 2, ["1 of 3 cases", "row 2", "friction = -1"])
     out = read_table(path("out.csv"), text=("name",))
     check.that("its row has nan and a status", np.isnan(out["lateral_force_N"][1]) and list(out["status"]) == [0, 1, 0])
-    said = batch({**one, "young_Pa": one["young_Pa"] * [1., 1e-9, 1.]}).stdout
+    # Elements of their own size: the patch grows with softness.
+    said = batch({**{name: values for name, values in one.items() if not name.startswith("element")}, "young_Pa": one["young_Pa"] * [1., 1e-9, 1.]}).stdout
     check.that("Young's modulus in another unit: a warning with its row", "WARNING: in 1 cases, the first in row 2" in said and "'young_Pa'" in said)
     check.that("steel has none", "WARNING" not in done.stdout)
     refused("a missing column", batch({name: values for name, values in one.items() if name != "friction"}), 1, ["'friction'"])
