@@ -250,7 +250,8 @@ namespace tread
     /// The samples around x = 0 in which x runs on, in increasing order.
     std::vector<Sample> around_middle(const std::string  &file,
                                       std::vector<Sample> samples,
-                                      const double        half_width)
+                                      const double        half_width,
+                                      const double        least)
     {
       std::size_t middle = 0;
       for (std::size_t i = 0; i < samples.size(); ++i)
@@ -274,9 +275,9 @@ namespace tread
         fail(file, samples[folds_before ? begin - 1 : end + 1].line,
              "the lateral coordinate turns back at " + text_in_mm(samples[folds_before ? begin : end].x) +
                " mm; it must run on to " + text_in_mm(half_width) + " mm at both sides");
-      if (samples[begin].x > -half_width || samples[end].x < half_width)
+      if (samples[begin].x > -least || samples[end].x < least)
         fail(file, "reaches from " + text_in_mm(samples[begin].x) + " mm to " + text_in_mm(samples[end].x) +
-                     " mm; at least " + text_in_mm(half_width) + " mm at both sides are needed");
+                     " mm; at least " + text_in_mm(least) + " mm at both sides are needed");
       samples = std::vector<Sample>(samples.begin() + begin, samples.begin() + end + 1);
       std::vector<Sample> needed;
       for (const Sample &s : samples)
@@ -406,9 +407,10 @@ namespace tread
 
   MeasuredLine read_rail_head(const std::string      &file,
                               const double            half_width,
+                              const double            least,
                               const ProfilePlacement &placement)
   {
-    std::vector<Sample> samples = around_middle(file, read_placed(file, placement), half_width);
+    std::vector<Sample> samples = around_middle(file, read_placed(file, placement), half_width, least);
     point_up(samples, line_through(samples)(0.));
     put_top_to_zero(samples);
     return line_through(samples);
@@ -421,7 +423,7 @@ namespace tread
   {
     std::vector<Sample> samples = read_placed(file, placement);
     orient_by_flange(samples);
-    samples            = around_middle(file, samples, half_width);
+    samples            = around_middle(file, samples, half_width, half_width);
     const double level = line_through(samples)(0.);
     for (Sample &s : samples)
       s.z -= level;

@@ -131,6 +131,12 @@ namespace tread
       "wheel and rail touch at y = " + text_in_mm(first_contact().y) +
         " mm, beside the running surface: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
         "'Rail/Inclination'");
+    if (has_narrow_head())
+      require(std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
+              "'Rail/Measured head' ends " + text_in_mm(surfaces().half_width) +
+                " mm beside its middle, in the patch under the static load or beside it, from y = " +
+                text_in_mm(patch_extent().begin) + " to " + text_in_mm(patch_extent().end) +
+                " mm: measure a wider head, or change 'Measured head shift (mm)'");
     if (!rail.is_block())
       {
         const double reach = rail.standard_profile().head_point(RailHead().contact_half_width)[0];
@@ -460,6 +466,10 @@ namespace tread
         "friction follows the slip speed at once: where pressure times the fall of the coefficient "
         "with slip is above half the shear impedance of the steel, slip oscillates by itself "
         "('Contact/Friction memory (mm)' prevents it)");
+    if (has_narrow_head())
+      list.push_back(
+        "the head was measured up to " + text_in_mm(surfaces().half_width) +
+        " mm beside its middle; beyond, it has the profile's shape, as far from it as where it ends");
     // Found on a rail head: 0.7 % at 2.9 semi-axes, 2.5 % at 1.7, 6 % at 1.2, 30 % at 0.4.
     constexpr double              thick   = 3.;
     const reference::HertzEllipse ellipse = hertz(*this, static_load());

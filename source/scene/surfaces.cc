@@ -17,8 +17,11 @@ namespace tread
 {
   namespace
   {
-    /// A measured running surface is needed, and contact is looked for, up to here on each side (m).
+    /// Contact is looked for, and a measured tread is needed, up to here on each side (m).
     constexpr double running_half_width = 25e-3;
+
+    /// A measured head must reach this far at each side, m.
+    constexpr double least_half_head = 12e-3;
 
     /// Beside the measured part the difference from the nominal profile fades out over this length, m.
     constexpr double fading_length = 5e-3;
@@ -71,6 +74,12 @@ namespace tread
     made->contact = tread::first_contact(made->surfaces, made->path_begin);
     shapes        = made;
     made->patch   = patch_under_load();
+  }
+
+
+  bool Scene::has_narrow_head() const
+  {
+    return !rail.measured_head.empty() && surfaces().half_width < running_half_width;
   }
 
 
@@ -131,12 +140,16 @@ namespace tread
         if (!rail.measured_head.empty())
           try
             {
-              const MeasuredLine line =
-                read_rail_head(located(rail.measured_head), running_half_width, rail.head_placement);
-              height = [line, nominal, edge](const double y) {
+              const MeasuredLine line = read_rail_head(located(rail.measured_head), running_half_width,
+                                                       least_half_head, rail.head_placement);
+              surfaces.half_width     = std::min({running_half_width, -line.begin(), line.end()});
+              height                  = [line, nominal, edge](const double y) {
                 const double measured =
                   std::clamp(y, std::max(line.begin(), -edge), std::min(line.end(), edge));
-                const double fade = std::max(0., 1. - std::abs(y - measured) / fading_length);
+                // A narrow head goes on with the difference at its end, so that no step rises beside it.
+                const double beside =
+                  std::abs(y - measured) - std::max(0., running_half_width - std::abs(measured));
+                const double fade = std::clamp(1. - beside / fading_length, 0., 1.);
                 return fade * (line(measured) - nominal(measured));
               };
             }

@@ -228,7 +228,7 @@ namespace
     std::ofstream(file) << text;
     const std::string what = tests::complaint<std::runtime_error>([&] {
       if (kind == "rail")
-        read_rail_head(file, 20e-3);
+        read_rail_head(file, 20e-3, 12e-3);
       else if (kind == "wheel")
         read_wheel_tread(file, 20e-3);
       else if (kind == "flange")
@@ -298,7 +298,7 @@ namespace
       {
         const std::string file = "geometry_surfaces" + ending;
         std::ofstream(file) << text;
-        const MeasuredLine line = read_rail_head(file, 25e-3);
+        const MeasuredLine line = read_rail_head(file, 25e-3, 25e-3);
         std::remove(file.c_str());
         check.absolute("rail head from " + ending + " at 10.5 mm, um", 1e6 * line(10.5e-3), -1e3 * arc(10.5),
                        4e-3);
@@ -324,7 +324,7 @@ namespace
     for (int y = 30; y >= -30; --y)
       moved += std::to_string(4 - y) + " " + std::to_string(worn(y) + 2.5) + "\n";
     std::ofstream("geometry_surfaces.prr") << moved + "point.end\n";
-    const MeasuredLine head = read_rail_head("geometry_surfaces.prr", 25e-3);
+    const MeasuredLine head = read_rail_head("geometry_surfaces.prr", 25e-3, 25e-3);
     std::remove("geometry_surfaces.prr");
     for (const double y : {-13.3, 7., 21.2})
       check.absolute("mirrored and shifted .prr at " + std::to_string(y) + " mm, um", 1e6 * head(1e-3 * y),
@@ -335,7 +335,7 @@ namespace
     for (int y = 30; y >= -30; --y)
       mirrored += std::to_string(12 - y) + " " + std::to_string(-worn(y)) + "\n";
     std::ofstream("geometry_surfaces.txt") << mirrored;
-    const MeasuredLine placed = read_rail_head("geometry_surfaces.txt", 25e-3, {true, 12e-3});
+    const MeasuredLine placed = read_rail_head("geometry_surfaces.txt", 25e-3, 25e-3, {true, 12e-3});
     const std::vector<dealii::Point<2>> placed_points =
       read_rail_points("geometry_surfaces.txt", {true, 12e-3});
     for (const double y : {-13.3, 7., 21.2})
@@ -397,7 +397,9 @@ namespace
          complaint("rail", ".prr", "units.len.f = 1e-300\npoint.begin\n-30 1\n-1 0\n1 0\n30 1\npoint.end\n"),
          {"line 3", "further away"});
     says("too few points", complaint("defect", ".txt", "0 0\n1 0\n"), {"2 points"});
-    says("a narrow rail head", complaint("rail", ".txt", "-5 -.1\n-2 0\n2 0\n5 -.1\n"), {"-5 mm", "20 mm"});
+    check.that("a rail head of 15 mm to each side is taken",
+               complaint("rail", ".txt", "-15 -.4\n-10 -.2\n-5 -.05\n0 0\n5 -.05\n10 -.2\n15 -.4\n").empty());
+    says("a narrow rail head", complaint("rail", ".txt", "-5 -.1\n-2 0\n2 0\n5 -.1\n"), {"-5 mm", "12 mm"});
     says("a rail head that folds back",
          complaint("rail", ".txt", "-25 -2\n-15 -1\n-5 0\n5 0\n10 -.5\n9 -.6\n20 -2\n25 -3\n"),
          {"line 6", "turns back"});

@@ -212,7 +212,7 @@ with tempfile.TemporaryDirectory() as folder:
     with open(os.path.join(folder, "narrow.prr"), "w", encoding="utf-8") as stream:
         stream.write("point.begin\n" + "".join(f"{y} {1e-3 * y * y}\n" for y in range(-9, 10)) + "point.end\n")
     must_fail("a measured head that is too narrow", base + ["-s", "Rail/Measured head=" + stream.name],
-              ["Rail/Measured head", "-9 mm to 9 mm", "25 mm"])
+              ["Rail/Measured head", "-9 mm to 9 mm", "12 mm"])
 
     must_fail("a folder as scene", [folder, "--output", results], [folder, "is a folder"])
     must_fail("missing file", [os.path.join(folder, "nothing.prm"), "--output", results], ["nothing.prm"])

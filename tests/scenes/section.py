@@ -62,13 +62,26 @@ with tempfile.TemporaryDirectory() as folder:
                    40. * one["lateral_force_N"] / one["normal_force_N"], 1e-8)
 
     # A head as measured: an arc of 200 mm, by which Hertz's patch is narrower.
-    with open(path("head.txt"), "w", encoding="utf-8") as stream:
-        for y in range(-26, 27):
-            stream.write(f"{y} {math.sqrt(200.**2 - y * y) - 200.:.6f}\n")
+    def write_head(name, width):
+        with open(path(name), "w", encoding="utf-8") as stream:
+            stream.writelines(f"{y} {math.sqrt(200.**2 - y * y) - 200.:.6f}\n" for y in range(-width, width + 1))
+
+    write_head("head.txt", 26)
     narrow = run(program, SCENE, path("narrow"),
                  [*SHORT, "Rail/Measured head=" + path("head.txt"), "Rail/Inclination=none", "Wheel/Tread profile=cylinder"])
     check.relative("measured head of 200 mm: largest pressure over Hertz's", narrow["max_pressure_Pa"],
                    narrow["reference"]["max_pressure_Pa"]["Hertz"]["value"], 0.04)
     check.that("measured head of 200 mm: Hertz's pressure is above that of 300 mm",
                narrow["reference"]["max_pressure_Pa"]["Hertz"]["value"] > 1.1 * one["reference"]["max_pressure_Pa"]["Hertz"]["value"])
+    # The same, measured no wider than needed: the patch does not see where it ends.
+    write_head("short.txt", 14)
+    short = run(program, SCENE, path("short"),
+                [*SHORT, "Rail/Measured head=" + path("short.txt"), "Rail/Inclination=none", "Wheel/Tread profile=cylinder"])
+    check.relative("a head measured to 14 mm at each side: largest pressure", short["max_pressure_Pa"], narrow["max_pressure_Pa"], 1e-3)
+    check.that("it is said where it ends", any("measured up to 14 mm" in line for line in short["assumptions"])
+               and not any("measured up to" in line for line in narrow["assumptions"]))
+    # A cylinder touches the arc 10 mm beside the middle where it leans by 1:20.
+    check.refused("contact beyond what was measured", program, SCENE, path("bad"),
+                  [*SHORT, "Rail/Measured head=" + path("short.txt"), "Rail/Inclination=1:20", "Wheel/Tread profile=cylinder"],
+                  ("'Rail/Measured head' ends 14 mm", "measure a wider head"))
 check.exit()

@@ -44,9 +44,11 @@ namespace tread
   /// The running surface of a rail as z(y), with its file's y placed, its highest point within 20 mm of y = 0
   /// at z = 0: two columns (y and z in mm), .prr of Simpack or .ban of MiniProf. Whether z points up or down
   /// is seen from the shape. Only the part around y = 0 in which y runs on is taken.
-  /// @throws std::runtime_error as above, and where that part does not reach half_width (m) at both sides.
+  /// @throws std::runtime_error as above within half_width (m) of y = 0, where y turns back there, and where
+  /// the file does not reach `least` (m) at both sides.
   MeasuredLine read_rail_head(const std::string      &file,
                               const double            half_width,
+                              const double            least,
                               const ProfilePlacement &placement = {});
 
   /// A wheel tread as z(y), z up: 0 at y = 0 and negative at the flange, which is at y < 0. Formats as of a

@@ -124,6 +124,10 @@ namespace tread
     /// Files that the scene reads: paths by the names of their parameters.
     std::map<std::string, std::string> files() const;
 
+    /// Whether the measured head ends, at one side, before what is searched for contact:
+    /// surfaces().half_width.
+    bool has_narrow_head() const;
+
     /// Where the defect lies and how deep, one line; empty: there is none.
     std::string defect_in_words() const;
 
