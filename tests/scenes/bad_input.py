@@ -264,7 +264,7 @@ with tempfile.TemporaryDirectory() as folder:
               ["Defect/Profile file", "60000 x 60000", "x 1 mm, y 0 mm", "is missing"])
     must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["--batch", "twice"])
 
-    must_fail("a sector that is too narrow for its fine zone", base + coarse + ["-s", "Wheel/Sector width (mm)=20"], ["Wheel/Sector width (mm)", "too small"])
+    must_fail("a sector that is too narrow for its fine zone", base + ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Wheel/Sector width (mm)=20"], ["Wheel/Sector width (mm)", "too small"])
 
     # Root may write anywhere but not below a file.
     blocked = os.path.join(folder, "a-file")
