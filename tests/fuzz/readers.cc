@@ -69,7 +69,7 @@ namespace tread::fuzz
     {
       constexpr double half_width = 25e-3; // m
       std::string      refusal;
-      const bool       any = is_read([&] { return read_rail_head(file, half_width, half_width); }, refusal) +
+      const bool       any = is_read([&] { return read_rail_head(file, half_width, 0.5 * half_width); }, refusal) +
                        is_read([&] { return read_wheel_tread(file, half_width); }, refusal) +
                        is_read([&] { return read_rail_points(file); }, refusal) +
                        is_read([&] { return read_wheel_points(file); }, refusal);
