@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/csv_table.h>
+#include <tread/base/file_text.h>
 #include <tread/base/version.h>
 #include <tread/output/run_folder.h>
 
@@ -84,7 +85,7 @@ namespace tread
       const Handle file(create(temporary), H5Fclose);
       set_attribute(file, "program", "tread " + version());
       write_text(file, "summary.json", summary);
-      write_text(file, "parameters.prm", text_of("parameters.prm"));
+      write_text(file, "parameters.prm", text_of_file(path("parameters.prm")));
       {
         const Handle group(create_group(file, "parameters"), H5Gclose);
         for (const auto &[name, value] : parameters)

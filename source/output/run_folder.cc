@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/file_text.h>
 #include <tread/base/input_error.h>
 #include <tread/output/run_folder.h>
 
@@ -15,13 +16,19 @@
 #include <cstring>
 #include <filesystem>
 #include <iomanip>
-#include <iterator>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
 
 namespace tread
 {
+  nlohmann::json summary_in(const std::string &folder)
+  {
+    const auto summary = nlohmann::json::parse(text_of_file(folder + "/summary.json"), nullptr, false);
+    return summary.is_object() ? summary : nlohmann::json::object();
+  }
+
+
   RunFolder::RunFolder(const std::string &path, const MPI_Comm comm, const PictureFormat format)
     : folder(path)
     , comm(comm)
@@ -74,13 +81,7 @@ namespace tread
 
   bool RunFolder::is_complete() const
   {
-    bool complete = false;
-    if (writes_tables)
-      {
-        std::ifstream file(path("summary.json"));
-        const auto    summary = nlohmann::json::parse(file, nullptr, false);
-        complete              = summary.is_object() && summary.value("completed", nlohmann::json()) == true;
-      }
+    const bool complete = writes_tables && summary_in(folder).value("completed", nlohmann::json()) == true;
     return dealii::Utilities::MPI::broadcast(comm, complete, 0);
   }
 
@@ -153,13 +154,6 @@ namespace tread
   }
 
 
-  std::string RunFolder::text_of(const std::string &name) const
-  {
-    std::ifstream file(path(name));
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-
-
   std::string RunFolder::gather(const std::string &bytes) const
   {
     constexpr int tag = 4711;
@@ -221,8 +215,9 @@ namespace tread
   void RunFolder::open_table(const std::string &name, const std::string &header)
   {
     const auto        mark = kept.find(name);
-    const std::string text = mark != kept.end() ? text_of(name).substr(0, mark->second.first) : header + "\n";
-    GrowingTable     &table = growing[name];
+    const std::string text =
+      mark != kept.end() ? text_of_file(path(name)).substr(0, mark->second.first) : header + "\n";
+    GrowingTable &table = growing[name];
     table.count(text);
     if (mark != kept.end() && TableMark(table.size, table.checksum.checksum()) != mark->second)
       throw InputError("--resume: '" + path(name) +

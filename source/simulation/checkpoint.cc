@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/archive.h>
+#include <tread/base/file_text.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/crc.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -25,13 +25,6 @@ namespace tread
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
     constexpr const char *layout = "tread-checkpoint-19";
-
-    std::uint32_t checksum(const std::string &content)
-    {
-      boost::crc_32_type crc;
-      crc.process_bytes(content.data(), content.size());
-      return crc.checksum();
-    }
 
     /// A text with its size before it.
     std::string with_size(const std::string &text)
@@ -78,12 +71,8 @@ namespace tread
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
     std::string contents;
     for (const auto &[name, path] : scene.files())
-      {
-        std::ifstream     file(path, std::ios::binary);
-        const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-        contents +=
-          "contents of '" + name + "' with the checksum " + std::to_string(checksum(content)) + "\n";
-      }
+      contents +=
+        "contents of '" + name + "' with the checksum " + std::to_string(checksum(text_of_file(path))) + "\n";
     return all.substr(0, section("Output").first) + section("Peak stress").second +
            "\nset Supports = " + supports + "\nset Cells = " + scene.output.cells +
            "\nset Pictures = " + name_of(scene.output.pictures) +

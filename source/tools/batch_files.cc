@@ -147,17 +147,17 @@ namespace tread
       format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
     // Strains are about pressure over Young's modulus; NaN compares false.
     constexpr double large_strain = 0.1;
-    const auto       is_large     = [&](const std::size_t row) {
-      return answers[row].max_pressure > large_strain * problems[row].young;
-    };
-    std::vector<std::size_t> large;
-    for (std::size_t row = 0; row < answers.size(); ++row)
-      if (is_large(row))
-        large.push_back(row);
-    if (!large.empty())
+    std::size_t      n_large = 0, first_large = 0;
+    for (std::size_t row = problems.size(); row-- > 0;)
+      if (answers[row].max_pressure > large_strain * problems[row].young)
+        {
+          ++n_large;
+          first_large = row;
+        }
+    if (n_large > 0)
       progress.say(format("WARNING: in %zu cases, the first in row %zu, the largest pressure is above %g of "
                           "'young_Pa': too much for small strains; is its unit Pa?",
-                          large.size(), large.front() + 1, large_strain));
+                          n_large, first_large + 1, large_strain));
     if (failed > 0)
       {
         const std::size_t first =

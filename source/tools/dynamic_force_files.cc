@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/dynamic_force.h>
 #include <tread/base/csv_table.h>
+#include <tread/base/file_text.h>
 #include <tread/base/format.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/scene.h>
@@ -9,14 +10,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <boost/crc.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -93,19 +92,12 @@ namespace tread
     /// @returns a warning where the run did not come to its end, or ""
     std::string doubt_of_history(const std::string &folder)
     {
-      std::ifstream file(folder + "/summary.json");
-      const auto    summary = nlohmann::json::parse(file, nullptr, false);
-      if (!summary.is_object() || summary.value("completed", nlohmann::json()) != true)
+      const nlohmann::json summary = summary_in(folder);
+      if (summary.value("completed", nlohmann::json()) != true)
         return folder + " has no summary of a completed run: its history ends where it was interrupted";
       if (const auto written = summary.find("history_crc32"); written != summary.end())
-        {
-          std::ifstream      table(folder + "/history.csv", std::ios::binary);
-          const std::string  text{std::istreambuf_iterator<char>(table), std::istreambuf_iterator<char>()};
-          boost::crc_32_type sum;
-          sum.process_bytes(text.data(), text.size());
-          require(*written == sum.checksum(),
-                  "'" + folder + "/history.csv' is not what its run wrote: rows are missing or changed");
-        }
+        require(*written == checksum(text_of_file(folder + "/history.csv")),
+                "'" + folder + "/history.csv' is not what its run wrote: rows are missing or changed");
       return "";
     }
 

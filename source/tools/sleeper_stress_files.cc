@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace tread
@@ -83,13 +82,6 @@ namespace tread
       if (seats.empty())
         throw InputError(name + " has no rows");
       return seats;
-    }
-
-    nlohmann::json summary_of(const std::string &folder)
-    {
-      std::ifstream file(folder + "/summary.json");
-      const auto    summary = nlohmann::json::parse(file, nullptr, false);
-      return summary.is_object() ? summary : nlohmann::json::object();
     }
 
     /// Whether the run ended with the largest force of its supports, on this one.
@@ -228,7 +220,7 @@ namespace tread
       {
         throw InputError(error.what());
       }
-    const nlohmann::json summary = summary_of(request.run);
+    const nlohmann::json summary = summary_in(request.run);
     const auto [least, largest]  = std::minmax_element(pressures.pressure.begin(), pressures.pressure.end());
 
     nlohmann::ordered_json json;

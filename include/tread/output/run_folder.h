@@ -11,6 +11,7 @@
 
 #include <boost/crc.hpp>
 #include <mpi.h>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <fstream>
@@ -24,6 +25,9 @@
 
 namespace tread
 {
+  /// What the summary.json of a run's folder has; an empty object if there is none.
+  nlohmann::json summary_in(const std::string &folder);
+
   /// The folder of a run and the files in it, all written by rank 0.
   /// Every write is checked: a full disk is an error, not a short file. No link in the folder is followed, so
   /// that nothing is written outside.
@@ -156,8 +160,6 @@ namespace tread
     /// Write a file by this, given a temporary name, so that it is either complete or absent. @throws
     /// std::runtime_error if it throws
     void write_through(const std::string &name, const std::function<void(const std::string &)> &write) const;
-    /// All of a file of the folder.
-    std::string text_of(const std::string &name) const;
 
     /// Pictures with their times (s) and files, and of HDF5 their descriptions.
     struct Series

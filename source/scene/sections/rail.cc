@@ -60,8 +60,7 @@ namespace tread
       "Measured head", measured_head,
       "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
       "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. At least 12 mm to each side of the "
-      "middle; contact must lie within. "
-      "Empty: a new rail.",
+      "middle; contact must lie within. Empty: a new rail.",
       Anything());
     section.add("Measured head mirrored", head_placement.is_mirrored,
                 "Take the file's y with the other sign: its gauge side is at y > 0.");
