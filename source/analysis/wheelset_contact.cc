@@ -168,6 +168,26 @@ namespace tread
       return grid;
     }
 
+    /// The wheelset on a straight axle on which a wheel of a flexible one would stand as it does.
+    struct Straightened
+    {
+      WheelsetPosition position;
+      double           ahead; ///< of the middle of the other, m
+    };
+    Straightened straightened(const WheelOnRail                &surfaces,
+                              const WheelsetPosition           &position,
+                              const WheelsetRates::AgainstLine &wheel)
+    {
+      WheelsetPosition straight = position;
+      straight.yaw += wheel.tilt_z;
+      straight.roll -= wheel.tilt_x;
+      const Vector3d before = WheelOnRail::axle(position), after = WheelOnRail::axle(straight);
+      straight.shift += surfaces.wheel_origin_y() * (before[1] - after[1]);
+      straight.height += surfaces.wheel_origin_y() * (before[2] - after[2]);
+      return {straight, surfaces.wheel_origin_y() * (before[0] - after[0])};
+    }
+
+    /// @param position of a straight axle
     WheelPatch solve_patch(const WheelOnRail         &surfaces,
                            const WheelRolling        &rolling,
                            const WheelsetPosition    &position,
@@ -185,17 +205,31 @@ namespace tread
       for (unsigned int d = 0; d < 3; ++d)
         arm[d] += at_origin * normal[d];
       // The motion across the track goes along the surfaces, not into them.
-      const Vector3d frame{-rolling.roll_rate, rolling.yaw_rate * std::sin(position.roll),
-                           rolling.yaw_rate * std::cos(position.roll)};
-      Vector3d       across = cross(frame, arm);
-      across[1] += rolling.across_speed;
-      patch.rise       = -dot(across, normal) / normal[2];
-      Vector3d turning = axle;
+      const Vector3d upright{0., std::sin(position.roll), std::cos(position.roll)},
+        horizontal = cross(axle, upright);
+      Vector3d frame, tilting, of_wheel, turning; // rad/s
+      Vector3d arm_of_wheel = arm;
       for (unsigned int d = 0; d < 3; ++d)
-        turning[d] = rolling.angular_velocity * axle[d] + frame[d];
-      Vector3d velocity = cross(turning, arm);
+        {
+          frame[d]    = rolling.yaw_rate * upright[d];
+          tilting[d]  = rolling.own.tilt_rate_x * horizontal[d] + rolling.own.tilt_rate_z * upright[d];
+          of_wheel[d] = (rolling.angular_velocity + rolling.own.spin) * axle[d];
+          arm_of_wheel[d] -= surfaces.wheel_origin_y() * axle[d];
+        }
+      frame[0] -= rolling.roll_rate;
+      const Vector3d by_frame = cross(frame, arm), by_tilting = cross(tilting, arm_of_wheel),
+                     by_turning = cross(of_wheel, arm);
+      Vector3d across, velocity;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          across[d]  = by_frame[d] + by_tilting[d] + (d == 1 ? rolling.across_speed : 0.);
+          turning[d] = of_wheel[d] + frame[d] + tilting[d];
+        }
+      patch.rise = -dot(across, normal) / normal[2];
+      for (unsigned int d = 0; d < 3; ++d)
+        velocity[d] = by_turning[d] + across[d];
       velocity[0] += rolling.speed;
-      velocity[1] += rolling.lateral_speed + rolling.across_speed;
+      velocity[1] += rolling.lateral_speed;
       velocity[2] += patch.rise;
       const double V         = rolling.speed - 0.5 * velocity[0];
       patch.wheel_s          = wheel_s;
@@ -211,14 +245,15 @@ namespace tread
       c.gap  = [&heights](const double x, const double s) {
         return heights.gap(x, s);
       };
-      static_cast<reference::Friction &>(c) = rolling;
-      c.speed                               = V;
-      c.longitudinal                        = patch.creepage;
-      c.lateral                             = patch.lateral_creepage;
-      c.spin                                = patch.spin;
-      c.wheel                               = rolling.wheel;
-      c.rail                                = rolling.rail;
-      c.order                               = rolling.order;
+      static_cast<reference::Friction &>(c) =
+        rolling.friction_along ? rolling.friction_along(region.reference[0]) : reference::Friction(rolling);
+      c.speed        = V;
+      c.longitudinal = patch.creepage;
+      c.lateral      = patch.lateral_creepage;
+      c.spin         = patch.spin;
+      c.wheel        = rolling.wheel;
+      c.rail         = rolling.rail;
+      c.order        = rolling.order;
       if (rolling.slip_follows_surface)
         c.more_slip = [&heights, at_origin, by_x = turning[0] / V, by_s = dot(turning, heights.along()) / V](
                         const double, const double s) -> std::array<double, 2> {
@@ -280,11 +315,13 @@ namespace tread
                                  const WheelsetPosition &position)
   {
     WheelContact contact;
-    contact.position = position;
-    contact.turns    = 1;
-    for (const WheelOnRail::Region &region : surfaces.overlaps(position, rolling.separation))
+    contact.position            = position;
+    contact.turns               = 1;
+    const Straightened straight = straightened(surfaces, position, rolling.own);
+    for (const WheelOnRail::Region &region : surfaces.overlaps(straight.position, rolling.separation))
       {
-        contact.patches.push_back(solve_patch(surfaces, rolling, position, region));
+        contact.patches.push_back(solve_patch(surfaces, rolling, straight.position, region));
+        contact.patches.back().region.reference[0] += straight.ahead;
         const Vector3d force = contact.patches.back().force();
         for (unsigned int d = 0; d < 3; ++d)
           contact.force[d] += force[d];
@@ -320,13 +357,14 @@ namespace tread
     const auto         linear    = [](const double force) {
       return std::copysign(std::pow(std::abs(force), 2. / 3.), force);
     };
-    position.height                        = 0.;
-    const WheelOnRail::Nearest touch       = surfaces.nearest(position);
-    const double               inclination = std::atan(surfaces.rail().slope(touch.point.place[1]));
-    const double               wanted      = linear(load);
-    double low = 0., high = deepest; // depths below touching that carry too little, and too much
-    double before = 0., value_before = -wanted;
-    double depth = 20e-6 * std::pow(1e-4 * load, 2. / 3.) / std::cos(inclination);
+    position.height = 0.;
+    const WheelOnRail::Nearest touch =
+      surfaces.nearest(straightened(surfaces, position, rolling.own).position);
+    const double inclination = std::atan(surfaces.rail().slope(touch.point.place[1]));
+    const double wanted      = linear(load);
+    double       low = 0., high = deepest; // depths below touching that carry too little, and too much
+    double       before = 0., value_before = -wanted;
+    double       depth = 20e-6 * std::pow(1e-4 * load, 2. / 3.) / std::cos(inclination);
     for (unsigned int turn = 1; turn <= most && depth < deepest; ++turn)
       {
         position.height      = -touch.gap - depth;
@@ -352,9 +390,9 @@ namespace tread
 
   WheelRolling WheelRolling::mirrored() const
   {
-    WheelRolling other = *this;
-    for (double *to_the_side : {&other.lateral_speed, &other.across_speed, &other.yaw_rate, &other.roll_rate})
-      *to_the_side = 0. - *to_the_side;
+    WheelRolling other                  = *this;
+    static_cast<WheelsetRates &>(other) = WheelsetRates::mirrored();
+    other.lateral_speed                 = 0. - lateral_speed;
     return other;
   }
 

@@ -457,9 +457,17 @@ namespace tread
       if (!(about[i].x - about[i - 1].x >= least_distance))
         fail(file, about[i].line,
              "y = " + text_in_mm(about[i].x) + " mm occurs twice, within 5 mm of the running circle y = 0");
-    const double level = line_through(about)(0.);
+    const double     level   = line_through(about)(0.);
+    constexpr double deepest = 10e-3; // of a worn tread's false flange, and more
     for (Sample &s : samples)
-      s.z -= level;
+      {
+        s.z -= level;
+        if (s.x > 0. && s.z < -deepest)
+          fail(file, s.line,
+               "lies " + text_in_mm(-s.z) +
+                 " mm below the running circle on the side without a flange: no wheel does; is it the "
+                 "profile of a rail?");
+      }
     return as_curve(file, samples);
   }
 } // namespace tread

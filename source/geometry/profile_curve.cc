@@ -191,11 +191,27 @@ namespace tread
       ++last;
     for (std::size_t i = first; i <= last; ++i)
       {
+        const ProfileCurve::Place p = curve.at(all[i]);
         s.push_back(all[i]);
-        y.push_back(curve.at(all[i]).y);
+        y.push_back(p.y);
+        z.push_back(p.z);
       }
     if (s.size() < 2)
       throw std::runtime_error("does not run on in y at its top");
+    for (std::size_t i = 0; i + 1 < s.size(); ++i)
+      {
+        // A cubic piece bends once or twice between the ends.
+        constexpr unsigned int n    = 8;
+        constexpr double       safe = 2.;
+        double                 most = 0.;
+        for (unsigned int k = 1; k < n; ++k)
+          {
+            const ProfileCurve::Place p = curve.at(s[i] + k * (s[i + 1] - s[i]) / n);
+            most =
+              std::max(most, std::abs(p.z - z[i] - (p.y - y[i]) / (y[i + 1] - y[i]) * (z[i + 1] - z[i])));
+          }
+        deviation.push_back(safe * most);
+      }
   }
 
 
@@ -217,12 +233,24 @@ namespace tread
   }
 
 
+  std::size_t CurveFromAbove::step(const double at_y) const
+  {
+    return std::clamp<std::ptrdiff_t>(std::upper_bound(y.begin(), y.end(), at_y) - y.begin() - 1, 0,
+                                      static_cast<std::ptrdiff_t>(y.size()) - 2);
+  }
+
+
+  CurveFromAbove::RoughHeight CurveFromAbove::rough_height(const double at_y) const
+  {
+    const std::size_t i = step(at_y);
+    return {z[i] + (at_y - y[i]) / (y[i + 1] - y[i]) * (z[i + 1] - z[i]), deviation[i]};
+  }
+
+
   double CurveFromAbove::parameter(const double at_y) const
   {
-    const std::size_t i =
-      std::clamp<std::ptrdiff_t>(std::upper_bound(y.begin(), y.end(), at_y) - y.begin() - 1, 0,
-                                 static_cast<std::ptrdiff_t>(y.size()) - 2);
-    double t = s[i] + (at_y - y[i]) / (y[i + 1] - y[i]) * (s[i + 1] - s[i]);
+    const std::size_t i = step(at_y);
+    double            t = s[i] + (at_y - y[i]) / (y[i + 1] - y[i]) * (s[i + 1] - s[i]);
     for (unsigned int k = 0; k < 8; ++k)
       {
         const ProfileCurve::Place p    = line.at(t);

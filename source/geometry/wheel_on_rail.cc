@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/wheel_on_rail.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace tread
@@ -33,6 +36,23 @@ namespace tread
                 a * x[2] + b * y[2] + c * z[2]};
       }
     };
+
+    struct Angle
+    {
+      double sine, cosine;
+    };
+    /// Where a place of the profile lies on the outline seen along x, about the axle.
+    std::optional<Angle> on_outline(const Rotation &turn, const ProfileCurve::Place &p)
+    {
+      // The normal is dy (sin, 0, -cos) + dz (0, 1, 0) in the axes of the wheelset, with dy and dz of the
+      // profile; its component along the track's x is to vanish: a sin(angle) - b cos(angle) = c.
+      const double a = turn.x[0] * p.dy, b = turn.z[0] * p.dy, c = -turn.y[0] * p.dz, square = a * a + b * b,
+                   rest = square - c * c;
+      if (!(rest > 0.) || a <= 0.)
+        return {};
+      const double root = std::sqrt(rest);
+      return Angle{(c * a + root * b) / square, (root * a - c * b) / square};
+    }
 
     /// y at which the rail is the measuring depth below its top, on the gauge side, and the top's height.
     std::pair<double, double> gauge_face(const ProfileCurve &rail, const double depth)
@@ -121,7 +141,10 @@ namespace tread
     rail_profile             = CurveFromAbove(rail.moved(rail_y, rail_z), rail_y);
     const auto n             = static_cast<unsigned int>(std::ceil(wheel.length() / sample_spacing));
     for (unsigned int i = 0; i <= n; ++i)
-      samples.push_back(wheel.length() * i / n);
+      {
+        samples.push_back(wheel.length() * i / n);
+        places.push_back(wheel.at(samples.back()));
+      }
     flank_end = end_of_flank(wheel, samples);
   }
 
@@ -206,16 +229,12 @@ namespace tread
   std::optional<WheelOnRail::OutlinePoint> WheelOnRail::outline(const WheelsetPosition &position,
                                                                 const double            s) const
   {
-    // The normal is dy (sin, 0, -cos) + dz (0, 1, 0) in the axes of the wheelset, with dy and dz of the
-    // profile; its component along the track's x is to vanish: a sin(angle) - b cos(angle) = c.
-    const Rotation            turn(position);
-    const ProfileCurve::Place p = wheel_profile.at(s);
-    const double a = turn.x[0] * p.dy, b = turn.z[0] * p.dy, c = -turn.y[0] * p.dz, size = std::hypot(a, b);
-    if (!(std::abs(c) < size) || a <= 0.)
+    const ProfileCurve::Place  p    = wheel_profile.at(s);
+    const std::optional<Angle> turn = on_outline(Rotation(position), p);
+    if (!turn)
       return {};
-    OutlinePoint point{s, std::asin(c / size) + std::atan2(b, a), {}};
-    point.place = surface(position, s, point.angle).place;
-    return point;
+    const double angle = std::atan2(turn->sine, turn->cosine);
+    return OutlinePoint{s, angle, place(position, p.y, p.z, angle)};
   }
 
 
@@ -231,12 +250,41 @@ namespace tread
   }
 
 
+  std::vector<std::size_t> WheelOnRail::near_samples(const WheelsetPosition &position) const
+  {
+    constexpr double    round_off = 1e-11; // m
+    const Rotation      turn(position);
+    std::vector<double> least(samples.size(), no_rail);
+    double              most = no_rail; // that the smallest gap can be
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      {
+        const ProfileCurve::Place &p     = places[i];
+        const std::optional<Angle> angle = on_outline(turn, p);
+        if (!angle)
+          continue;
+        const double   r     = nominal_radius - p.z;
+        const Vector3d place = turn(r * angle->sine, wheel_y + p.y, -r * angle->cosine);
+        const double   y = place[1] + position.shift, z = place[2] + nominal_radius + position.height;
+        if (y < rail_profile.begin() || y > rail_profile.end())
+          continue;
+        const CurveFromAbove::RoughHeight rail = rail_profile.rough_height(y);
+        least[i]                               = z - rail.z - rail.error;
+        most                                   = std::min(most, z - rail.z + rail.error);
+      }
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (least[i] < no_rail && least[i] <= most + round_off)
+        near.push_back(i);
+    return near;
+  }
+
+
   WheelOnRail::Nearest WheelOnRail::nearest(const WheelsetPosition &position) const
   {
     Nearest      best{no_rail, {}};
     std::size_t  place = 0;
     OutlinePoint point{};
-    for (std::size_t i = 0; i < samples.size(); ++i)
+    for (const std::size_t i : near_samples(position))
       if (const double g = gap(position, samples[i], point); g < best.gap - 1e-12)
         {
           best  = {g, point};
@@ -252,19 +300,16 @@ namespace tread
         y < rail_profile.begin() + edge || y > rail_profile.end() - edge)
       throw std::runtime_error(
         "wheel and rail do not meet on the rail's head, but at the end of its profile");
-    // Golden section between the neighbours.
-    constexpr double golden = 0.6180339887498949;
-    double low = samples[place > 0 ? place - 1 : 0], high = samples[std::min(place + 1, samples.size() - 1)];
-    for (unsigned int i = 0; i < 40; ++i)
-      {
-        const double left = high - golden * (high - low), right = low + golden * (high - low);
-        OutlinePoint at_left{}, at_right{};
-        const double gap_left = gap(position, left, at_left), gap_right = gap(position, right, at_right);
-        const bool   to_left   = gap_left < gap_right;
-        (to_left ? high : low) = to_left ? right : left;
-        if (std::min(gap_left, gap_right) < best.gap)
-          best = to_left ? Nearest{gap_left, at_left} : Nearest{gap_right, at_right};
-      }
+    // A minimum is no sharper than half of the digits.
+    constexpr int digits = std::numeric_limits<double>::digits / 2;
+    boost::math::tools::brent_find_minima(
+      [&](const double s) {
+        const double g = gap(position, s, point);
+        if (g < best.gap)
+          best = {g, point};
+        return g;
+      },
+      samples[place - 1], samples[place + 1], digits);
     return best;
   }
 

@@ -60,6 +60,7 @@ namespace tread
     motion.check();
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     check_suspension();
+    check_guidance_springs();
     check_axle();
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
@@ -100,6 +101,25 @@ namespace tread
             "'Axle damping (us)' swing or settle within " +
               text_of(1e6 / rate) + " us, which no axle does; at least " + text_of(1e6 / fastest) +
               " us are allowed. A rigid one is 'rigid'");
+  }
+
+
+  void Scene::check_guidance_springs() const
+  {
+    const GuidanceSprings &springs = guidance.springs;
+    const auto             slow = [](const std::string &names, const double stiffness, const double damping,
+                         const double inertia) {
+      if (inertia == 0.)
+        return;
+      const double rate = std::max(std::sqrt(stiffness / inertia), damping / inertia);
+      require(rate <= fastest, names + " swing or settle within " + text_of(1e6 / rate) +
+                                             " us, which no guidance does; at least " + text_of(1e6 / fastest) +
+                                             " us are allowed");
+    };
+    slow("'Guidance/Lateral stiffness (MN per m)' and 'Lateral damping (kN s per m)'", springs.stiffness,
+         springs.damping, wheelset.n_wheels() * wheel.mass);
+    slow("'Guidance/Yaw stiffness (MN m per rad)' and 'Yaw damping (kN m s per rad)'", springs.yaw_stiffness,
+         springs.yaw_damping, guidance.yaw_inertia);
   }
 
 

@@ -41,11 +41,12 @@ namespace tread
       }
     catch (const std::exception &error)
       {
-        throw InputError(format("no half-space answer at a lateral shift of %g mm, a yaw of %g mrad and ",
-                                1e3 * position.shift, 1e3 * position.yaw) +
-                         (scene.wheelset.both_wheels ? "a roll that is found: "
-                                                     : format("a roll of %g mrad: ", 1e3 * position.roll)) +
-                         error.what());
+        throw InputError(
+          format("no half-space answer at 'Wheelset/Lateral shift (mm)' %g, 'Yaw (mrad)' %g and ",
+                 1e3 * position.shift, 1e3 * position.yaw) +
+          (scene.wheelset.both_wheels ? "a roll that is found: "
+                                      : format("'Roll (mrad)' %g: ", 1e3 * position.roll)) +
+          error.what());
       }
   }
 
@@ -66,7 +67,7 @@ namespace tread
 
 
   PlacedWheel::PlacedWheel(const Scene &scene)
-    : PlacedWheel(scene, scene.wheelset.position(), wheel_rolling(scene))
+    : PlacedWheel(scene, scene.wheelset.position(), wheel_rolling(scene, scene.path_begin()))
   {
   }
 
@@ -373,7 +374,8 @@ namespace tread
     /// @throws InputError unless a body has its profile wherever cells are finest.
     void require_on_profile(const ProfileSection        &section,
                             const std::vector<FineZone> &zones,
-                            const std::string           &parameter)
+                            const std::string           &parameter,
+                            const bool                   wanders)
     {
       for (const FineZone &zone : zones)
         require(zone.y_middle - zone.half_width >= section.begin() &&
@@ -385,7 +387,8 @@ namespace tread
                   text_in_mm(zone.y_middle - zone.half_width) + " to " +
                   text_in_mm(zone.y_middle + zone.half_width) + " mm along the surface, the profile from " +
                   text_in_mm(section.begin()) + " to " + text_in_mm(section.end()) +
-                  " mm: change 'Mesh/Fine half width (mm)', 'Wheel/Sector width (mm)' or the position");
+                  " mm: change 'Mesh/Fine half width (mm)', 'Wheel/Sector width (mm)' or the position" +
+                  (wanders ? ", or how far 'Guidance/File' moves the contact" : ""));
     }
   } // namespace
 
@@ -436,7 +439,8 @@ namespace tread
       zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
                               parameter_of(patch), middle.s, wanders.rail));
     require_on_profile(section, zones,
-                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head");
+                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head",
+                       scene.guidance.kind == Guidance::file);
     return make_profile_block(section, scene.rail_begin(), scene.rail_end(), scene.mesh.coarsest_cell, zones,
                               side.is_mirrored,
                               [in_mesh = from_track(side.is_mirrored),
@@ -465,7 +469,7 @@ namespace tread
         begin = std::min(begin, arc + wanders.wheel.x[0]);
         end   = std::max(end, arc + wanders.wheel.x[1]);
       }
-    require_on_profile(section, zones, "Wheel/Tread profile");
+    require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
     const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
     return make_profile_block(section, begin - margin, end + scene.motion.rolled_distance + margin,
                               scene.mesh.coarsest_cell, zones, !side.is_mirrored,

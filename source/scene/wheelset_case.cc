@@ -90,7 +90,15 @@ namespace tread
         WheelsetSection then = wheelset;
         then.yaw             = now.yaw;
         then.roll            = now.roll;
-        then.check();
+        try
+          {
+            then.check();
+          }
+        catch (const InputError &error)
+          {
+            throw InputError("'Guidance/File', " + text_of(duration * i / n_instants) +
+                             " s after the start: " + error.what());
+          }
       }
   }
 
@@ -117,7 +125,7 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
-    const WheelRolling rolling = wheel_rolling(*this);
+    const WheelRolling rolling = wheel_rolling(*this, path_begin());
     require(
       rolling.is_coulomb() || reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
       "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)' empty where 'Wheelset' has "
@@ -138,6 +146,8 @@ namespace tread
     const auto without = [](const bool none, const std::string &what) {
       require(none, what + " where 'Wheelset' has a position and the wheel is meshed");
     };
+    require(guidance.yaw_inertia > 0. || !wheelset.both_wheels,
+            "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
     without(!track.has_supports(), "'Track/Foundation' must be rigid or co-running");
     check_track();
     without(!wheel.is_full(), "'Wheel/Shape' must be sector");
@@ -169,7 +179,15 @@ namespace tread
   }
 
 
-  WheelRolling wheel_rolling(const Scene &scene)
+  double given_angular_velocity(const Scene &scene)
+  {
+    return scene.motion.angular_velocity
+             ? *scene.motion.angular_velocity
+             : (1. + *scene.motion.creepage) * scene.motion.speed / scene.wheel.radius;
+  }
+
+
+  WheelRolling wheel_rolling(const Scene &scene, const double x)
   {
     WheelRolling rolling;
     const auto   elastic = [](const MaterialSection &material) -> reference::Elastic {
@@ -177,11 +195,15 @@ namespace tread
     };
     rolling.wheel = elastic(scene.wheel.material);
     rolling.rail  = elastic(scene.rail.material);
-    set_friction(rolling, scene, scene.path_begin());
+    set_friction(rolling, scene, x);
+    if (!scene.contact.friction_places.empty())
+      rolling.friction_along = [&scene, x](const double ahead) {
+        reference::Friction friction;
+        set_friction(friction, scene, x + ahead);
+        return friction;
+      };
     rolling.speed                = scene.motion.speed;
-    rolling.angular_velocity     = scene.motion.angular_velocity
-                                     ? *scene.motion.angular_velocity
-                                     : (1. + *scene.motion.creepage) * scene.motion.speed / scene.wheel.radius;
+    rolling.angular_velocity     = given_angular_velocity(scene);
     rolling.lateral_speed        = scene.motion.lateral_creepage * scene.motion.speed;
     rolling.separation           = scene.wheelset.patch_distance;
     rolling.slip_follows_surface = scene.wheelset.slip_over_patch == SlipOverPatch::surface;

@@ -231,6 +231,7 @@ namespace tread
                           const Scene        &scene,
                           const std::string  &method,
                           const WheelContact &contact,
+                          const double        angular_velocity,
                           const bool          completed)
   {
     summary.set("title", scene.general.title);
@@ -239,7 +240,7 @@ namespace tread
     summary.set("lateral_shift_m", contact.position.shift);
     summary.set("yaw_rad", contact.position.yaw);
     summary.set("roll_rad", contact.position.roll);
-    summary.set("angular_velocity_rad_per_s", wheel_rolling(scene).angular_velocity);
+    summary.set("angular_velocity_rad_per_s", angular_velocity);
     summary.show("wheelset_height_m", "wheelset over its radius, mm", 1e3, contact.position.height);
     summary.set("traction_coefficient", contact.force[2] > 0. ? contact.force[0] / contact.force[2] : 0.);
     summary.set("friction_coefficient", scene.contact.friction_coefficient);

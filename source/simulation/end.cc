@@ -172,13 +172,12 @@ namespace tread
     const RollingWheel &wheel            = wheels.front();
     const Vector3       force            = last_force_on(wheel);
     WheelContact        computed;
-    computed.position = half_space_wheel.contact.position;
-    computed.position.height =
-      half_space_wheel.contact.position.height + wheel.hub.motion.z - wheel.hub.start()[2];
-    computed.position.roll = wheel.hub.motion.roll;
+    const Placement     at = placement_at_solution.value_or(placement_now());
+    computed.position      = at.position;
     computed.force         = {force[0], force[1], force[2]};
     computed.patches       = computed_patches();
-    summarise_wheelset(summary, scene, "explicit finite elements", computed, completed);
+    summarise_wheelset(summary, scene, "explicit finite elements", computed, at.rates.angular_velocity,
+                       completed);
     summary.set("free_rolling_creepage", wheel.free_creepage);
     const Vector3d &half_space = half_space_wheel.contact.force;
     // As good as nothing beside the force that is given.
@@ -433,14 +432,16 @@ namespace tread
         }
     // Settling of steel that yields leaves up to 2 %.
     constexpr double far_from_load = 0.03; // of it
-    if (const double normal_force = last_force_on(wheels.front())[2];
-        !scene.has_impacts() && normal_force > 0.)
+    if (const double normal_force = last_force_on(wheels.front())[2]; !scene.has_impacts())
       if (const double load = (scene.is_positioned() ? scene.wheelset.n_wheels() : 1) * scene.static_load();
           std::abs(normal_force - load) > far_from_load * load)
         warnings.push_back(
-          format("the contact carries %.2f kN of a load of %.2f kN: the wheel is not in equilibrium; a lower "
-                 "'Start/Tolerance', a longer way, or steel that hardens more",
-                 1e-3 * normal_force, 1e-3 * load));
+          normal_force > 0.
+            ? format("the contact carries %.2f kN of a load of %.2f kN: the wheel is not in equilibrium; a "
+                     "lower 'Start/Tolerance', a longer way, or steel that hardens more",
+                     1e-3 * normal_force, 1e-3 * load)
+            : format("at the end nothing presses the wheel on the rail, of a load of %.2f kN: it has left it",
+                     1e-3 * load));
     // The patch at the end is compared as one on the finest cells.
     const double semi_axis = hertz(scene, scene.static_load()).semi_axis_x;
     if (const Scene::Range patch{scene.path_end() - semi_axis, scene.path_end() + semi_axis};

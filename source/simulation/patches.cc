@@ -13,18 +13,9 @@ namespace tread
 
   void Simulation::place_at_solution()
   {
-    const WheelHub::Motion &motion   = *motion_at_solution;
-    WheelsetPosition        position = scene.wheelset.position();
-    position.shift += motion.y;
-    position.yaw             = motion.yaw;
-    position.roll            = motion.roll;
-    WheelRolling rolling     = wheel_rolling(scene);
-    rolling.angular_velocity = motion.angular_velocity;
-    rolling.across_speed     = motion.velocity_y;
-    rolling.yaw_rate         = motion.yaw_rate;
-    rolling.roll_rate        = motion.roll_rate;
-    set_friction(rolling, scene, scene.path_end());
-    placed_at_solution = std::make_shared<const PlacedWheel>(scene, position, rolling);
+    WheelRolling rolling                  = wheel_rolling(scene, scene.path_end());
+    static_cast<WheelsetRates &>(rolling) = placement_at_solution->rates;
+    placed_at_solution = std::make_shared<const PlacedWheel>(scene, placement_at_solution->position, rolling);
     wheels.front().averages_of_patches.assign(placed_at_solution->patches().size(), PatchAverage());
   }
 

@@ -28,7 +28,7 @@ namespace tread
           hub.follow([&scene](const double time) { return scene.across(time); });
         else if (scene.guidance.kind == Guidance::springs)
           hub.release(scene.guidance.springs);
-        hub.motion.angular_velocity = wheel_rolling(scene).angular_velocity;
+        hub.motion.angular_velocity = given_angular_velocity(scene);
       }
     else
       {
@@ -48,6 +48,31 @@ namespace tread
   double RollingWheel::creepage(const Scene &scene) const
   {
     return hub.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1. - free_creepage;
+  }
+
+
+  WheelsetPosition RollingWheel::position(const Scene &scene) const
+  {
+    return {scene.wheelset.position().shift + hub.motion.y, hub.motion.yaw, hub.motion.roll,
+            scene.placed_wheel().contact.position.height + hub.motion.z - hub.start()[2]};
+  }
+
+
+  WheelsetRates RollingWheel::rates(const Scene &scene) const
+  {
+    const WheelHub::Motion &motion = hub.motion;
+    WheelsetRates           rates;
+    rates.angular_velocity =
+      motion.angular_velocity - free_creepage * scene.motion.speed / scene.rolling_radius();
+    rates.across_speed = motion.velocity_y;
+    rates.yaw_rate     = motion.yaw_rate;
+    rates.roll_rate    = motion.roll_rate;
+    if (const FlexibleAxle *axle = hub.flexible_axle())
+      for (const auto &[side, wheel] :
+           {std::pair(FlexibleAxle::own, &rates.own), {FlexibleAxle::other, &rates.other}})
+        *wheel = {axle->twist_rate(side), axle->tilt(side).x, axle->tilt(side).z, axle->tilt_rate(side).x,
+                  axle->tilt_rate(side).z};
+    return rates;
   }
 
 

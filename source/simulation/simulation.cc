@@ -134,8 +134,8 @@ namespace tread
     for (StressPeaks *peaks : {rail_peaks.get(), wheel_peaks.get()})
       if (peaks)
         peaks->serialize(archive);
-    archive.same(motion_at_solution);
-    if (motion_at_solution && !placed_at_solution)
+    archive.same(placement_at_solution);
+    if (placement_at_solution && !placed_at_solution)
       place_at_solution();
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
@@ -213,11 +213,12 @@ namespace tread
     last_steps += is_last;
     if (std::abs(position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell)
       {
-        const bool differs_from_start =
-          scene.guidance.kind != Guidance::rigid || !scene.contact.friction_places.empty();
-        if (differs_from_start && scene.is_positioned() && !motion_at_solution)
+        const bool differs_from_start = scene.guidance.kind != Guidance::rigid ||
+                                        scene.wheelset.has_flexible_axle() ||
+                                        !scene.contact.friction_places.empty();
+        if (differs_from_start && scene.is_positioned() && !placement_at_solution)
           {
-            motion_at_solution = wheels.front().hub.motion;
+            placement_at_solution = placement_now();
             place_at_solution();
           }
         const auto states = contact_states();

@@ -33,7 +33,7 @@ namespace tread
         if (scene.is_positioned())
           {
             wheel.target_creepage =
-              wheel_rolling(scene).angular_velocity * scene.rolling_radius() / scene.motion.speed - 1.;
+              given_angular_velocity(scene) * scene.rolling_radius() / scene.motion.speed - 1.;
             break;
           }
         const auto own  = wheels.begin() + wheel.number;

@@ -17,10 +17,9 @@ namespace tread
 {
   void run_wheelset_reference(const Scene &scene, const std::string &path, const MPI_Comm comm)
   {
-    Progress     progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    WheelRolling rolling = wheel_rolling(scene);
-    set_friction(rolling, scene, scene.path_end()); // as other scenes have it
-    const PlacedWheel        placed(scene, scene.wheelset.position(), rolling);
+    Progress progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    // Friction is that at the end of the path, as other scenes have it.
+    const PlacedWheel        placed(scene, scene.wheelset.position(), wheel_rolling(scene, scene.path_end()));
     const WheelContact      &contact  = placed.contact;
     const double             rail_y   = placed.surfaces.rail_origin_y();
     std::vector<std::string> warnings = limits_of_half_space(contact.patches);
@@ -28,7 +27,7 @@ namespace tread
       warnings.push_back(warning);
 
     Summary summary;
-    summarise_wheelset(summary, scene, "half-space solver", contact, true);
+    summarise_wheelset(summary, scene, "half-space solver", contact, given_angular_velocity(scene), true);
     summary.show("normal_force_N", "vertical force, kN", 1e-3, contact.force[2]);
     summary.show("longitudinal_force_N", "longitudinal force, kN", 1e-3, contact.force[0]);
     summary.show("lateral_force_N", "lateral force in the track, kN", 1e-3, contact.force[1]);
@@ -53,7 +52,7 @@ namespace tread
       "half-space solver: shift %g mm, yaw %g mrad, roll %g mrad, %g rad/s; forces act on the wheel, by "
       "patch in contact axes\n",
       1e3 * contact.position.shift, 1e3 * contact.position.yaw, 1e3 * contact.position.roll,
-      wheel_rolling(scene).angular_velocity));
+      given_angular_velocity(scene)));
     progress.say(table_of_patches(contact.patches, rail_y));
     progress.say(summary.table());
     for (const std::string &warning : warnings)

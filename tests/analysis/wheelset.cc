@@ -246,6 +246,93 @@ namespace
     check.that("both wheels: whose patch it is", other.is_of_other_wheel && !own.is_of_other_wheel);
   }
 
+  /// A wheel that turns and tilts about its own middle, as an axle that twists and bends lets it.
+  void check_flexible_axle(tests::Check &check)
+  {
+    constexpr double  speed = 20., spin = 0.05, tilt = 1e-3, rate = 0.02; // m/s, rad/s, rad, rad/s
+    constexpr double  crown = 0.3, load = 80e3;
+    const WheelOnRail cylinder(wheel_curve("cylinder"), rail_60e1(0.), radius, {});
+    const double      lever = cylinder.wheel_origin_y();
+    const auto        of    = [&](const WheelRolling &rolling, const WheelsetPosition &position = {}) {
+      return contact_under_load(cylinder, rolling, position, load);
+    };
+    const auto with = [&](const WheelsetRates::AgainstLine &wheel) {
+      WheelRolling rolling = rolling_at(speed / radius);
+      rolling.own          = wheel;
+      return of(rolling);
+    };
+    const WheelContact straight = of(rolling_at(speed / radius)), twisted = with({spin}),
+                       turned = with({0., 0., tilt}), tilted = with({0., tilt}),
+                       turning = with({0., 0., 0., 0., rate}), tilting = with({0., 0., 0., rate});
+    const auto patch = [](const WheelContact &contact) -> const WheelPatch & {
+      return contact.patches[0];
+    };
+    check.relative("twisting axle: creepage as that of a faster one, 1e-3", 1e3 * patch(twisted).creepage,
+                   1e3 * patch(of(rolling_at(speed / radius + spin))).creepage, 1e-9);
+    check.absolute("wheel turned on its axle: lateral creepage, 1e-3", 1e3 * patch(turned).lateral_creepage,
+                   -2e3 * std::tan(0.5 * tilt), 1e-4);
+    const WheelContact yawed = of(rolling_at(speed / radius), {0., tilt, 0., 0.});
+    check.absolute("wheel turned on its axle: it is not behind, mm", 1e3 * patch(turned).region.reference[0],
+                   1e3 * patch(yawed).region.reference[0] + 1e3 * lever * tilt, 1e-3);
+    check.absolute("wheel turned on its axle: as ahead as the straight one, mm",
+                   1e3 * patch(turned).region.reference[0], 1e3 * patch(straight).region.reference[0], 5e-3);
+    check.absolute("tilted wheel: its contact moves by angle and crown, mm",
+                   1e3 * (patch(tilted).region.reference[1] - patch(straight).region.reference[1]),
+                   -1e3 * crown * tilt, 5e-3);
+    const WheelContact rolled = of(rolling_at(speed / radius), {0., 0., -tilt, 0.});
+    check.absolute("tilted wheel: its angle is that of an axle that rolls, mrad", 1e3 * patch(tilted).angle(),
+                   1e3 * patch(rolled).angle(), 1e-2);
+    check.absolute("tilted wheel: the axle is as high as with the straight one, um",
+                   1e6 * (tilted.position.height - straight.position.height),
+                   1e6 * (rolled.position.height - straight.position.height + lever * std::sin(tilt)), 1e-2);
+    check.relative("turning wheel: spin, 1/m", patch(turning).spin - patch(straight).spin, rate / speed,
+                   1e-3);
+    const double beside = patch(straight).region.reference[1] - lever; // of the wheel's middle
+    check.absolute("turning wheel: creepage, 1e-3", 1e3 * patch(turning).creepage,
+                   -1e3 * rate * beside / speed, 1e-5);
+    check.relative("tilting wheel: lateral creepage, 1e-3", 1e3 * patch(tilting).lateral_creepage,
+                   1e3 * rate * radius / speed, 2e-3);
+
+    // Wheels that do the same on both sides, and the other one alone.
+    WheelRolling rolling  = rolling_at(speed / radius);
+    rolling.own           = {spin, tilt, tilt, rate, rate};
+    rolling.other         = rolling.own.mirrored();
+    const BothWheels both = contact_of_both_wheels(cylinder, rolling, {}, 2. * load);
+    check.relative("both wheels tilted: lateral force of the other one, N",
+                   both.other.patches[0].solution.lateral_force, both.own.patches[0].solution.lateral_force,
+                   1e-6);
+    rolling.own          = {};
+    const BothWheels one = contact_of_both_wheels(cylinder, rolling, {}, 2. * load);
+    check.relative("the other wheel tilted alone: its lateral creepage, 1e-3",
+                   1e3 * one.other.patches[0].lateral_creepage, 1e3 * both.other.patches[0].lateral_creepage,
+                   1e-2);
+    check.relative("the other wheel twisted alone: its creepage, 1e-3", 1e3 * one.other.patches[0].creepage,
+                   1e3 * both.other.patches[0].creepage, 1e-2);
+    check.below("and creepage of the own wheel, 1e-3", 1e3 * std::abs(one.own.patches[0].creepage), 0.1);
+  }
+
+  void check_friction_along_rail(tests::Check &check)
+  {
+    const WheelOnRail cylinder(wheel_curve("cylinder"), rail_60e1(0.), radius, {});
+    constexpr double  yaw = 20e-3, slip = 0.01;
+    WheelRolling      rolling  = rolling_at((1. + slip) * 20. / radius);
+    const WheelPatch  at_wheel = contact_under_load(cylinder, rolling, {0., yaw, 0., 0.}, 80e3).patches[0];
+    const double      ahead    = at_wheel.region.reference[0];
+    rolling.friction_along     = [&](const double x) {
+      reference::Friction friction;
+      friction.friction = x < 0.5 * ahead ? 0.15 : 0.3;
+      return friction;
+    };
+    const WheelPatch there = contact_under_load(cylinder, rolling, {0., yaw, 0., 0.}, 80e3).patches[0];
+    const auto       force = [](const WheelPatch &patch) {
+      return std::hypot(patch.solution.longitudinal_force, patch.solution.lateral_force) /
+             patch.solution.normal_force;
+    };
+    check.that("yaw moves the contact behind the axle", ahead < -10e-3);
+    check.relative("friction with the axle's friction", force(at_wheel), 0.3, 1e-3);
+    check.relative("friction of the place where the patch is", force(there), 0.15, 1e-3);
+  }
+
   void check_refusals(tests::Check &check)
   {
     const auto refuses = [&](const std::string &what, const std::string &words, const auto &call) {
@@ -271,5 +358,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_mirror(check);
   check_two_patches(check);
   check_both_wheels(check);
+  check_flexible_axle(check);
+  check_friction_along_rail(check);
   check_refusals(check);
 }

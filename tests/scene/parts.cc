@@ -636,7 +636,7 @@ namespace
 
     // How it rolls while it moves across: from where rigid wheels touch a little to both sides.
     constexpr double speed = 0.03, step = 0.2e-3; // m/s, m
-    WheelRolling     rolling = wheel_rolling(*scene);
+    WheelRolling     rolling = wheel_rolling(*scene, 0.);
     rolling.across_speed     = speed;
     // Fine enough for where wheel and rail touch, which is all that counts here.
     rolling.element_x = rolling.element_y = 1e-3;

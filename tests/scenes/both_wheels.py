@@ -17,7 +17,7 @@ program = sys.argv[1]
 check = Check()
 SCENE = "curves/klingel.prm"
 LOAD = 150e3  # N, on each wheel
-RADIUS, INERTIA = 0.2, 10.  # m, kg m2, of each wheel
+RADIUS, INERTIA, SPEED = 0.2, 10., 60 / 3.6  # m, kg m2, of each wheel; m/s
 TORSION = 3.4  # MN m/rad
 HELD = {"Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance",
         "Motion/Rolled distance (mm)": 10, "Output/Write volume": "false", "Mesh/Fine half width (mm)": 0, "Mesh/Fine layers": 4}
@@ -53,7 +53,7 @@ with tempfile.TemporaryDirectory() as folder:
         scale = scales.get(name, LOAD)
         check.absolute(f"half-space, middle: {name} of the other wheel, over its scale", other[name] / scale, own[name] / scale, 1e-6)
     check.absolute("half-space, middle: y of the other wheel, mm", 1e3 * other["y_m"], -1e3 * own["y_m"], 1e-6)
-    beside = half("beside")
+    beside = half("beside", **{"Guidance/Yaw inertia (kg m2)": 0})
     own, other = (of(beside["patches"], wheel) for wheel in ("own", "other"))
     check.relative("half-space, 3 mm: vertical force, kN", 1e-3 * beside["normal_force_N"], 2e-3 * LOAD, 1e-5)
     # The cone's rise and fall over the levers of the contacts on a crowned rail.
@@ -130,6 +130,21 @@ with tempfile.TemporaryDirectory() as folder:
             rate += step * (moment - held - 2e6 * TORSION * twist) / INERTIA
             twist += step * rate
     check.relative("twist of the axle beside that of two discs on a shaft, mrad", 1e3 * one["axle_twist_rad"][-1], 1e3 * twist, 0.1)
+    # Creepages differ by the rolling radii, by the yaw and by the twist.
+    def differ(summary, rows):
+        patches, late = [of(summary["patches"], wheel) for wheel in ("own", "other")], rows["time_s"] > 0.7 * rows["time_s"][-1]
+        own, other = ([patch[name] for name in ("rolling_radius_m", "y_m", "creepage")] for patch in patches)
+        rate = lambda name: np.polyfit(rows["time_s"][late], rows[name][late], 1)[0]
+        radius, across, creepage = np.subtract(own, other)
+        return creepage, radius / RADIUS + (rate("yaw_rad") * across + rate("axle_twist_rad") * RADIUS) / SPEED
+
+    found, wanted = differ(bent, one)
+    check.absolute("flexible axle: difference of the creepages, 1e-3", 1e3 * found, 1e3 * wanted, 0.4)
+    settled = run(program, SCENE, path("settled"), {**free, "Motion/Rolled distance (mm)": 60, "Wheelset/Axle torsional stiffness (MN m per rad)": TORSION}, 2)
+    found, wanted = differ(settled, history_of(path("settled")))
+    check.absolute("axle that twists: difference of the creepages, 1e-3", 1e3 * found, 1e3 * wanted, 0.4)
+    power = lambda patches: sum(patch["frictional_power_W"] for patch in settled[patches])
+    check.relative("axle that twists: frictional power beside the half-space's, W", power("patches"), power("half_space_patches"), 0.02)
     check.that("wheels roll and yaw on the bent axle", min(np.abs(one[f"{wheel}_wheel_{way}_rad"]).max() for wheel in ("own", "other") for way in ("roll", "yaw")) > 1e-5)
     run_stopped(program, SCENE, path("stopped"), short, 3)
     run(program, SCENE, path("stopped"), short, 1, ["--resume"])

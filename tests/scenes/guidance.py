@@ -53,6 +53,13 @@ with tempfile.TemporaryDirectory() as folder:
                    slid["half_space_patches"][0]["lateral_creepage"], 2e-5)
     still = run(program, SCENE, path("still"), {**COARSE, "Motion/Rolled distance (mm)": 10}, 2)
     check.that("without motion the lateral force is another", abs(share(still, "lateral") - share(slid, "lateral")) > 0.1)
+    # A table in which nothing moves, and free rolling beside it: the half-space rolls as beside a wheel that is held.
+    constant = write_motion(path("constant.csv"), {"time_s": time, "lateral_shift_mm": 0. * time})
+    constant = run(program, SCENE, path("constant"), {**COARSE, **constant, "Motion/Rolled distance (mm)": 10}, 2)
+    for name in ("creepage", "longitudinal_force_N", "lateral_force_N"):
+        check.relative(f"a table that stands still: {name} of the half-space beside it", constant["half_space_patches"][0][name],
+                       still["half_space_patches"][0][name], 1e-6)
+    check.relative("a table that stands still: angular velocity, rad/s", constant["angular_velocity_rad_per_s"], 84.4, 1e-9)
 
     # Friction that falls with slip, or with pressure, or on a spot of the rail, beside the half-space's with the same; each is far from Coulomb's.
     sliding = {**COARSE, "Motion/Lateral creepage": 0.005}
@@ -89,6 +96,10 @@ with tempfile.TemporaryDirectory() as folder:
         check.absolute(f"turning: {key} beside the half-space, over the load", np.interp(0., rows["position_m"], rows[key]) / 1e4,
                        turning["reference"][key]["half-space"]["value"] / 1e4, 0.01)
     check.energy("turning: ", turning, 2e-3)
+
+    # A roll that lifts the wheel off the rail.
+    flown = run(program, SCENE, path("flown"), {**COARSE, **write_motion(path("lift.csv"), {"time_s": time, "roll_mrad": np.minimum(0., 0.3 * (time[2] - time) / time[1])})}, 2)
+    check.that("a wheel that leaves the rail is told", any("has left it" in warning for warning in flown["warnings"]))
 
     # Free: held in its place by what it finds at the start, and moved by a force of its own.
     free = {"Guidance/Kind": "springs", "Guidance/Lateral stiffness (MN per m)": 5, "Guidance/Yaw inertia (kg m2)": 600,
@@ -150,7 +161,11 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("a value that is none", with_rows("nan.csv", time, lateral_shift_mm=[0., float("nan")] + [0.] * 7), "row 2", "lateral_shift_mm", "nan")
     must_fail("an unknown column", with_rows("name.csv", time, yaw_rad=np.zeros(9)), "Guidance/File", "yaw_rad", "yaw_mrad")
     must_fail("time alone", write_motion(path("time.csv"), {"time_s": time}), "Guidance/File", "time_s")
-    must_fail("more than 5 degrees", with_rows("far.csv", time, yaw_mrad=np.linspace(0., 120., 9)), "Wheelset/Yaw (mrad)", "5 degrees")
+    must_fail("more than 5 degrees", with_rows("far.csv", time, yaw_mrad=np.linspace(0., 120., 9)), "Guidance/File", "after the start", "Wheelset/Yaw (mrad)", "5 degrees")
+    must_fail("a table beside the track", with_rows("beside.csv", time, lateral_shift_mm=np.full(9, 600.)), "Wheelset/Lateral shift (mm)", "600")
+    must_fail("a damper that acts within a step", {**free, "Guidance/Lateral damping (kN s per m)": 1e9}, "Guidance/Lateral stiffness (MN per m)", "which no guidance does")
+    must_fail("the profile of a rail on the wheel", {"Wheel/Tread profile": os.path.join(ROOT, "prm", "curves", "profiles", "crown-1-5.txt")},
+              "Wheel/Tread profile", "is it the profile of a rail")
     must_fail("sideways too fast", with_rows("fast.csv", time, lateral_shift_mm=np.linspace(0., 60., 9)), "Guidance/File", "sideways", "at most 0.2")
     must_fail("beyond the rail's head", {"Wheelset/Lateral shift (mm)": -66, **with_rows("beyond.csv", time, lateral_shift_mm=np.linspace(-66., -71., 9))}, "Guidance/File", "after the start", "lateral shift")
     must_fail("two angular velocities", with_rows("two.csv", time, angular_velocity_rad_per_s=np.full(9, 84.4)), "Motion/Angular velocity (rad per s)")

@@ -110,7 +110,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     reference = "--reference-only"
     must_fail("yaw beyond 5 degrees", [reference, "-s", "Wheelset/Yaw (mrad)=90"], "Wheelset/Yaw (mrad)", "5 degrees")
-    must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "lateral shift of -90 mm", "falls between the rails")
+    must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "Wheelset/Lateral shift (mm)' -90", "falls between the rails")
     must_fail("profiles that do not meet", [reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
     must_fail("a rail without gauge face", [reference, "-s", "Rail/Shape=block", "-s", "Rail/Measured head="], "Rail/Shape", "block")
     with open(path("flat.txt"), "w", encoding="utf-8") as stream:

@@ -5,20 +5,51 @@
 #include <tread/geometry/wheel_on_rail.h>
 #include <tread/reference/planar_contact.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace tread
 {
-  /// Steady rolling of one wheel of a wheelset in any position over its rail, in half-space theory. SI units.
-  struct WheelRolling : reference::Friction
+  /// How a wheelset turns, and moves across its track: it rises with it as a patch needs. In the axes of its
+  /// position, SI units.
+  struct WheelsetRates
   {
+    double angular_velocity = 0.; ///< about the axle, positive forward, counted from free rolling
+    double across_speed     = 0.; ///< to the own side
+    double yaw_rate = 0., roll_rate = 0.;
+
+    /// What a wheel on a flexible axle does against the line through the middles of both: it turns about it,
+    /// and tilts about the axes at right angles to it, x in the plane of the rail tops and z.
+    struct AgainstLine
+    {
+      double spin = 0., tilt_x = 0., tilt_z = 0., tilt_rate_x = 0., tilt_rate_z = 0.;
+
+      AgainstLine mirrored() const
+      {
+        return {spin, 0. - tilt_x, 0. - tilt_z, 0. - tilt_rate_x, 0. - tilt_rate_z};
+      }
+    };
+    AgainstLine own{}, other{};
+
+    /// The same in the axes of the other wheel's side.
+    WheelsetRates mirrored() const
+    {
+      return {angular_velocity, 0. - across_speed, 0. - yaw_rate,
+              0. - roll_rate,   other.mirrored(),  own.mirrored()};
+    }
+  };
+
+  /// Steady rolling of one wheel of a wheelset in any position over its rail, in half-space theory. SI units.
+  struct WheelRolling : reference::Friction, WheelsetRates
+  {
+    /// Where it changes along the rail: friction at x from the middle of the wheelset (m), instead of the one
+    /// above.
+    std::function<reference::Friction(double x)> friction_along;
+
     reference::Elastic wheel, rail;
-    double             speed            = 1.; ///< of the wheelset along the track, m/s
-    double             angular_velocity = 0.; ///< of the wheel about its axle, positive forward, rad/s
-    double             lateral_speed    = 0.; ///< of the wheelset over the track, to the own side, m/s
-    /// Where the wheelset moves across its track: m/s, rad/s. It rises with it as a patch needs.
-    double across_speed = 0., yaw_rate = 0., roll_rate = 0.;
+    double             speed         = 1.; ///< of the wheelset along the track, m/s
+    double             lateral_speed = 0.; ///< of the wheelset over the track, to the own side, m/s
 
     /// Overlaps nearer to each other than this along the surface are solved in one plane, m.
     double separation = 0.;

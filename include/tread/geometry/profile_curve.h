@@ -63,9 +63,21 @@ namespace tread
     double              slope(double y) const; ///< dz/dy
     const ProfileCurve &curve() const;
 
+    /// Height of the chord between steps of the curve next to y, and by how much the curve may lie beside it
+    /// (m): quick, and exact enough to tell where it is not worth to ask for height().
+    struct RoughHeight
+    {
+      double z, error;
+    };
+    RoughHeight rough_height(double y) const;
+
   private:
+    /// The step, of those in which Newton's method starts, next to y.
+    std::size_t step(double y) const;
+
     ProfileCurve        line;
-    std::vector<double> s, y; ///< steps in which Newton's method starts
+    std::vector<double> s, y, z;   ///< ends of the steps
+    std::vector<double> deviation; ///< of the curve from the chord of each step (m)
   };
 
   /// A wheel's profile with its flange; z = 0 on the running circle y = 0.

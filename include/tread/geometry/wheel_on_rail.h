@@ -120,12 +120,16 @@ namespace tread
   private:
     /// The vertical gap at s; a large number where there is no rail below.
     double gap(const WheelsetPosition &position, double s, OutlinePoint &point) const;
+    /// The samples at which the gap may be smallest.
+    std::vector<std::size_t> near_samples(const WheelsetPosition &position) const;
 
-    ProfileCurve        wheel_profile;
-    CurveFromAbove      rail_profile;
-    double              nominal_radius, wheel_y, rail_y, rail_z;
-    double              flank_end; ///< s where the steepest part ends towards the tip; 0: no flange
-    std::vector<double> samples;   ///< of s, at which the wheel is looked at
+    ProfileCurve   wheel_profile;
+    CurveFromAbove rail_profile;
+    double         nominal_radius, wheel_y, rail_y, rail_z;
+    double         flank_end; ///< s where the steepest part ends towards the tip; 0: no flange
+    /// Places of the profile at which the wheel is looked at.
+    std::vector<double>              samples; ///< s
+    std::vector<ProfileCurve::Place> places;
   };
 } // namespace tread
 

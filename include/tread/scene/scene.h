@@ -265,6 +265,7 @@ namespace tread
     void take(const std::string &file, const std::vector<std::string> &settings);
     /// @throws InputError unless it lasts as long as the run, in positions that are allowed
     void check_guidance() const;
+    void check_guidance_springs() const;
     /// Read the table of 'Guidance', and the position at the start from it.
     void take_wheelset_motion();
     /// Read 'Track/Support file'.

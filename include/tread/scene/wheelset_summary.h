@@ -34,6 +34,7 @@ namespace tread
                           const Scene        &scene,
                           const std::string  &method,
                           const WheelContact &contact,
+                          const double        angular_velocity,
                           const bool          completed);
 } // namespace tread
 

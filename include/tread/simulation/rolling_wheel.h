@@ -3,6 +3,7 @@
 #define tread_simulation_rolling_wheel_h
 
 #include <tread/analysis/contact_patch.h>
+#include <tread/analysis/wheelset_contact.h>
 #include <tread/base/archive.h>
 #include <tread/output/records.h>
 #include <tread/scene/half_space_case.h>
@@ -27,6 +28,11 @@ namespace tread
 
     /// Angular velocity x rolling radius over speed, - 1, counted from free rolling.
     double creepage(const Scene &scene) const;
+
+    /// Where the wheelset stands in the track at present. @pre scene.is_positioned()
+    WheelsetPosition position(const Scene &scene) const;
+    /// How the wheelset turns and moves across the track at present. @pre scene.is_positioned()
+    WheelsetRates rates(const Scene &scene) const;
 
     /// Add the force of a step (N) to the mean over the end of the way.
     void add_to_last_force(const Vector3 force);

@@ -91,7 +91,18 @@ namespace tread
     /// The wheelset where half-space theory is compared with it: at the start, or where it has moved to. @pre
     /// scene.is_positioned()
     const PlacedWheel &placed() const;
-    /// Solve for motion_at_solution.
+    /// Where a wheelset stands in its track, and how it moves.
+    struct Placement
+    {
+      WheelsetPosition position;
+      WheelsetRates    rates;
+    };
+    /// @pre scene.is_positioned()
+    Placement placement_now() const
+    {
+      return {wheels.front().position(scene), wheels.front().rates(scene)};
+    }
+    /// Solve for placement_at_solution.
     void place_at_solution();
     void take_solution(RunFolder &folder);
     void write_volume(RunFolder &folder) const;
@@ -205,8 +216,8 @@ namespace tread
     double       interval_start_time = 0.;
     double checked_position = 0.; ///< of the first wheel when the ends of intervals were last checked, m
 
-    /// Of a wheelset that moves across its track: the hub when averaging begins, and where it stands then.
-    std::optional<WheelHub::Motion>    motion_at_solution;
+    /// Of a wheelset that does not stay as it starts, when averaging begins.
+    std::optional<Placement>           placement_at_solution;
     std::shared_ptr<const PlacedWheel> placed_at_solution;
 
     std::uint64_t        last_steps = 0; ///< in the end of the way before the solution instant

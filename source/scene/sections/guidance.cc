@@ -61,8 +61,6 @@ namespace tread
     of_springs(springs.yaw_damping != 0., "Yaw damping (kN m s per rad)");
     of_springs(bool(springs.moment), "Yaw moment (kN m)");
     of_springs(yaw_inertia != 0. && !has_both_wheels, "Yaw inertia (kg m2)");
-    require(yaw_inertia > 0. || !has_both_wheels,
-            "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
     require(yaw_inertia > 0. || (springs.yaw_stiffness == 0. && springs.yaw_damping == 0. && !springs.moment),
             "'Guidance/Yaw inertia (kg m2)' must be above 0 for a wheelset that yaws on springs");
   }

@@ -12,10 +12,11 @@ from ..plots import BLUE, GREEN, RED, subplots
 from ..runs import Run
 
 
-def broken(shift: np.ndarray, values: np.ndarray, jump: float) -> tuple[np.ndarray, np.ndarray]:
-    """The line with gaps where the contact jumps by more than so much from one shift to the next."""
-    at = np.flatnonzero(np.abs(np.diff(values)) > jump) + 1
-    return np.insert(shift, at, np.nan), np.insert(values, at, np.nan)
+def broken(table: dict[str, np.ndarray], values: np.ndarray, sides: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """The line of values over the shift, with gaps where the contact of one of the sides jumps by 2 mm from one shift to the next."""
+    jumps = [np.abs(np.diff(table[f"{side}_{place}_mm"])) > 2. for side in sides for place in ("y_wheel", "y_rail")]
+    at = np.flatnonzero(np.any(jumps, axis=0)) + 1
+    return np.insert(table["lateral_shift_mm"], at, np.nan), np.insert(values, at, np.nan)
 
 
 def draw_contact_points(run: Run) -> Figure:
@@ -23,12 +24,12 @@ def draw_contact_points(run: Run) -> Figure:
     shift = table["lateral_shift_mm"]
     figure, axes = subplots(2, 2, figsize=(11, 7.4), sharex=True)
     for side, colour in (("own", BLUE), ("other", RED)):
-        axes[0, 0].plot(*broken(shift, table[f"{side}_y_wheel_mm"], 2.), color=colour, label=f"{side} wheel, on its profile")
-        axes[0, 0].plot(*broken(shift, table[f"{side}_y_rail_mm"], 2.), color=colour, ls="--", label=f"{side} wheel, on the rail")
-        axes[0, 1].plot(*broken(shift, np.degrees(table[f"{side}_angle_rad"]), 8.), color=colour, label=f"{side} wheel")
+        axes[0, 0].plot(*broken(table, table[f"{side}_y_wheel_mm"], (side,)), color=colour, label=f"{side} wheel, on its profile")
+        axes[0, 0].plot(*broken(table, table[f"{side}_y_rail_mm"], (side,)), color=colour, ls="--", label=f"{side} wheel, on the rail")
+        axes[0, 1].plot(*broken(table, np.degrees(table[f"{side}_angle_rad"]), (side,)), color=colour, label=f"{side} wheel")
     axes[0, 0].set(ylabel="y of the contact [mm], + to the field side", title="where they touch; flange and gauge side at y < 0")
     axes[0, 1].set(ylabel="contact angle [degrees]", title="+ where the rail falls to the gauge side, as at the flange")
-    axes[1, 0].plot(*broken(shift, table["radius_difference_mm"], 2.), color=GREEN)
+    axes[1, 0].plot(*broken(table, table["radius_difference_mm"], ("own", "other")), color=GREEN)
     axes[1, 0].set(xlabel="lateral shift of the wheelset [mm],\n+ own flange to its rail", ylabel="rolling radius difference [mm],\nown less other wheel")
     one_side = (shift > 0) & np.isfinite(table["equivalent_conicity"])
     axes[1, 1].plot(shift[one_side], table["equivalent_conicity"][one_side], color=GREEN)

@@ -30,12 +30,13 @@ def draw_forces(run: Run) -> Figure:
     rows = shown_rows(position, run.parameters)
     x, history, single = position[rows], {name: values[rows] for name, values in run.history.items()}, marker(run.history)
     wheelset = "patches" in run.summary
+    lateral = "lateral of both wheels, + to the own side" if "other_normal_force_N" in history else "lateral, + to the field side"
     figure, axes = subplots(4, 1, figsize=(10, 9.6), sharex=True, height_ratios=(1.5, 1, 1, 1))
     for axis, names in ((axes[0], (("normal_force_N", "vertical, of all patches" if wheelset else "normal", BLUE, "-"),
                                    *((name, f"normal, wheel {name.split('_')[1]}", SKY, "--") for name in history
                                      if name.startswith("wheel_") and name.endswith("_normal_force_N")))),
                         (axes[1], (("longitudinal_force_N", "longitudinal, + forward", RED, "-"),
-                                   ("lateral_force_N", "lateral, + to the field side", GREEN, "--")))):
+                                   ("lateral_force_N", lateral, GREEN, "--")))):
         for name, text, colour, style in names:
             if name in history:
                 plot_passages(axis, x, x, 1e-3 * history[name], color=colour, ls=style, **single,
