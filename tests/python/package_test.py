@@ -731,10 +731,29 @@ class Commands(unittest.TestCase):
 
     def test_version_is_that_of_the_program(self):
         versions = []
-        for path, pattern in (("CMakeLists.txt", r"project\(tread VERSION (\S+)"), ("contrib/python/pyproject.toml", r'version = "(.+)"')):
+        places = (("CMakeLists.txt", r"project\(tread VERSION (\S+)"), ("contrib/python/pyproject.toml", r'version = "(.+)"'),
+                  ("CITATION.cff", r"^version: (\S+)"), ("CHANGELOG.md", r"^## \[([0-9.]+)\]"), ("doc/packages.md", r"tread_([0-9.]+)_amd64.deb"),
+                  ("contrib/package/spack/packages/tread/package.py", r'^    version\("(.+)"\)'), ("contrib/package/conda/meta.yaml", r"^  version: (\S+)"))
+        for path, pattern in places:
             with open(os.path.join(ROOT, path), encoding="utf-8") as stream:
-                versions += re.findall(pattern, stream.read())
-        self.assertEqual(versions, versions[:1] * 2)
+                versions += re.findall(pattern, stream.read(), re.MULTILINE)[:1]
+        self.assertEqual(versions, versions[:1] * len(places))
+
+    def test_recipes_name_what_the_build_looks_for(self):
+        def read(path):
+            with open(os.path.join(ROOT, path), encoding="utf-8") as stream:
+                return stream.read()
+
+        options = set(re.findall(r"^(?:option|set)\((TREAD_\w+)", read("CMakeLists.txt") + read("contrib/package/CMakeLists.txt"), re.MULTILINE))
+        for recipe in ("contrib/package/spack/packages/tread/package.py", "contrib/package/conda/meta.yaml", "contrib/package/Containerfile"):
+            text = read(recipe)
+            named = set(re.findall(r"TREAD_\w+", text))
+            self.assertTrue(named and named <= options, f"{recipe}: {named - options}")
+            if recipe.endswith(".py"):
+                compile(text, recipe, "exec")
+            if not recipe.endswith("Containerfile"):
+                for needed in ("dealii", "fftw", "nlohmann", "cli11", "numpy"):
+                    self.assertIn(needed, text)
 
 
 @unittest.skipUnless(REAL_PROGRAM, "no program named")
