@@ -6,6 +6,7 @@
 #include <tread/tools/contact_points_files.h>
 #include <tread/tools/dynamic_force_files.h>
 #include <tread/tools/modes_files.h>
+#include <tread/tools/print_columns.h>
 #include <tread/tools/reference_only.h>
 #include <tread/tools/sleeper_stress_files.h>
 #include <tread/tools/wheelset_reference.h>
@@ -34,6 +35,7 @@ namespace
     tread::SleeperStressRequest sleeper;
     tread::ContactPointsRequest points;
     std::string                 print_parameters; ///< how; empty: not
+    bool                        print_columns = false;
     bool                        resume = false, reference_only = false, dry_run = false, quiet = false;
   };
 
@@ -52,6 +54,9 @@ namespace
     app.add_option("--output", line.output, "folder of the results; of --batch, their table");
     app.add_flag("--print-parameters{prm}", line.print_parameters,
                  "print all parameters with units, ranges and meaning, and stop; =json: as JSON");
+    CLI::Option *columns =
+      app.add_flag("--print-columns", line.print_columns,
+                   "print the columns of all tables with units and meaning as JSON, and stop");
     app.add_flag("--quiet", line.quiet, "print errors only; summary.json has the warnings");
     CLI::Option_group *how = app.add_option_group("How to run the scene");
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
@@ -87,6 +92,7 @@ namespace
     CLI::Option *batch = app.add_option("--batch", line.batch,
                                         "table of half-space cases: solve each of its rows, on all cores");
     batch->excludes(defect)->excludes(seat);
+    columns->excludes(defect)->excludes(seat)->excludes(batch);
     try
       {
         app.parse(argc, argv);
@@ -113,7 +119,8 @@ namespace
     };
     for (const Tool &tool : {Tool{"--batch", "a table of cases", !line.batch.empty()},
                              Tool{"--dynamic-force", "what two runs left", !line.dynamic.run.empty()},
-                             Tool{"--sleeper-stress", "what a run left", !line.sleeper.run.empty()}})
+                             Tool{"--sleeper-stress", "what a run left", !line.sleeper.run.empty()},
+                             Tool{"--print-columns", "nothing", line.print_columns}})
       if (tool.is_asked)
         {
           tread::require(line.scene.empty(), tool.name + " reads " + tool.reads + "; it takes no scene");
@@ -130,9 +137,16 @@ namespace
     std::optional<CommandLine> asked  = parse(argc, argv, speaks);
     if (!asked)
       return 0;
-    CommandLine &line = *asked;
-    if (line.quiet && line.print_parameters.empty() && !std::freopen("/dev/null", "w", stdout))
+    CommandLine &line   = *asked;
+    const bool   prints = !line.print_parameters.empty() || line.print_columns;
+    if (line.quiet && !prints && !std::freopen("/dev/null", "w", stdout))
       throw std::runtime_error("cannot write to /dev/null");
+    if (line.print_columns)
+      {
+        if (speaks)
+          tread::print_columns(std::cout);
+        return 0;
+      }
     if (!line.batch.empty())
       {
         tread::write_batch(line.batch, line.output, comm);

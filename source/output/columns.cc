@@ -2,6 +2,7 @@
 #include <tread/output/columns.h>
 
 #include <array>
+#include <regex>
 #include <utility>
 
 namespace tread
@@ -35,37 +36,43 @@ namespace tread
     const Columns<WheelRecord> &contact_columns()
     {
       using R = WheelRecord;
-      static const Columns<R> columns{{"normal_force", "N",
-                                       [](const R &r) {
-                                         return r.force[2];
-                                       }},
-                                      {"longitudinal_force", "N",
-                                       [](const R &r) {
-                                         return r.force[0];
-                                       }},
-                                      {"lateral_force", "N",
-                                       [](const R &r) {
-                                         return r.force[1];
-                                       }},
-                                      {"traction_coefficient", "",
-                                       [](const R &r) {
-                                         return r.force[2] > 0. ? r.force[0] / r.force[2] : 0.;
-                                       }},
-                                      {"creepage", "",
-                                       [](const R &r) {
-                                         return r.creepage;
-                                       }},
-                                      {"contact_area", "m2",
-                                       [](const R &r) {
-                                         return r.patch.area;
-                                       }},
-                                      {"adhesion_share", "",
-                                       [](const R &r) {
-                                         return r.patch.adhesion_share;
-                                       }},
-                                      {"max_pressure", "Pa", [](const R &r) {
-                                         return r.patch.max_pressure;
-                                       }}};
+      static const Columns<R> columns{
+        {"normal_force", "N",
+         "Force on the wheel at right angles to the rail, mean over the interval; of a wheelset in a "
+         "position vertical, of all its patches",
+         [](const R &r) {
+           return r.force[2];
+         }},
+        {"longitudinal_force", "N", "The same along the rail, positive forward",
+         [](const R &r) {
+           return r.force[0];
+         }},
+        {"lateral_force", "N",
+         "The same across the rail, positive to the field side (of a wheelset to its own side)",
+         [](const R &r) {
+           return r.force[1];
+         }},
+        {"traction_coefficient", "", "Longitudinal over normal force",
+         [](const R &r) {
+           return r.force[2] > 0. ? r.force[0] / r.force[2] : 0.;
+         }},
+        {"creepage", "",
+         "Angular velocity x rolling radius over speed, less 1, counted from free rolling; positive when "
+         "driving",
+         [](const R &r) {
+           return r.creepage;
+         }},
+        {"contact_area", "m2", "Area of the patch at the end of the interval",
+         [](const R &r) {
+           return r.patch.area;
+         }},
+        {"adhesion_share", "", "Share of the area that sticks",
+         [](const R &r) {
+           return r.patch.adhesion_share;
+         }},
+        {"max_pressure", "Pa", "Largest pressure of a node at the end of the interval", [](const R &r) {
+           return r.patch.max_pressure;
+         }}};
       return columns;
     }
 
@@ -73,7 +80,9 @@ namespace tread
     const Columns<WheelRecord> &axle_columns()
     {
       using R = WheelRecord;
-      static const Columns<R> columns{{"axle_box_acceleration", "m_per_s2", [](const R &r) {
+      static const Columns<R> columns{{"axle_box_acceleration", "m_per_s2",
+                                       "Vertical acceleration of the hub, mean over the interval",
+                                       [](const R &r) {
                                          return r.axle_box_acceleration;
                                        }}};
       return columns;
@@ -83,17 +92,18 @@ namespace tread
     const Columns<WheelRecord> &across_columns()
     {
       using R = WheelRecord;
-      static const Columns<R> columns{{"lateral_shift", "m",
-                                       [](const R &r) {
-                                         return r.lateral_shift;
-                                       }},
-                                      {"yaw", "rad",
-                                       [](const R &r) {
-                                         return r.yaw;
-                                       }},
-                                      {"guidance_force", "N", [](const R &r) {
-                                         return r.guidance_force;
-                                       }}};
+      static const Columns<R> columns{
+        {"lateral_shift", "m", "Of the wheelset in the track, to its own side, at the end of the interval",
+         [](const R &r) {
+           return r.lateral_shift;
+         }},
+        {"yaw", "rad", "Of the wheelset, positive: the leading side turns to the own side",
+         [](const R &r) {
+           return r.yaw;
+         }},
+        {"guidance_force", "N", "Lateral force of the guidance on the wheelset", [](const R &r) {
+           return r.guidance_force;
+         }}};
       return columns;
     }
 
@@ -101,21 +111,23 @@ namespace tread
     const Columns<WheelRecord> &both_wheels_columns()
     {
       using R = WheelRecord;
-      static const Columns<R> columns{{"roll", "rad",
-                                       [](const R &r) {
-                                         return r.roll;
-                                       }},
-                                      {"other_normal_force", "N",
-                                       [](const R &r) {
-                                         return r.other_force[2];
-                                       }},
-                                      {"other_longitudinal_force", "N",
-                                       [](const R &r) {
-                                         return r.other_force[0];
-                                       }},
-                                      {"other_lateral_force", "N", [](const R &r) {
-                                         return r.other_force[1];
-                                       }}};
+      static const Columns<R> columns{
+        {"roll", "rad", "Of the wheelset, positive: the own side goes down",
+         [](const R &r) {
+           return r.roll;
+         }},
+        {"other_normal_force", "N", "Vertical force on the other wheel alone",
+         [](const R &r) {
+           return r.other_force[2];
+         }},
+        {"other_longitudinal_force", "N", "Longitudinal force on the other wheel alone",
+         [](const R &r) {
+           return r.other_force[0];
+         }},
+        {"other_lateral_force", "N",
+         "Lateral force on the other wheel alone, in track axes: positive to the own side", [](const R &r) {
+           return r.other_force[1];
+         }}};
       return columns;
     }
 
@@ -123,66 +135,72 @@ namespace tread
     const Columns<WheelRecord> &flexible_axle_columns()
     {
       using R = WheelRecord;
-      static const Columns<R> columns{{"axle_twist", "rad",
-                                       [](const R &r) {
-                                         return r.twist;
-                                       }},
-                                      {"own_wheel_roll", "rad",
-                                       [](const R &r) {
-                                         return r.own_tilt.roll;
-                                       }},
-                                      {"own_wheel_yaw", "rad",
-                                       [](const R &r) {
-                                         return r.own_tilt.yaw;
-                                       }},
-                                      {"other_wheel_roll", "rad",
-                                       [](const R &r) {
-                                         return r.other_tilt.roll;
-                                       }},
-                                      {"other_wheel_yaw", "rad", [](const R &r) {
-                                         return r.other_tilt.yaw;
-                                       }}};
+      static const Columns<R> columns{
+        {"axle_twist", "rad", "Of the own wheel against the other about the axle, since the start",
+         [](const R &r) {
+           return r.twist;
+         }},
+        {"own_wheel_roll", "rad", "Roll of the own wheel beside the wheelset's",
+         [](const R &r) {
+           return r.own_tilt.roll;
+         }},
+        {"own_wheel_yaw", "rad", "Yaw of the own wheel beside the wheelset's",
+         [](const R &r) {
+           return r.own_tilt.yaw;
+         }},
+        {"other_wheel_roll", "rad", "Roll of the other wheel beside the wheelset's",
+         [](const R &r) {
+           return r.other_tilt.roll;
+         }},
+        {"other_wheel_yaw", "rad", "Yaw of the other wheel beside the wheelset's", [](const R &r) {
+           return r.other_tilt.yaw;
+         }}};
       return columns;
     }
 
     const Columns<EnergyLedger> &energy_columns()
     {
       using R = EnergyLedger;
-      static const Columns<R> columns{{"external_work", "J",
-                                       [](const R &r) {
-                                         return r.external_work;
-                                       }},
-                                      {"kinetic_energy", "J",
-                                       [](const R &r) {
-                                         return r.kinetic;
-                                       }},
-                                      {"internal_energy", "J",
-                                       [](const R &r) {
-                                         return r.strain;
-                                       }},
-                                      {"hourglass_energy", "J",
-                                       [](const R &r) {
-                                         return r.hourglass;
-                                       }},
-                                      {"frictional_work", "J",
-                                       [](const R &r) {
-                                         return r.friction;
-                                       }},
-                                      {"contact_loss", "J",
-                                       [](const R &r) {
-                                         return r.contact;
-                                       }},
-                                      {"damping_work", "J",
-                                       [](const R &r) {
-                                         return r.damping;
-                                       }},
-                                      {"plastic_work", "J",
-                                       [](const R &r) {
-                                         return r.plastic;
-                                       }},
-                                      {"energy_residual", "J", [](const R &r) {
-                                         return r.residual();
-                                       }}};
+      static const Columns<R> columns{
+        {"external_work", "J",
+         "Work of drive, guidance, suspension, weight and imposed sliding since the start",
+         [](const R &r) {
+           return r.external_work;
+         }},
+        {"kinetic_energy", "J", "Of all masses, change since the start",
+         [](const R &r) {
+           return r.kinetic;
+         }},
+        {"internal_energy", "J",
+         "Elastic energy of the cells without that of hourglass modes, change since the start",
+         [](const R &r) {
+           return r.strain;
+         }},
+        {"hourglass_energy", "J",
+         "Of the cells' deformation that one integration point does not see, change since the start",
+         [](const R &r) {
+           return r.hourglass;
+         }},
+        {"frictional_work", "J", "Work of friction since the start",
+         [](const R &r) {
+           return r.friction;
+         }},
+        {"contact_loss", "J", "Energy that the contact took other than by sliding, since the start",
+         [](const R &r) {
+           return r.contact;
+         }},
+        {"damping_work", "J",
+         "Work lost to stiffness and mass damping, bulk viscosity and dampers since the start",
+         [](const R &r) {
+           return r.damping;
+         }},
+        {"plastic_work", "J", "Work on plastic strain since the start",
+         [](const R &r) {
+           return r.plastic;
+         }},
+        {"energy_residual", "J", "Energy that no other column accounts for", [](const R &r) {
+           return r.residual();
+         }}};
       return columns;
     }
 
@@ -195,7 +213,7 @@ namespace tread
     {
       for (const Column<Part> &column : of_part)
         {
-          Column<Row> own{prefix + column.name, column.unit, {}};
+          Column<Row> own{prefix + column.name, column.unit, column.about, {}, {}};
           if (column.word)
             own.word = [part, word = column.word](const Row &r) {
               return word(part(r));
@@ -218,11 +236,11 @@ namespace tread
         return r.wheels[i];
       };
     };
-    Columns<R> columns{{"time", "s",
+    Columns<R> columns{{"time", "s", "End of the interval, from the start of the run",
                         [](const R &r) {
                           return r.time;
                         }},
-                       {"position", "m", [](const R &r) {
+                       {"position", "m", "Of the wheel along the rail at that time", [](const R &r) {
                           return r.position;
                         }}};
     add_columns(columns, contact_columns(), "", wheel(0));
@@ -235,41 +253,45 @@ namespace tread
     if (parts.has_flexible_axle)
       add_columns(columns, flexible_axle_columns(), "", wheel(0));
     if (!parts.supports.empty())
-      columns.push_back({"spring_energy", "J", [](const R &r) {
-                           return r.energy.springs;
-                         }});
+      columns.push_back(
+        {"spring_energy", "J", "Of the springs of the supports, change since the start", [](const R &r) {
+           return r.energy.springs;
+         }});
     if (parts.has_rail_base)
       {
-        columns.push_back({"rail_base_lateral", "m", [](const R &r) {
-                             return r.rail_base[1];
-                           }});
-        columns.push_back({"rail_base_vertical", "m", [](const R &r) {
-                             return r.rail_base[2];
-                           }});
+        columns.push_back(
+          {"rail_base_lateral", "m", "Lateral displacement of the rail's bottom", [](const R &r) {
+             return r.rail_base[1];
+           }});
+        columns.push_back(
+          {"rail_base_vertical", "m", "Vertical displacement of the rail's bottom", [](const R &r) {
+             return r.rail_base[2];
+           }});
       }
-    const Columns<SupportRecord> of_support{{"pad", "N",
-                                             [](const SupportRecord &s) {
-                                               return s.pad_force;
-                                             }},
-                                            {"ballast", "N",
-                                             [](const SupportRecord &s) {
-                                               return s.ballast_force;
-                                             }},
-                                            {"seat_pressure", "Pa",
-                                             [](const SupportRecord &s) {
-                                               return s.seat_pressure;
-                                             }},
-                                            {"least_seat_pressure", "Pa",
-                                             [](const SupportRecord &s) {
-                                               return s.least_seat_pressure;
-                                             }},
-                                            {"rail", "m",
-                                             [](const SupportRecord &s) {
-                                               return s.rail_over_support;
-                                             }},
-                                            {"rail_at_next_mid_span", "m", [](const SupportRecord &s) {
-                                               return s.rail_at_mid_span;
-                                             }}};
+    const Columns<SupportRecord> of_support{
+      {"pad", "N", "Compressive force of the pad at the end of the interval",
+       [](const SupportRecord &s) {
+         return s.pad_force;
+       }},
+      {"ballast", "N", "Compressive force of the ballast, likewise",
+       [](const SupportRecord &s) {
+         return s.ballast_force;
+       }},
+      {"seat_pressure", "Pa", "Largest pressure of the pad's points",
+       [](const SupportRecord &s) {
+         return s.seat_pressure;
+       }},
+      {"least_seat_pressure", "Pa", "Least pressure of the pad's points, negative where they pull",
+       [](const SupportRecord &s) {
+         return s.least_seat_pressure;
+       }},
+      {"rail", "m", "Upward displacement of the rail's foot over the support",
+       [](const SupportRecord &s) {
+         return s.rail_over_support;
+       }},
+      {"rail_at_next_mid_span", "m", "The same half a spacing ahead", [](const SupportRecord &s) {
+         return s.rail_at_mid_span;
+       }}};
     for (std::size_t i = 0; i < parts.supports.size(); ++i)
       add_columns(columns, of_support, "support_" + std::to_string(parts.supports[i]) + "_",
                   [i](const R &r) -> const SupportRecord & { return r.supports[i]; });
@@ -283,22 +305,23 @@ namespace tread
   Columns<HistoryRow> cell_columns(const std::size_t n_cells)
   {
     using R = HistoryRow;
-    Columns<R> columns{{"time", "s",
+    Columns<R> columns{{"time", "s", "End of the interval",
                         [](const R &r) {
                           return r.time;
                         }},
-                       {"position", "m", [](const R &r) {
+                       {"position", "m", "Of the wheel along the rail", [](const R &r) {
                           return r.position;
                         }}};
     for (std::size_t i = 0; i < n_cells; ++i)
       {
         const std::string name = "cell_" + std::to_string(i + 1);
-        columns.push_back({name + "_von_mises", "Pa", [i](const R &r) {
+        columns.push_back({name + "_von_mises", "Pa", "Von Mises stress of the cell", [i](const R &r) {
                              return r.cells[i].von_mises;
                            }});
-        columns.push_back({name + "_equivalent_plastic_strain", "", [i](const R &r) {
-                             return r.cells[i].equivalent_plastic_strain;
-                           }});
+        columns.push_back(
+          {name + "_equivalent_plastic_strain", "", "Equivalent plastic strain of the cell", [i](const R &r) {
+             return r.cells[i].equivalent_plastic_strain;
+           }});
       }
     return columns;
   }
@@ -307,45 +330,46 @@ namespace tread
   const Columns<PatchNode> &patch_columns()
   {
     using R = PatchNode;
-    static const Columns<R> columns{{"x", "mm",
-                                     [](const R &r) {
-                                       return r.position[0];
-                                     }},
-                                    {"y", "mm",
-                                     [](const R &r) {
-                                       return r.position[1];
-                                     }},
-                                    {"z", "mm",
-                                     [](const R &r) {
-                                       return r.position[2];
-                                     }},
-                                    {"area", "mm2",
-                                     [](const R &r) {
-                                       return r.area;
-                                     }},
-                                    {"pressure", "MPa",
-                                     [](const R &r) {
-                                       return r.pressure;
-                                     }},
-                                    {"shear_x", "MPa",
-                                     [](const R &r) {
-                                       return r.shear[0];
-                                     }},
-                                    {"shear_y", "MPa",
-                                     [](const R &r) {
-                                       return r.shear[1];
-                                     }},
-                                    {"slip_x", "m_per_s",
-                                     [](const R &r) {
-                                       return r.slip[0];
-                                     }},
-                                    {"slip_y", "m_per_s",
-                                     [](const R &r) {
-                                       return r.slip[1];
-                                     }},
-                                    {"state", "", {}, [](const R &r) {
-                                       return std::string(r.adhesion ? "adhesion" : "slip");
-                                     }}};
+    static const Columns<R> columns{
+      {"x", "mm", "Along the rail from the wheel",
+       [](const R &r) {
+         return r.position[0];
+       }},
+      {"y", "mm", "Across, from the middle of the rail's head (of the patch, for a wheelset in a position)",
+       [](const R &r) {
+         return r.position[1];
+       }},
+      {"z", "mm", "Height of the node over the rail's top",
+       [](const R &r) {
+         return r.position[2];
+       }},
+      {"area", "mm2", "That belongs to the node",
+       [](const R &r) {
+         return r.area;
+       }},
+      {"pressure", "MPa", "Normal to the surface",
+       [](const R &r) {
+         return r.pressure;
+       }},
+      {"shear_x", "MPa", "Shear stress on the wheel, forward",
+       [](const R &r) {
+         return r.shear[0];
+       }},
+      {"shear_y", "MPa", "Shear stress on the wheel, across the rail along the surface",
+       [](const R &r) {
+         return r.shear[1];
+       }},
+      {"slip_x", "m_per_s", "Velocity of the wheel over the rail at the node, forward",
+       [](const R &r) {
+         return r.slip[0];
+       }},
+      {"slip_y", "m_per_s", "The same across",
+       [](const R &r) {
+         return r.slip[1];
+       }},
+      {"state", "", "adhesion or slip", {}, [](const R &r) {
+         return std::string(r.adhesion ? "adhesion" : "slip");
+       }}};
     return columns;
   }
 
@@ -354,11 +378,11 @@ namespace tread
   {
     using R                         = PatchesRow;
     static const Columns<R> columns = []() {
-      Columns<R> c{{"time", "s",
+      Columns<R> c{{"time", "s", "From the start of the run",
                     [](const R &r) {
                       return r.time;
                     }},
-                   {"position", "mm", [](const R &r) {
+                   {"position", "mm", "Of the wheel along the rail", [](const R &r) {
                       return r.position;
                     }}};
       add_columns(c, patch_columns(), "", [](const R &r) -> const PatchNode & { return r.node; });
@@ -371,49 +395,52 @@ namespace tread
   const Columns<Passage> &passage_columns()
   {
     using R = Passage;
-    static const Columns<R> columns{{"passage", "",
-                                     [](const R &r) {
-                                       return r.number;
-                                     }},
-                                    {"settlement", "um",
-                                     [](const R &r) {
-                                       return r.settlement;
-                                     }},
-                                    {"shift", "um",
-                                     [](const R &r) {
-                                       return r.shift;
-                                     }},
-                                    {"equivalent_plastic_strain", "percent",
-                                     [](const R &r) {
-                                       return r.plastic_strain;
-                                     }},
-                                    {"residual_von_mises", "MPa",
-                                     [](const R &r) {
-                                       return r.residual_stress;
-                                     }},
-                                    {"plastic_work", "J",
-                                     [](const R &r) {
-                                       return r.plastic_work;
-                                     }},
-                                    {"frictional_work", "J",
-                                     [](const R &r) {
-                                       return r.frictional_work;
-                                     }},
-                                    {"traction_coefficient", "",
-                                     [](const R &r) {
-                                       return r.traction_coefficient;
-                                     }},
-                                    {"max_pressure", "MPa",
-                                     [](const R &r) {
-                                       return r.max_pressure;
-                                     }},
-                                    {"energy_residual_share", "",
-                                     [](const R &r) {
-                                       return r.energy_residual_share;
-                                     }},
-                                    {"energy_residual_of_dissipated", "", [](const R &r) {
-                                       return r.energy_residual_of_dissipated;
-                                     }}};
+    static const Columns<R> columns{
+      {"passage", "", "Number of the wheel that has rolled over",
+       [](const R &r) {
+         return r.number;
+       }},
+      {"settlement", "um",
+       "Of the rail's surface in the middle of the path since before the first wheel, downwards; without "
+       "load",
+       [](const R &r) {
+         return r.settlement;
+       }},
+      {"shift", "um", "The same along the rail, forward",
+       [](const R &r) {
+         return r.shift;
+       }},
+      {"equivalent_plastic_strain", "percent", "Largest of the rail's cells in the middle of the path",
+       [](const R &r) {
+         return r.plastic_strain;
+       }},
+      {"residual_von_mises", "MPa", "Largest stress there without load",
+       [](const R &r) {
+         return r.residual_stress;
+       }},
+      {"plastic_work", "J", "Of this passage",
+       [](const R &r) {
+         return r.plastic_work;
+       }},
+      {"frictional_work", "J", "Of this passage",
+       [](const R &r) {
+         return r.frictional_work;
+       }},
+      {"traction_coefficient", "", "Mean over the last 10 mm of the passage",
+       [](const R &r) {
+         return r.traction_coefficient;
+       }},
+      {"max_pressure", "MPa", "Largest of a node at the solution instant",
+       [](const R &r) {
+         return r.max_pressure;
+       }},
+      {"energy_residual_share", "", "Residual over the gross work",
+       [](const R &r) {
+         return r.energy_residual_share;
+       }},
+      {"energy_residual_of_dissipated", "", "Residual over the dissipated work", [](const R &r) {
+         return r.energy_residual_of_dissipated;
+       }}};
     return columns;
   }
 
@@ -421,33 +448,36 @@ namespace tread
   const Columns<StressPeaks::Layer> &peak_columns()
   {
     using R = StressPeaks::Layer;
-    static const Columns<R> columns{{"depth", "mm",
-                                     [](const R &r) {
-                                       return r.peak.depth;
-                                     }},
-                                    {"von_mises", "MPa",
-                                     [](const R &r) {
-                                       return r.peak.value;
-                                     }},
-                                    {"x", "mm",
-                                     [](const R &r) {
-                                       return r.peak.x;
-                                     }},
-                                    {"y", "mm",
-                                     [](const R &r) {
-                                       return r.peak.y;
-                                     }},
-                                    {"time", "s",
-                                     [](const R &r) {
-                                       return r.peak.time;
-                                     }},
-                                    {"wheel_x", "mm",
-                                     [](const R &r) {
-                                       return r.peak.wheel_x;
-                                     }},
-                                    {"equivalent_strain", "percent", [](const R &r) {
-                                       return r.equivalent_strain;
-                                     }}};
+    static const Columns<R> columns{
+      {"depth", "mm", "Of the layer of cells; 0: the surface, extrapolated",
+       [](const R &r) {
+         return r.peak.depth;
+       }},
+      {"von_mises", "MPa", "Largest von Mises stress of all steps",
+       [](const R &r) {
+         return r.peak.value;
+       }},
+      {"x", "mm", "Where it was, along the rail",
+       [](const R &r) {
+         return r.peak.x;
+       }},
+      {"y", "mm", "Where it was, across",
+       [](const R &r) {
+         return r.peak.y;
+       }},
+      {"time", "s", "When it was",
+       [](const R &r) {
+         return r.peak.time;
+       }},
+      {"wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.peak.wheel_x;
+       }},
+      {"equivalent_strain", "percent",
+       "Stress over three times the shear modulus, and the largest equivalent plastic strain at the end",
+       [](const R &r) {
+         return r.equivalent_strain;
+       }}};
     return columns;
   }
 
@@ -455,49 +485,50 @@ namespace tread
   const Columns<StripColumn> &strip_columns()
   {
     using R = StripColumn;
-    static const Columns<R> columns{{"x", "mm",
-                                     [](const R &r) {
-                                       return r.x;
-                                     }},
-                                    {"von_mises", "MPa",
-                                     [](const R &r) {
-                                       return r.largest.stress;
-                                     }},
-                                    {"y", "mm",
-                                     [](const R &r) {
-                                       return r.y;
-                                     }},
-                                    {"depth", "mm",
-                                     [](const R &r) {
-                                       return r.depth;
-                                     }},
-                                    {"time", "s",
-                                     [](const R &r) {
-                                       return r.largest.time;
-                                     }},
-                                    {"wheel_x", "mm",
-                                     [](const R &r) {
-                                       return r.largest.wheel_x;
-                                     }},
-                                    {"surface_von_mises", "MPa",
-                                     [](const R &r) {
-                                       return r.at_surface.stress;
-                                     }},
-                                    {"surface_y", "mm",
-                                     [](const R &r) {
-                                       return r.y_at_surface;
-                                     }},
-                                    {"surface_time", "s",
-                                     [](const R &r) {
-                                       return r.at_surface.time;
-                                     }},
-                                    {"surface_wheel_x", "mm",
-                                     [](const R &r) {
-                                       return r.at_surface.wheel_x;
-                                     }},
-                                    {"equivalent_plastic_strain", "percent", [](const R &r) {
-                                       return r.equivalent_plastic_strain;
-                                     }}};
+    static const Columns<R> columns{
+      {"x", "mm", "Of the surface cell, along the rail",
+       [](const R &r) {
+         return r.x;
+       }},
+      {"von_mises", "MPa", "Largest stress of all rows of the history in the cells below it",
+       [](const R &r) {
+         return r.largest.stress;
+       }},
+      {"y", "mm", "Where it was, across",
+       [](const R &r) {
+         return r.y;
+       }},
+      {"depth", "mm", "Where it was",
+       [](const R &r) {
+         return r.depth;
+       }},
+      {"time", "s", "When it was",
+       [](const R &r) {
+         return r.largest.time;
+       }},
+      {"wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.largest.wheel_x;
+       }},
+      {"surface_von_mises", "MPa", "Largest stress of the cells at the surface",
+       [](const R &r) {
+         return r.at_surface.stress;
+       }},
+      {"surface_y", "mm", "Where it was, across",
+       [](const R &r) {
+         return r.y_at_surface;
+       }},
+      {"surface_time", "s", "When it was",
+       [](const R &r) {
+         return r.at_surface.time;
+       }},
+      {"surface_wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.at_surface.wheel_x;
+       }},
+      {"equivalent_plastic_strain", "percent", "Largest of the cells below, at the end", [](const R &r) {
+         return r.equivalent_plastic_strain;
+       }}};
     return columns;
   }
 
@@ -505,29 +536,111 @@ namespace tread
   const Columns<RailSeatPoint> &rail_seat_columns()
   {
     using R = RailSeatPoint;
-    static const Columns<R> columns{{"support", "",
-                                     [](const R &r) {
-                                       return r.support;
-                                     }},
-                                    {"time", "s",
-                                     [](const R &r) {
-                                       return r.time;
-                                     }},
-                                    {"wheel_x", "mm",
-                                     [](const R &r) {
-                                       return r.wheel_x;
-                                     }},
-                                    {"x", "mm",
-                                     [](const R &r) {
-                                       return r.x;
-                                     }},
-                                    {"y", "mm",
-                                     [](const R &r) {
-                                       return r.y;
-                                     }},
-                                    {"pressure", "MPa", [](const R &r) {
-                                       return r.pressure;
-                                     }}};
+    static const Columns<R> columns{
+      {"support", "", "Its number",
+       [](const R &r) {
+         return r.support;
+       }},
+      {"time", "s", "Of the largest force in its pad",
+       [](const R &r) {
+         return r.time;
+       }},
+      {"wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.wheel_x;
+       }},
+      {"x", "mm", "Of the part of the pad, along the rail from the pad's middle",
+       [](const R &r) {
+         return r.x;
+       }},
+      {"y", "mm", "The same across",
+       [](const R &r) {
+         return r.y;
+       }},
+      {"pressure", "MPa", "On the pad there, negative in tension", [](const R &r) {
+         return r.pressure;
+       }}};
     return columns;
+  }
+
+
+  namespace
+  {
+    /// Columns of arrays of values in SI units, in their order.
+    template <std::size_t n>
+    Columns<std::array<double, n>> columns_of(const std::array<std::array<const char *, 3>, n> &texts)
+    {
+      Columns<std::array<double, n>> columns;
+      for (std::size_t k = 0; k < n; ++k)
+        columns.push_back({texts[k][0], texts[k][1], texts[k][2], [k](const std::array<double, n> &row) {
+                             return row[k];
+                           }});
+      return columns;
+    }
+  } // namespace
+
+
+  const Columns<std::array<double, 11>> &rail_cell_columns()
+  {
+    static const auto columns = columns_of<11>(
+      {{{"x", "mm", "Middle of the cell before any load, along the rail"},
+        {"y", "mm", "The same across"},
+        {"z", "mm", "The same upwards"},
+        {"von_mises", "MPa", "Von Mises stress at the solution instant"},
+        {"stress_xx", "MPa", "Cauchy stress, along the rail"},
+        {"stress_yy", "MPa", "Across"},
+        {"stress_zz", "MPa", "Upwards"},
+        {"stress_xy", "MPa", "Shear"},
+        {"stress_yz", "MPa", "Shear"},
+        {"stress_zx", "MPa", "Shear"},
+        {"equivalent_plastic_strain", "percent", "Equivalent plastic strain at that instant"}}});
+    return columns;
+  }
+
+
+  const Columns<std::array<double, 6>> &rail_surface_columns()
+  {
+    static const auto columns =
+      columns_of<6>({{{"x", "mm", "Node of the surface before any load, along the rail"},
+                      {"y", "mm", "The same across"},
+                      {"z", "mm", "The same upwards"},
+                      {"u_x", "um", "Displacement at the solution instant, along the rail"},
+                      {"u_y", "um", "The same across"},
+                      {"u_z", "um", "The same upwards"}}});
+    return columns;
+  }
+
+
+  std::vector<TableDescription> tables_of_a_run()
+  {
+    HistoryParts all{2, true, true, {0}};
+    all.has_rail_base = all.has_flexible_axle = true;
+    return {
+      describe("history.csv", history_columns(all)),   describe("patch.csv", patch_columns()),
+      describe("patches.csv", patches_columns()),      describe("cells.csv", cell_columns(1)),
+      describe("strip.csv", strip_columns()),          describe("peak_stress.csv", peak_columns()),
+      describe("rail_seats.csv", rail_seat_columns()), describe("passages.csv", passage_columns()),
+      describe("rail_cells.csv", rail_cell_columns()), describe("rail_surface.csv", rail_surface_columns())};
+  }
+
+
+  std::string about_column(const std::string &file, const std::string &heading)
+  {
+    const auto like = [](std::string text, const char *numbered, const char *instead) {
+      return std::regex_replace(text, std::regex(numbered), instead);
+    };
+    // patch_averaged.csv, patch_wheel_2.csv, reference_patch.csv, peak_stress_wheel.csv
+    const std::string table =
+      like(like(file, "^(reference_patch|patch_.*)[.]", "patch."), "^peak_stress_wheel", "peak_stress");
+    const std::string name =
+      like(like(like(heading, "^support_-?[0-9]+_", "support_0_"), "^wheel_[0-9]+_", "wheel_2_"),
+           "^cell_[0-9]+_", "cell_1_");
+    static const std::vector<TableDescription> tables = tables_of_a_run();
+    for (const TableDescription &candidate : tables)
+      if (candidate.file == table)
+        for (const TableDescription::Line &column : candidate.columns)
+          if (column.heading == name)
+            return column.about;
+    return "";
   }
 } // namespace tread

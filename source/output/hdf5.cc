@@ -65,13 +65,17 @@ namespace tread
             for (const std::string &word : table.words(column))
               states.push_back(word == "slip" ? 2 : 1);
             write_rows(group, column, states);
-            set_attribute_of(group, column, "meaning", "1: adhesion, 2: slip");
+            set_attribute_of(group, column, "values", "1: adhesion, 2: slip");
           }
         else
           {
             write_rows(group, column, table.column_as_it_is(column));
             set_attribute_of(group, column, "unit", unit_of_heading(column));
           }
+      const std::string file_name = std::filesystem::path(path).filename();
+      for (const std::string &column : table.names())
+        if (const std::string about = about_column(file_name, column); !about.empty())
+          set_attribute_of(group, column, "meaning", about);
     }
   } // namespace
 

@@ -11,23 +11,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    /// Columns of arrays of values in SI units, in their order.
-    template <std::size_t n>
-    Columns<std::array<double, n>> columns_of(
-      const std::array<std::pair<const char *, const char *>, n> &names)
-    {
-      Columns<std::array<double, n>> columns;
-      for (std::size_t k = 0; k < n; ++k)
-        columns.push_back({names[k].first, names[k].second, [k](const std::array<double, n> &row) {
-                             return row[k];
-                           }});
-      return columns;
-    }
-  } // namespace
-
-
   void RunFolder::write_rail_tables(const ExplicitDynamics &dynamics,
                                     const unsigned int      body,
                                     const double            depth) const
@@ -74,22 +57,7 @@ namespace tread
     };
     if (!writes_tables)
       return;
-    write_rows("rail_cells.csv",
-               columns_of<11>({{{"x", "mm"},
-                                {"y", "mm"},
-                                {"z", "mm"},
-                                {"von_mises", "MPa"},
-                                {"stress_xx", "MPa"},
-                                {"stress_yy", "MPa"},
-                                {"stress_zz", "MPa"},
-                                {"stress_xy", "MPa"},
-                                {"stress_yz", "MPa"},
-                                {"stress_zx", "MPa"},
-                                {"equivalent_plastic_strain", "percent"}}}),
-               all_cells);
-    write_rows(
-      "rail_surface.csv",
-      columns_of<6>({{{"x", "mm"}, {"y", "mm"}, {"z", "mm"}, {"u_x", "um"}, {"u_y", "um"}, {"u_z", "um"}}}),
-      all_nodes);
+    write_rows("rail_cells.csv", rail_cell_columns(), all_cells);
+    write_rows("rail_surface.csv", rail_surface_columns(), all_nodes);
   }
 } // namespace tread

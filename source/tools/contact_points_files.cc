@@ -26,40 +26,49 @@ namespace tread
 
     Columns<Row> columns(const double rail_y)
     {
-      Columns<Row> list{{"lateral_shift", "mm",
-                         [](const Row &r) {
-                           return r.wheelset.position.shift;
-                         }},
-                        {"roll", "rad",
-                         [](const Row &r) {
-                           return r.wheelset.position.roll;
-                         }},
-                        {"height", "mm",
-                         [](const Row &r) {
-                           return r.wheelset.position.height;
-                         }},
-                        {"radius_difference", "mm",
-                         [](const Row &r) {
-                           return r.wheelset.radius_difference();
-                         }},
-                        {"equivalent_conicity", "", [](const Row &r) {
-                           return r.conicity;
-                         }}};
+      Columns<Row> list{
+        {"lateral_shift", "mm", "Of the wheelset to its own side",
+         [](const Row &r) {
+           return r.wheelset.position.shift;
+         }},
+        {"roll", "rad", "At which both wheels touch, positive: the own side goes down",
+         [](const Row &r) {
+           return r.wheelset.position.roll;
+         }},
+        {"height", "mm", "Of the wheelset's middle over the radius, likewise",
+         [](const Row &r) {
+           return r.wheelset.position.height;
+         }},
+        {"radius_difference", "mm", "Rolling radius of the own wheel less that of the other one",
+         [](const Row &r) {
+           return r.wheelset.radius_difference();
+         }},
+        {"equivalent_conicity", "",
+         "For a lateral motion with this amplitude; nan where a side is not reached", [](const Row &r) {
+           return r.conicity;
+         }}};
       for (const auto &[name, wheel] :
            {std::pair("own", &TouchingWheelset::own), std::pair("other", &TouchingWheelset::other)})
         {
           const std::string side = name;
-          const auto        add  = [&, wheel = wheel](const char *what, const char *unit, const auto &value) {
-            list.push_back({side + "_" + what, unit, [wheel, value](const Row &r) {
+          const auto        add  = [&, wheel = wheel](const char *what, const char *unit, const char *about,
+                                              const auto &value) {
+            list.push_back({side + "_" + what, unit, about, [wheel, value](const Row &r) {
                               return value(r.wheelset.*wheel);
                             }});
           };
-          add("x", "mm", [](const TouchingWheel &w) { return w.x; });
-          add("y", "mm", [](const TouchingWheel &w) { return w.y; });
-          add("y_rail", "mm", [rail_y](const TouchingWheel &w) { return w.y - rail_y; });
-          add("y_wheel", "mm", [](const TouchingWheel &w) { return w.wheel_y; });
-          add("angle", "rad", [](const TouchingWheel &w) { return w.angle; });
-          add("rolling_radius", "mm", [](const TouchingWheel &w) { return w.rolling_radius; });
+          add("x", "mm", "Contact ahead of the axle, in the track",
+              [](const TouchingWheel &w) { return w.x; });
+          add("y", "mm", "From the middle of the track to the side of the wheel",
+              [](const TouchingWheel &w) { return w.y; });
+          add("y_rail", "mm", "From the middle of the rail's top, + to the field side",
+              [rail_y](const TouchingWheel &w) { return w.y - rail_y; });
+          add("y_wheel", "mm", "On the wheel's profile from its running circle, + to the field side",
+              [](const TouchingWheel &w) { return w.wheel_y; });
+          add("angle", "rad", "Inclination of the rail there, + where it falls to the gauge side",
+              [](const TouchingWheel &w) { return w.angle; });
+          add("rolling_radius", "mm", "Of the wheel there",
+              [](const TouchingWheel &w) { return w.rolling_radius; });
         }
       return list;
     }
@@ -94,6 +103,12 @@ namespace tread
       return complaint;
     }
   } // namespace
+
+
+  TableDescription table_of_contact_points()
+  {
+    return describe("contact_points.csv", columns(0.));
+  }
 
 
   void write_contact_points(const Scene                &scene,

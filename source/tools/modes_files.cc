@@ -73,42 +73,47 @@ namespace tread
     const Columns<ModeRow> &mode_columns()
     {
       using R          = ModeRow;
-      const auto value = [](const std::string &name, const std::string &unit, double R::*member) {
-        return Column<R>{name, unit, [member](const R &r) {
+      const auto value = [](const std::string &name, const std::string &unit, const std::string &about,
+                            double R::*member) {
+        return Column<R>{name, unit, about, [member](const R &r) {
                            return r.*member;
                          }};
       };
-      const auto word = [](const std::string &name, std::string R::*member) {
-        return Column<R>{name, "", {}, [member](const R &r) {
+      const auto word = [](const std::string &name, const std::string &about, std::string R::*member) {
+        return Column<R>{name, "", about, {}, [member](const R &r) {
                            return r.*member;
                          }};
       };
-      static const Columns<R> columns{{"number", "",
-                                       [](const R &r) {
-                                         return r.number;
-                                       }},
-                                      value("frequency", "Hz", &R::frequency),
-                                      word("body", &R::body),
-                                      value("rail_share", "", &R::rail),
-                                      value("sleeper_share", "", &R::sleepers),
-                                      value("rim_share", "", &R::rim),
-                                      value("web_share", "", &R::web),
-                                      value("hub_share", "", &R::hub),
-                                      value("sprung_share", "", &R::sprung),
-                                      value("vertical_share", "", &R::vertical),
-                                      value("lateral_share", "", &R::lateral),
-                                      value("longitudinal_share", "", &R::longitudinal),
-                                      value("contact_amplitude", "per_sqrt_kg", &R::contact),
-                                      value("axle_amplitude", "per_sqrt_kg", &R::axle),
-                                      value("pad_amplitude", "per_sqrt_kg", &R::pad),
-                                      value("pad_elongation", "per_sqrt_kg", &R::pad_elongation),
-                                      value("damping_share", "", &R::damping_share),
-                                      {"waves", "",
-                                       [](const R &r) {
-                                         return r.waves;
-                                       }},
-                                      value("half_wave", "mm", &R::half_wave),
-                                      word("description", &R::description)};
+      static const Columns<R> columns{
+        {"number", "", "From the lowest frequency on",
+         [](const R &r) {
+           return r.number;
+         }},
+        value("frequency", "Hz", "Of the mode", &R::frequency),
+        word("body", "wheel or track", &R::body),
+        value("rail_share", "", "Of the kinetic energy, in the rail", &R::rail),
+        value("sleeper_share", "", "In the sleepers", &R::sleepers),
+        value("rim_share", "", "In the wheel's rim", &R::rim),
+        value("web_share", "", "In the wheel's web", &R::web),
+        value("hub_share", "", "In the hub", &R::hub),
+        value("sprung_share", "", "In the sprung mass", &R::sprung),
+        value("vertical_share", "", "Of the kinetic energy, that of motion upwards", &R::vertical),
+        value("lateral_share", "", "Across", &R::lateral),
+        value("longitudinal_share", "", "Along the rail", &R::longitudinal),
+        value("contact_amplitude", "per_sqrt_kg", "Vertical amplitude at the contact for unit modal mass",
+              &R::contact),
+        value("axle_amplitude", "per_sqrt_kg", "The same of the axle", &R::axle),
+        value("pad_amplitude", "per_sqrt_kg", "The same of the rail's foot over the pads, the largest",
+              &R::pad),
+        value("pad_elongation", "per_sqrt_kg", "Largest elongation of a pad, likewise", &R::pad_elongation),
+        value("damping_share", "", "Damping matrix projected on the mode, over critical damping",
+              &R::damping_share),
+        {"waves", "", "Half waves along the rail, or nodal diameters of the wheel; -1: neither",
+         [](const R &r) {
+           return r.waves;
+         }},
+        value("half_wave", "mm", "Along the rail; 0: none", &R::half_wave),
+        word("description", "In words", &R::description)};
       return columns;
     }
 
@@ -123,29 +128,30 @@ namespace tread
     const Columns<ReceptanceRow> &receptance_columns()
     {
       using R = ReceptanceRow;
-      static const Columns<R> columns{{"frequency", "Hz",
-                                       [](const R &r) {
-                                         return r.frequency;
-                                       }},
-                                      {"rail_magnitude", "m_per_N",
-                                       [](const R &r) {
-                                         return std::abs(r.rail);
-                                       }},
-                                      {"rail_phase", "degrees",
-                                       [](const R &r) {
-                                         return 180. / pi * std::arg(r.rail);
-                                       }},
-                                      {"wheel_magnitude", "m_per_N",
-                                       [](const R &r) {
-                                         return std::abs(r.wheel);
-                                       }},
-                                      {"wheel_phase", "degrees",
-                                       [](const R &r) {
-                                         return 180. / pi * std::arg(r.wheel);
-                                       }},
-                                      {"contact_force", "N_per_m", [](const R &r) {
-                                         return r.contact_force;
-                                       }}};
+      static const Columns<R> columns{
+        {"frequency", "Hz", "Of the force",
+         [](const R &r) {
+           return r.frequency;
+         }},
+        {"rail_magnitude", "m_per_N", "Vertical displacement of the rail at the contact for a force there",
+         [](const R &r) {
+           return std::abs(r.rail);
+         }},
+        {"rail_phase", "degrees", "Its phase behind the force, negative",
+         [](const R &r) {
+           return 180. / pi * std::arg(r.rail);
+         }},
+        {"wheel_magnitude", "m_per_N", "The same of the wheel",
+         [](const R &r) {
+           return std::abs(r.wheel);
+         }},
+        {"wheel_phase", "degrees", "Likewise",
+         [](const R &r) {
+           return 180. / pi * std::arg(r.wheel);
+         }},
+        {"contact_force", "N_per_m", "Contact force for a roughness of unit amplitude", [](const R &r) {
+           return r.contact_force;
+         }}};
       return columns;
     }
 
@@ -520,6 +526,12 @@ namespace tread
         system.guide_nodes(supports->guided_nodes(0), 0);
     }
   } // namespace
+
+
+  std::vector<TableDescription> tables_of_modes()
+  {
+    return {describe("modes.csv", mode_columns()), describe("receptance.csv", receptance_columns())};
+  }
 
 
   void write_modes(const Scene        &scene,

@@ -77,7 +77,9 @@ namespace
         const auto entry = row.find(name);
         check.that(table + ": " + name + " is " + word, entry != row.end() && entry->second == word);
       }
-    // run.h5 has the units beside its columns.
+    // run.h5 has the units and what they mean beside its columns.
+    for (const Column<Record> &column : columns)
+      check.that(table + ": meaning of " + column.name, !column.about.empty());
     for (const Column<Record> &column : columns)
       check.that(table + ": unit of " + column.name + " is '" + column.unit + "'",
                  unit_of_heading(column.name + (column.unit.empty() ? "" : "_" + column.unit)) ==

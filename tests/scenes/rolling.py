@@ -540,6 +540,8 @@ with tempfile.TemporaryDirectory() as folder:
             check.that("run.h5: states", [{1: "adhesion", 2: "slip"}[state] for state in all_tables["patches/state"][:]] == [row["state"] for row in patches])
             check.that("run.h5: units", [all_tables[column].attrs["unit"] for column in ("history/normal_force_N", "patch/slip_x_m_per_s", "history/creepage",
                        "patches/area_mm2")] == ["N", "m_per_s", "", "mm2"])
+            with open(os.path.join(ROOT, "doc", "columns.md"), encoding="utf-8") as page:
+                check.that("run.h5: meanings, as the page of columns has them", f"| `slip_x_m_per_s` | m/s | {all_tables['patches/slip_x_m_per_s'].attrs['meaning']} |" in page.read())
             check.that("run.h5: parameters", all_tables["parameters"].attrs["Output/Surface interval (mm)"] == "4")
             check.that("run.h5: summary", json.loads(all_tables["summary.json"][()]) == read_summary(path("files")))
         # A reader sees a small part of what the tables have as text.

@@ -8,6 +8,7 @@
 #include <tread/output/records.h>
 #include <tread/track/rail_seats.h>
 
+#include <array>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -19,8 +20,9 @@ namespace tread
   template <typename Record>
   struct Column
   {
-    std::string name; ///< of the quantity
-    std::string unit; ///< as in the heading; empty: a pure number
+    std::string name;  ///< of the quantity
+    std::string unit;  ///< as in the heading; empty: a pure number
+    std::string about; ///< what it is, a line
     /// In SI units; the factor to the column's unit follows from its name.
     std::function<double(const Record &)> value;
     /// A word instead of a number, if it is given.
@@ -36,14 +38,41 @@ namespace tread
   /// The unit that a column's heading ends with, such as m_per_s of slip_x_m_per_s; "" of a pure number.
   std::string unit_of_heading(const std::string &heading);
 
-  /// Names with their units, separated by commas, without an end of line.
+  /// What the heading has for a column: its name with its unit.
+  template <typename Record>
+  std::string heading(const Column<Record> &column)
+  {
+    return column.name + (column.unit.empty() ? "" : "_" + column.unit);
+  }
+
+  /// Those of all, separated by commas, without an end of line.
   template <typename Record>
   std::string heading(const Columns<Record> &columns)
   {
     std::string line;
     for (const Column<Record> &column : columns)
-      line += (line.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : "_" + column.unit);
+      line += (line.empty() ? "" : ",") + heading(column);
     return line;
+  }
+
+  /// A table for those who read it.
+  struct TableDescription
+  {
+    struct Line
+    {
+      std::string heading, unit, about;
+    };
+    std::string       file;
+    std::vector<Line> columns;
+  };
+
+  template <typename Record>
+  TableDescription describe(const std::string &file, const Columns<Record> &columns)
+  {
+    TableDescription table{file, {}};
+    for (const Column<Record> &column : columns)
+      table.columns.push_back({heading(column), column.unit, column.about});
+    return table;
   }
 
   /// A row with its end of line.
@@ -87,6 +116,17 @@ namespace tread
   const Columns<StripColumn>        &strip_columns();
   const Columns<StressPeaks::Layer> &peak_columns();
   const Columns<RailSeatPoint>      &rail_seat_columns();
+  /// rail_cells.csv: middle, von Mises stress, Cauchy stress xx, yy, zz, xy, yz, zx, plastic strain.
+  const Columns<std::array<double, 11>> &rail_cell_columns();
+  /// rail_surface.csv: place and displacement.
+  const Columns<std::array<double, 6>> &rail_surface_columns();
+
+  /// All tables that a run can leave, with all columns that they can have: one support, 0, the second one of
+  /// several wheels, and one cell stand for others.
+  std::vector<TableDescription> tables_of_a_run();
+
+  /// Of a column in one of them, whatever numbers its name has; empty: it is none. @param file its name
+  std::string about_column(const std::string &file, const std::string &heading);
 } // namespace tread
 
 #endif

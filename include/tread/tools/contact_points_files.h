@@ -2,6 +2,7 @@
 #ifndef tread_tools_contact_points_files_h
 #define tread_tools_contact_points_files_h
 
+#include <tread/output/columns.h>
 #include <tread/scene/scene.h>
 
 #include <mpi.h>
@@ -17,6 +18,9 @@ namespace tread
     double to_mm   = 10.;  ///< largest lateral shift to both sides
     double step_mm = 0.25; ///< between shifts
   };
+
+  /// That which write_contact_points() leaves.
+  TableDescription table_of_contact_points();
 
   /// Where the rigid wheels of a wheelset touch their rails over the lateral shift, with the rolling radii
   /// and the equivalent conicity: contact_points.csv. @throws InputError

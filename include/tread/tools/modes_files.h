@@ -2,11 +2,13 @@
 #ifndef tread_tools_modes_files_h
 #define tread_tools_modes_files_h
 
+#include <tread/output/columns.h>
 #include <tread/scene/scene.h>
 
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace tread
 {
@@ -16,6 +18,9 @@ namespace tread
     bool   wanted = false;
     double up_to  = 2000.; ///< Hz
   };
+
+  /// Those that write_modes() leaves.
+  std::vector<TableDescription> tables_of_modes();
 
   /// Compute the eigenmodes of the first wheel, free in space and under its suspension, and of the track, on
   /// the meshes of a run, and the receptances of wheel and rail where they touch. Writes modes.csv,

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/output/columns.h>
+#include <tread/tools/contact_points_files.h>
+#include <tread/tools/modes_files.h>
+#include <tread/tools/print_columns.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tread
+{
+  void print_columns(std::ostream &out)
+  {
+    std::vector<TableDescription> tables = tables_of_a_run();
+    for (const TableDescription &table : tables_of_modes())
+      tables.push_back(table);
+    tables.push_back(table_of_contact_points());
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const TableDescription &table : tables)
+      {
+        nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+        for (const TableDescription::Line &column : table.columns)
+          columns.push_back({{"name", column.heading}, {"unit", column.unit}, {"meaning", column.about}});
+        list.push_back({{"file", table.file}, {"columns", columns}});
+      }
+    out << list.dump(2) << '\n';
+  }
+} // namespace tread
