@@ -24,6 +24,7 @@ This page is written by `contrib/columns-page.py`.
 """
 OTHERS = {"patch.csv": "Likewise `patch_averaged.csv`, `reference_patch.csv` and those of further wheels, `patch_wheel_2.csv`.",
           "peak_stress.csv": "Likewise `peak_stress_wheel.csv`.",
+          "wheel_profile.csv": "The wheel where it stands in the middle of the track.",
           "contact_points.csv": "`own_` and `other_` wheel are each in the axes of their own side."}
 
 

@@ -73,6 +73,46 @@ namespace tread
       return list;
     }
 
+    Columns<Vector3d> profile_columns(const double rail_y)
+    {
+      Columns<Vector3d> list{{"y", "mm", "From the middle of the track to the own side",
+                              [](const Vector3d &p) {
+                                return p[1];
+                              }},
+                             {"y_rail", "mm", "From the middle of the rail's top, + to the field side",
+                              [rail_y](const Vector3d &p) {
+                                return p[1] - rail_y;
+                              }},
+                             {"z", "mm", "From the plane on the rail tops, upwards", [](const Vector3d &p) {
+                                return p[2];
+                              }}};
+      return list;
+    }
+
+    /// Both profiles in the track as they are taken, the wheel's where it stands in a position.
+    void write_profiles(const WheelOnRail      &surfaces,
+                        const WheelsetPosition &position,
+                        const RunFolder        &folder)
+    {
+      constexpr double spacing = 0.25e-3; // m
+      const auto       points  = [](const ProfileCurve &curve, const auto &in_track) {
+        const auto            n = static_cast<unsigned int>(std::ceil(curve.length() / spacing));
+        std::vector<Vector3d> list;
+        for (unsigned int i = 0; i <= n; ++i)
+          list.push_back(in_track(curve.at(curve.length() * i / n)));
+        return list;
+      };
+      const Columns<Vector3d> columns = profile_columns(surfaces.rail_origin_y());
+      folder.write_table("rail_profile.csv", columns,
+                         points(surfaces.rail().curve(), [](const ProfileCurve::Place &p) {
+                           return Vector3d{0., p.y, p.z};
+                         }));
+      folder.write_table("wheel_profile.csv", columns,
+                         points(surfaces.wheel(), [&](const ProfileCurve::Place &p) {
+                           return surfaces.place(position, p.y, p.z, 0.);
+                         }));
+    }
+
     /// One row for each shift at which both wheels meet their rails. @returns the first complaint otherwise.
     std::string make_rows(const WheelOnRail          &surfaces,
                           const Scene                &scene,
@@ -105,9 +145,10 @@ namespace tread
   } // namespace
 
 
-  TableDescription table_of_contact_points()
+  std::vector<TableDescription> tables_of_contact_points()
   {
-    return describe("contact_points.csv", columns(0.));
+    return {describe("contact_points.csv", columns(0.)), describe("rail_profile.csv", profile_columns(0.)),
+            describe("wheel_profile.csv", profile_columns(0.))};
   }
 
 
@@ -131,6 +172,10 @@ namespace tread
 
     RunFolder folder(path, comm);
     folder.write_table("contact_points.csv", columns(surfaces.rail_origin_y()), rows);
+    const Row &middle = *std::min_element(rows.begin(), rows.end(), [](const Row &a, const Row &b) {
+      return std::abs(a.number) < std::abs(b.number);
+    });
+    write_profiles(surfaces, middle.wheelset.position, folder);
 
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
     progress.say(format(
@@ -170,6 +215,6 @@ namespace tread
         "note: 'Wheel/Lateral position (mm)' does not count here: the lateral shift of the wheelset "
         "takes its place");
     progress.say(format("\nfinished in %.2f s. Results in ", progress.seconds()) + folder.path("") +
-                 ": contact_points.csv");
+                 ": contact_points.csv, rail_profile.csv, wheel_profile.csv");
   }
 } // namespace tread

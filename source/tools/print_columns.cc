@@ -11,9 +11,8 @@ namespace tread
   void print_columns(std::ostream &out)
   {
     std::vector<TableDescription> tables = tables_of_a_run();
-    for (const TableDescription &table : tables_of_modes())
-      tables.push_back(table);
-    tables.push_back(table_of_contact_points());
+    for (const auto &more : {tables_of_modes(), tables_of_contact_points()})
+      tables.insert(tables.end(), more.begin(), more.end());
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const TableDescription &table : tables)
       {

@@ -7,6 +7,8 @@ import os
 import sys
 import tempfile
 
+import numpy as np
+
 from tread.manchester import positions, solve
 from tread.runs import ROOT, execute
 from tread_runner import Check, rows_of, run, table
@@ -91,6 +93,13 @@ with tempfile.TemporaryDirectory() as folder:
     result = execute([RIGHT, "--contact-points", "--output", path("points")], program=program)
     check.that("--contact-points ends well", result.returncode == 0)
     points = table(path("points"), "contact_points.csv")
+    # The wheel stands on the rail where the table says so.
+    rail, wheel = (table(path("points"), f"{body}_profile.csv") for body in ("rail", "wheel"))
+    middle = points["lateral_shift_mm"].index(0.)
+    gaps = [(z - np.interp(y, rail["y_mm"], rail["z_mm"]), y) for y, z in zip(wheel["y_mm"], wheel["z_mm"]) if abs(y - points["own_y_mm"][middle]) < 15.]
+    check.absolute("profiles: gap where the wheel is nearest, mm", min(gaps)[0], 0., 2e-3)
+    check.absolute("profiles: there it touches, mm", min(gaps)[1], points["own_y_mm"][middle], 1.)
+    check.absolute("profiles: the rail's top, mm", max(rail["z_mm"]), 0., 1e-3)
     check.that("81 shifts from -10 to 10 mm", len(points["lateral_shift_mm"]) == 81 and points["lateral_shift_mm"][0] == -10.)
     difference = points["radius_difference_mm"]
     check.absolute("radius difference is odd, um", 1e3 * max(abs(a + b) for a, b in zip(difference, reversed(difference))), 0., 0.01)

@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace tread
 {
@@ -19,11 +20,12 @@ namespace tread
     double step_mm = 0.25; ///< between shifts
   };
 
-  /// That which write_contact_points() leaves.
-  TableDescription table_of_contact_points();
+  /// Those that write_contact_points() leaves.
+  std::vector<TableDescription> tables_of_contact_points();
 
   /// Where the rigid wheels of a wheelset touch their rails over the lateral shift, with the rolling radii
-  /// and the equivalent conicity: contact_points.csv. @throws InputError
+  /// and the equivalent conicity: contact_points.csv; and the profiles as they are taken, the wheel's where
+  /// it stands nearest to the middle of the track: rail_profile.csv, wheel_profile.csv. @throws InputError
   void write_contact_points(const Scene                &scene,
                             const ContactPointsRequest &request,
                             const std::string          &path,

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..plots import BLUE, GREEN, RED, subplots
+from ..plots import BLUE, GREEN, RED, name_sides, subplots
 from ..runs import Run
 
 
@@ -39,6 +39,26 @@ def draw_contact_points(run: Run) -> Figure:
     return figure
 
 
+def draw_profiles(run: Run) -> Figure:
+    """Both profiles of the own side as they were read, in the track, and where they touch over the shift."""
+    table = run.table("contact_points.csv", ("lateral_shift_mm", "own_y_rail_mm"))
+    rail, wheel = (run.table(f"{body}_profile.csv", ("y_rail_mm", "z_mm")) for body in ("rail", "wheel"))
+    figure, axis = subplots(1, 1, figsize=(11, 5.4))
+    axis.plot(rail["y_rail_mm"], rail["z_mm"], color="black", lw=1.6, label="rail")
+    axis.plot(wheel["y_rail_mm"], wheel["z_mm"], color=BLUE, lw=1.6, label="wheel, where it stands in the middle of the track")
+    touches = table["own_y_rail_mm"]
+    along = np.argsort(rail["y_rail_mm"], kind="stable")
+    points = axis.scatter(touches, np.interp(touches, rail["y_rail_mm"][along], rail["z_mm"][along]), c=table["lateral_shift_mm"], cmap="coolwarm", s=26,
+                          edgecolors="black", linewidths=0.4, zorder=3, label="contact on the rail")
+    figure.colorbar(points, ax=axis, label="lateral shift [mm],\n+ own flange to its rail", shrink=0.6)
+    axis.set(xlabel="y from the middle of the rail's top [mm]", ylabel="z from the rail tops [mm]", aspect="equal",
+             title="profiles as they were read, in the track")
+    name_sides(axis)
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=3)
+    return figure
+
+
 def figures(run: Run) -> Iterator[tuple[str, Figure]]:
     if run.has("contact_points.csv"):
         yield "contact-points", draw_contact_points(run)
+        yield "profiles", draw_profiles(run)
