@@ -187,14 +187,14 @@ namespace tread
       return {straight, surfaces.wheel_origin_y() * (before[0] - after[0])};
     }
 
-    /// @param position of a straight axle
     WheelPatch solve_patch(const WheelOnRail         &surfaces,
                            const WheelRolling        &rolling,
-                           const WheelsetPosition    &position,
+                           const Straightened        &straight,
                            const WheelOnRail::Region &region)
     {
-      WheelPatch    patch;
-      const Heights heights(surfaces, position, region);
+      const WheelsetPosition &position = straight.position;
+      WheelPatch              patch;
+      const Heights           heights(surfaces, position, region);
       patch.region = region;
 
       // Velocity of the wheel's undeformed surface on the normal of the reference point; the rail is at rest.
@@ -245,15 +245,16 @@ namespace tread
       c.gap  = [&heights](const double x, const double s) {
         return heights.gap(x, s);
       };
-      static_cast<reference::Friction &>(c) =
-        rolling.friction_along ? rolling.friction_along(region.reference[0]) : reference::Friction(rolling);
-      c.speed        = V;
-      c.longitudinal = patch.creepage;
-      c.lateral      = patch.lateral_creepage;
-      c.spin         = patch.spin;
-      c.wheel        = rolling.wheel;
-      c.rail         = rolling.rail;
-      c.order        = rolling.order;
+      static_cast<reference::Friction &>(c) = rolling.friction_along
+                                                ? rolling.friction_along(region.reference[0] + straight.ahead)
+                                                : reference::Friction(rolling);
+      c.speed                               = V;
+      c.longitudinal                        = patch.creepage;
+      c.lateral                             = patch.lateral_creepage;
+      c.spin                                = patch.spin;
+      c.wheel                               = rolling.wheel;
+      c.rail                                = rolling.rail;
+      c.order                               = rolling.order;
       if (rolling.slip_follows_surface)
         c.more_slip = [&heights, at_origin, by_x = turning[0] / V, by_s = dot(turning, heights.along()) / V](
                         const double, const double s) -> std::array<double, 2> {
@@ -320,7 +321,7 @@ namespace tread
     const Straightened straight = straightened(surfaces, position, rolling.own);
     for (const WheelOnRail::Region &region : surfaces.overlaps(straight.position, rolling.separation))
       {
-        contact.patches.push_back(solve_patch(surfaces, rolling, straight.position, region));
+        contact.patches.push_back(solve_patch(surfaces, rolling, straight, region));
         contact.patches.back().region.reference[0] += straight.ahead;
         const Vector3d force = contact.patches.back().force();
         for (unsigned int d = 0; d < 3; ++d)

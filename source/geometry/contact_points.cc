@@ -65,43 +65,52 @@ namespace tread
   {
     constexpr double coarse = 0.25e-3; // m, half of it is looked at
     const int        n      = std::max(2, static_cast<int>(std::ceil(largest / coarse)));
-    for (int i = -n; i <= n; ++i)
-      add(surfaces, position, largest * i / n);
-    for (int i = -n; i < n; ++i)
-      refine(surfaces, position, largest * i / n, largest * (i + 1) / n);
+    add(surfaces, position, 0., 0.);
+    for (const double to_side : {largest, -largest})
+      for (int i = 1; i <= n; ++i)
+        {
+          add(surfaces, position, to_side * i / n, to_side * (i - 1) / n);
+          refine(surfaces, position, to_side * (i - 1) / n, to_side * i / n);
+        }
   }
 
 
-  void RadiusDifferences::add(const WheelOnRail &surfaces, WheelsetPosition position, const double shift)
+  void RadiusDifferences::add(const WheelOnRail &surfaces,
+                              WheelsetPosition   position,
+                              const double       shift,
+                              const double       from)
   {
-    position.shift = shift;
-    position.roll  = 0.;
+    const auto known = touching.find(from);
+    position.shift   = shift;
+    position.roll    = known == touching.end() ? 0. : known->second.roll;
     try
       {
-        differences[shift] = touching_wheelset(surfaces, position).radius_difference();
+        const TouchingWheelset found = touching_wheelset(surfaces, position);
+        touching[shift]              = {found.radius_difference(), found.position.roll};
       }
     catch (const std::runtime_error &)
       {
-        differences[shift] = std::numeric_limits<double>::quiet_NaN();
-        reach              = std::min(reach, std::abs(shift));
+        touching[shift] = {std::numeric_limits<double>::quiet_NaN(), position.roll};
+        reach           = std::min(reach, std::abs(shift));
       }
   }
 
 
   void RadiusDifferences::refine(const WheelOnRail      &surfaces,
                                  const WheelsetPosition &position,
-                                 const double            begin,
-                                 const double            end)
+                                 const double            inner,
+                                 const double            outer)
   {
     constexpr double smallest = 1e-6, tolerance = 2e-6; // m
-    const double     middle = 0.5 * (begin + end), expected = 0.5 * (differences[begin] + differences[end]);
-    if (end - begin < smallest || std::isnan(expected))
+    const double     middle = 0.5 * (inner + outer),
+                 expected   = 0.5 * (touching[inner].difference + touching[outer].difference);
+    if (std::abs(outer - inner) < smallest || std::isnan(expected))
       return;
-    add(surfaces, position, middle);
-    if (std::abs(differences[middle] - expected) > tolerance)
+    add(surfaces, position, middle, inner);
+    if (std::abs(touching[middle].difference - expected) > tolerance)
       {
-        refine(surfaces, position, begin, middle);
-        refine(surfaces, position, middle, end);
+        refine(surfaces, position, inner, middle);
+        refine(surfaces, position, middle, outer);
       }
   }
 
@@ -109,14 +118,14 @@ namespace tread
   double RadiusDifferences::conicity(const double amplitude) const
   {
     constexpr double round_off = 1e-12; // m
-    if (!(amplitude > 0.) || amplitude >= reach || amplitude > differences.rbegin()->first + round_off)
+    if (!(amplitude > 0.) || amplitude >= reach || amplitude > touching.rbegin()->first + round_off)
       return std::numeric_limits<double>::quiet_NaN();
     std::vector<double> shifts, values;
-    for (const auto &[shift, value] : differences)
-      if (!std::isnan(value))
+    for (const auto &[shift, there] : touching)
+      if (!std::isnan(there.difference))
         {
           shifts.push_back(shift);
-          values.push_back(value);
+          values.push_back(there.difference);
         }
     return equivalent_conicity(shifts, values, amplitude);
   }

@@ -71,7 +71,8 @@ namespace tread
       text = std::regex_replace(
         text, std::regex(R"(\[(Double|Integer range) (\S*?)\.\.\.(\S*) \(inclusive\)\])"), "$2 to $3");
       text = std::regex_replace(text, std::regex(R"(\[Bool\])"), "true or false");
-      text = std::regex_replace(text, std::regex("-MAX_DOUBLE to MAX_DOUBLE"), "a finite number");
+      text =
+        std::regex_replace(text, std::regex("(a number from )?-MAX_DOUBLE to MAX_DOUBLE"), "a finite number");
       text = std::regex_replace(text, std::regex("-MAX_DOUBLE to "), "at most ");
       return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }

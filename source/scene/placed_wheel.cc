@@ -403,11 +403,21 @@ namespace tread
 
   Body PlacedWheel::of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const
   {
-    Body body = make(sides.front());
-    if (sides.size() > 1)
-      body = join(body, make(sides.back()));
-    body.name = name;
-    return body;
+    try
+      {
+        Body body = make(sides.front());
+        if (sides.size() > 1)
+          body = join(body, make(sides.back()));
+        body.name = name;
+        return body;
+      }
+    catch (const std::invalid_argument &error) // of the mesh
+      {
+        throw InputError(
+          name + ": " + error.what() +
+          "; change 'Mesh/Fine half width (mm)' or 'Fine layers', 'Wheel/Sector width (mm)' or "
+          "'Sector thickness (mm)', which rail and wheel share");
+      }
   }
 
 

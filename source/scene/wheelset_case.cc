@@ -86,6 +86,9 @@ namespace tread
                                                  text_of(std::abs(creepage)) + " of its speed, " +
                                                  text_of(duration * i / n_instants) +
                                                  " s after the start; at most " + text_of(largest));
+        require(!now.angular_velocity || *now.angular_velocity >= 0.,
+                "'Guidance/File' turns the wheel backwards at " + text_of(now.angular_velocity.value_or(0.)) +
+                  " rad/s, " + text_of(duration * i / n_instants) + " s after the start");
         before               = now.y;
         WheelsetSection then = wheelset;
         then.yaw             = now.yaw;
@@ -164,14 +167,14 @@ namespace tread
                 "'Mesh/Finest cell (mm)' " + text_in_mm(mesh.finest_cell) + " is too large for a patch " +
                   text_in_mm(2. * a) + " mm long and " + text_in_mm(2. * b) + " mm wide; at most " +
                   text_in_mm(largest_finest));
-        for (const auto &[name, margin] : {std::pair("Rail/Margin (mm)", rail.margin),
-                                           std::pair("Wheel/Sector margin (mm)", wheel.sector_margin)})
-          require(margin >= 3. * a + std::abs(patch.region.reference[0]),
-                  "'" + std::string(name) + "' " + text_in_mm(margin) +
-                    " lets the patch leave what is meshed; at least three half lengths of the patch, and "
-                    "what it lies "
-                    "ahead of the axle, " +
-                    text_in_mm(3. * a + std::abs(patch.region.reference[0])));
+        const double least = 3. * a + std::abs(patch.region.reference[0]);
+        require(
+          std::min(rail.margin, wheel.sector_margin) >= least,
+          "'Rail/Margin (mm)' " + text_in_mm(rail.margin) + " or 'Wheel/Sector margin (mm)' " +
+            text_in_mm(wheel.sector_margin) +
+            " lets the patch leave what is meshed; both at least three half lengths of the patch and what "
+            "it lies ahead of the axle, " +
+            text_in_mm(least) + " mm");
       }
     check_sector();
     check_plasticity();

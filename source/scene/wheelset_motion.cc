@@ -34,16 +34,26 @@ namespace tread
       return name == "time_s" ||
              std::any_of(columns.begin(), columns.end(), [&](const Column &c) { return name == c.name; });
     };
-    const CsvTable table(
-      file,
-      [&](const std::string &name) {
-        if (!is_known(name))
-          throw InputError(parameter + "'" + file + "' has a column '" + name +
-                           "'; it may have time_s, lateral_shift_mm, yaw_mrad, roll_mrad and "
-                           "angular_velocity_rad_per_s");
-        return true;
-      },
-      parameter + "cannot read '" + file + "'");
+    const CsvTable table = [&] {
+      try
+        {
+          return CsvTable(
+            file,
+            [&](const std::string &name) {
+              if (!is_known(name))
+                throw InputError(parameter + "'" + file + "' has a column '" + name +
+                                 "'; it may have time_s, lateral_shift_mm, yaw_mrad, roll_mrad and "
+                                 "angular_velocity_rad_per_s");
+              return true;
+            },
+            parameter + "cannot read '" + file + "'");
+        }
+      catch (const InputError &error)
+        {
+          const std::string text = error.what();
+          throw InputError((text.rfind(parameter, 0) == 0 ? "" : parameter) + text);
+        }
+    }();
     const std::vector<double> &time = table.column("time_s");
     if (time.size() < 4)
       throw InputError(parameter + "'" + file + "' has " + std::to_string(time.size()) +

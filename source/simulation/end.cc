@@ -179,6 +179,16 @@ namespace tread
     summarise_wheelset(summary, scene, "explicit finite elements", computed, at.rates.angular_velocity,
                        completed);
     summary.set("free_rolling_creepage", wheel.free_creepage);
+    const double rail_y = half_space_wheel.surfaces.rail_origin_y();
+    summary.set("patches", patches_as_json(computed.patches, rail_y));
+    if (!no_half_space.empty())
+      {
+        summary.show("normal_force_N", "vertical force, kN", 1e-3, force[2]);
+        summary.show("longitudinal_force_N", "longitudinal force, kN", 1e-3, force[0]);
+        summary.show("lateral_force_N", "lateral force in the track, kN", 1e-3, force[1]);
+        summary.show("frictional_power_W", "frictional power, W", 1., frictional_power(computed));
+        return table_of_patches(computed.patches, rail_y) + "\n";
+      }
     const Vector3d &half_space = half_space_wheel.contact.force;
     // As good as nothing beside the force that is given.
     const double negligible = 0.01 * scene.wheelset.n_wheels() * scene.static_load();
@@ -189,8 +199,6 @@ namespace tread
                     half_space[1], negligible);
     summary.compare("frictional_power_W", "frictional power, W", 1., frictional_power(computed), "half-space",
                     frictional_power(half_space_wheel.contact));
-    const double rail_y = half_space_wheel.surfaces.rail_origin_y();
-    summary.set("patches", patches_as_json(computed.patches, rail_y));
     summary.set("half_space_patches", patches_as_json(half_space_wheel.patches(), rail_y));
     std::string text = table_of_patches(computed.patches, rail_y, half_space_wheel.patches()) + "\n";
     for (const std::string &limit : limits_of_half_space(half_space_wheel.patches()))
@@ -494,7 +502,8 @@ namespace tread
     std::vector<PatchNode> reference_patch;
     if (scene.is_positioned())
       {
-        reference_patch = placed().table_nodes();
+        if (no_half_space.empty())
+          reference_patch = placed().table_nodes();
         if (const std::string varies = friction_varies_at_end(normal / scene.wheelset.n_wheels());
             !varies.empty())
           note = "the half-space beside is in steady rolling, but " + varies;
@@ -520,6 +529,11 @@ namespace tread
     const std::string further_wheels = add_further_wheels(summary, patches);
     add_cost(summary);
     std::vector<std::string> warnings = quality.warnings();
+    if (!no_half_space.empty())
+      warnings.push_back(
+        "no half-space answer where the wheelset has arrived, and positions, angles and creepages of "
+        "'patches' are those of the start: " +
+        no_half_space);
     if (scene.is_positioned())
       for (const std::string &warning : climbing_patches(placed().surfaces, placed().patches()))
         warnings.push_back(warning);

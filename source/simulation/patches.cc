@@ -15,8 +15,16 @@ namespace tread
   {
     WheelRolling rolling                  = wheel_rolling(scene, scene.path_end());
     static_cast<WheelsetRates &>(rolling) = placement_at_solution->rates;
-    placed_at_solution = std::make_shared<const PlacedWheel>(scene, placement_at_solution->position, rolling);
-    wheels.front().averages_of_patches.assign(placed_at_solution->patches().size(), PatchAverage());
+    try
+      {
+        placed_at_solution =
+          std::make_shared<const PlacedWheel>(scene, placement_at_solution->position, rolling);
+        wheels.front().averages_of_patches.assign(placed_at_solution->patches().size(), PatchAverage());
+      }
+    catch (const InputError &error)
+      {
+        no_half_space = error.what();
+      }
   }
 
 

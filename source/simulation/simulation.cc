@@ -135,7 +135,7 @@ namespace tread
       if (peaks)
         peaks->serialize(archive);
     archive.same(placement_at_solution);
-    if (placement_at_solution && !placed_at_solution)
+    if (placement_at_solution && !placed_at_solution && no_half_space.empty())
       place_at_solution();
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
@@ -569,7 +569,7 @@ namespace tread
     const double  spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step;
     progress.show(
       format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),
-             1e-3 * force[2], force[0] / force[2],
+             1e-3 * force[2], force[2] > 0. ? force[0] / force[2] : 0.,
              1e9 * spent / done / pace.updates_of_step * dealii::Utilities::MPI::n_mpi_processes(comm),
              spent / done * steps_left));
   }
@@ -582,10 +582,11 @@ namespace tread
         dynamics.check_stability(); // nodes that fly apart leave it first
         throw std::runtime_error(
           format("contact leaves what is meshed for it at x = %.2f mm, y = %.2f mm, z = %.2f mm: raise "
-                 "'Mesh/Fine half width (mm)' or "
-                 "change '%s (mm)'",
+                 "'Mesh/Fine half width (mm)' or change %s",
                  1e3 * (*place)[0], 1e3 * (*place)[1], 1e3 * (*place)[2],
-                 scene.is_positioned() ? "Wheelset/Lateral shift" : "Wheel/Lateral position"));
+                 scene.guidance.kind != Guidance::rigid ? "where section 'Guidance' lets the wheelset go"
+                 : scene.is_positioned()                ? "'Wheelset/Lateral shift (mm)'"
+                                                        : "'Wheel/Lateral position (mm)'"));
       }
   }
 } // namespace tread

@@ -120,23 +120,28 @@ namespace tread
                           std::vector<Row>           &rows)
     {
       std::string complaint;
-      const int   n    = static_cast<int>(std::floor(request.to_mm / request.step_mm * (1. + 1e-9)));
-      double      roll = 0.;
-      for (int i = -n; i <= n; ++i)
-        try
-          {
-            WheelsetPosition position = scene.wheelset.position();
-            position.shift            = 1e-3 * i * request.step_mm;
-            position.roll             = roll;
-            rows.push_back({i, touching_wheelset(surfaces, position), 0.});
-            roll = rows.back().wheelset.position.roll;
-          }
-        catch (const std::exception &error)
-          {
-            roll = 0.;
-            if (complaint.empty())
-              complaint = format("at a lateral shift of %g mm ", i * request.step_mm) + error.what();
-          }
+      const int   n = static_cast<int>(std::floor(request.to_mm / request.step_mm * (1. + 1e-9)));
+      // Where wheels may touch at several rolls, as on tread and flange tip, those of the way out of the
+      // middle.
+      for (const int side : {1, -1})
+        {
+          double roll = 0.;
+          for (int i = side > 0 ? 0 : -1; std::abs(i) <= n; i += side)
+            try
+              {
+                WheelsetPosition position = scene.wheelset.position();
+                position.shift            = 1e-3 * i * request.step_mm;
+                position.roll             = roll;
+                rows.push_back({i, touching_wheelset(surfaces, position), 0.});
+                roll = rows.back().wheelset.position.roll;
+              }
+            catch (const std::exception &error)
+              {
+                if (complaint.empty())
+                  complaint = format("at a lateral shift of %g mm ", i * request.step_mm) + error.what();
+              }
+        }
+      std::sort(rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a.number < b.number; });
       const RadiusDifferences differences(surfaces, scene.wheelset.position(), 1e-3 * n * request.step_mm);
       for (Row &row : rows)
         row.conicity = differences.conicity(std::abs(row.wheelset.position.shift));

@@ -180,8 +180,12 @@ namespace tread
                          const double   time_step,
                          const OfSides &on_wheels)
   {
-    const Motion before     = motion;
-    const double moment     = dot(axle(), moment_about_middle);
+    const Motion before = motion;
+    // A wheel that is tilted on its axle turns about its own.
+    double moment = dot(axle(), moment_about_middle);
+    if (flexible)
+      for (const FlexibleAxle::Side side : {FlexibleAxle::own, FlexibleAxle::other})
+        moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
     const double vertical_force = force[2] + static_force() - suspension;
@@ -205,7 +209,8 @@ namespace tread
     if (flexible)
       flexible->advance(
         {{in_chord(unbalanced[FlexibleAxle::own]), in_chord(unbalanced[FlexibleAxle::other])}},
-        {{dot(axle(), on_wheels[FlexibleAxle::own]), dot(axle(), on_wheels[FlexibleAxle::other])}},
+        {{dot(tilted_axle(FlexibleAxle::own), on_wheels[FlexibleAxle::own]),
+          dot(tilted_axle(FlexibleAxle::other), on_wheels[FlexibleAxle::other])}},
         in_chord((1. / time_step) * (tilting() - tilting_before)), inertia_of_wheel(), time_step);
     // with it the angular velocity is as prescribed; includes the weight's moment
     double turning_outside =
@@ -263,10 +268,10 @@ namespace tread
     const Vector3 of_chord = velocity() + cross(turning(), x - middle());
     if (!flexible)
       return of_chord;
-    const FlexibleAxle::Side side  = side_of(x);
-    const double             twist = flexible->twist_rate(side), spin = motion.angular_velocity + twist;
-    const Vector3            tilted = cross(in_space(flexible->tilt(side)), present.y);
-    return of_chord + cross(twist * present.y + spin * tilted + in_space(flexible->tilt_rate(side)),
+    const FlexibleAxle::Side side = side_of(x);
+    const double             spin = motion.angular_velocity + flexible->twist_rate(side);
+    return of_chord + cross(spin * tilted_axle(side) - motion.angular_velocity * present.y +
+                              in_space(flexible->tilt_rate(side)),
                             x - middle_of(side));
   }
 

@@ -168,6 +168,9 @@ with tempfile.TemporaryDirectory() as folder:
               "Wheel/Tread profile", "is it the profile of a rail")
     must_fail("sideways too fast", with_rows("fast.csv", time, lateral_shift_mm=np.linspace(0., 60., 9)), "Guidance/File", "sideways", "at most 0.2")
     must_fail("beyond the rail's head", {"Wheelset/Lateral shift (mm)": -66, **with_rows("beyond.csv", time, lateral_shift_mm=np.linspace(-66., -71., 9))}, "Guidance/File", "after the start", "lateral shift")
+    must_fail("a wheel that turns backwards", {**with_rows("turns.csv", time, angular_velocity_rad_per_s=np.linspace(84., -84., 9)), "Motion/Angular velocity (rad per s)": "by the drive"},
+              "Guidance/File", "backwards")
+    must_fail("a column twice", with_rows("twice.csv", time, lateral_shift_mm=np.zeros(9), **{"lateral_shift_mm ": np.zeros(9)}), "Guidance/File", "lateral_shift_mm")
     must_fail("two angular velocities", with_rows("two.csv", time, angular_velocity_rad_per_s=np.full(9, 84.4)), "Motion/Angular velocity (rad per s)")
     upright = execute([os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--dry-run", "-s", "Guidance/Kind=springs"], program=program)
     check.that("an upright wheel on springs", upright.returncode == 1 and "Guidance/Kind" in upright.stderr and "Wheelset/Lateral shift (mm)" in upright.stderr)

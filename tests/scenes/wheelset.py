@@ -109,6 +109,15 @@ with tempfile.TemporaryDirectory() as folder:
                    ["patches"][0]["y_rail_m"], points["own_y_rail_mm"][40], 2.)
     check.absolute("flange angle at 8 mm, degrees", math.degrees(points["own_angle_rad"][72]), 57., 3.)
 
+    # Steep cones on short profiles touch at several rolls: both sides of the track have the same, that of the way out of the middle.
+    klingel = os.path.join(ROOT, "prm", "curves", "klingel.prm")
+    check.that("contact points of steep cones", execute([klingel, "--contact-points", "--output", path("steep")], program=program).returncode == 0)
+    steep = table(path("steep"), "contact_points.csv")
+    by_shift = dict(zip(steep["lateral_shift_mm"], steep["radius_difference_mm"]))
+    check.that("steep cones: as many shifts to both sides", set(by_shift) == {-shift for shift in by_shift} and len(by_shift) > 50)
+    check.absolute("steep cones: radius difference is odd, um", 1e3 * max(abs(by_shift[shift] + by_shift[-shift]) for shift in by_shift), 0., 0.01)
+    check.absolute("steep cones: at 5 mm both wheels stand on their treads, mm", by_shift[5.], 2.2784, 1e-3)
+
     # What cannot be.
     def must_fail(what, arguments, *words):
         failed = execute([RIGHT, "--output", path("bad"), *arguments], program=program)

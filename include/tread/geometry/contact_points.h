@@ -47,12 +47,17 @@ namespace tread
     double conicity(double amplitude) const;
 
   private:
-    void add(const WheelOnRail &surfaces, WheelsetPosition position, double shift);
-    /// Add what is missing between two shifts whose values are known.
-    void refine(const WheelOnRail &surfaces, const WheelsetPosition &position, double begin, double end);
+    /// @param from a shift that is known, from whose roll the search begins, as there may be several
+    void add(const WheelOnRail &surfaces, WheelsetPosition position, double shift, double from);
+    /// Add what is missing between two shifts whose values are known, from the inner one outwards.
+    void refine(const WheelOnRail &surfaces, const WheelsetPosition &position, double inner, double outer);
 
-    std::map<double, double> differences; ///< by the shift; NaN where a wheel meets no rail (m)
-    double                   reach;       ///< least shift to either side at which a wheel meets no rail (m)
+    struct Touching
+    {
+      double difference, roll; ///< NaN and that of the search where a wheel meets no rail (m, rad)
+    };
+    std::map<double, Touching> touching; ///< by the shift (m)
+    double                     reach;    ///< least shift to either side at which a wheel meets no rail (m)
   };
 
   /// The inclination of the cone that has, under a lateral motion of the amplitude, the same rolling radius

@@ -219,6 +219,7 @@ namespace tread
     /// Of a wheelset that does not stay as it starts, when averaging begins.
     std::optional<Placement>           placement_at_solution;
     std::shared_ptr<const PlacedWheel> placed_at_solution;
+    std::string                        no_half_space; ///< why there is none there
 
     std::uint64_t        last_steps = 0; ///< in the end of the way before the solution instant
     std::vector<Passage> passages;

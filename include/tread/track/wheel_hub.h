@@ -256,6 +256,11 @@ namespace tread
     {
       return tilt.x * present.x + tilt.z * present.z;
     }
+    /// About which a wheel on a flexible axle turns, but for terms of second order in its tilt.
+    Vector3 tilted_axle(const FlexibleAxle::Side side) const
+    {
+      return present.y + cross(in_space(flexible->tilt(side)), present.y);
+    }
     FlexibleAxle::Tilt in_chord(const Vector3 v) const
     {
       return {dot(v, present.x), dot(v, present.z)};

@@ -11,12 +11,16 @@ from matplotlib.figure import Figure
 from ..plots import BLUE, GREEN, RED, name_sides, subplots
 from ..runs import Run
 
+DOTS = {"marker": ".", "markersize": 3.5}  # a row between two gaps is no line
+
 
 def broken(table: dict[str, np.ndarray], values: np.ndarray, sides: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """The line of values over the shift, with gaps where the contact of one of the sides jumps by 2 mm from one shift to the next."""
-    jumps = [np.abs(np.diff(table[f"{side}_{place}_mm"])) > 2. for side in sides for place in ("y_wheel", "y_rail")]
+    """The line of values over the shift, with gaps where the contact of one of the sides jumps from one shift to the next."""
+    shift = table["lateral_shift_mm"]
+    far = 2. + 4. * np.diff(shift)  # mm; on a tread it moves by up to three times the shift
+    jumps = [np.abs(np.diff(table[f"{side}_{place}_mm"])) > far for side in sides for place in ("y_wheel", "y_rail")]
     at = np.flatnonzero(np.any(jumps, axis=0)) + 1
-    return np.insert(table["lateral_shift_mm"], at, np.nan), np.insert(values, at, np.nan)
+    return np.insert(shift, at, np.nan), np.insert(values, at, np.nan)
 
 
 def draw_contact_points(run: Run) -> Figure:
@@ -24,12 +28,12 @@ def draw_contact_points(run: Run) -> Figure:
     shift = table["lateral_shift_mm"]
     figure, axes = subplots(2, 2, figsize=(11, 7.4), sharex=True)
     for side, colour in (("own", BLUE), ("other", RED)):
-        axes[0, 0].plot(*broken(table, table[f"{side}_y_wheel_mm"], (side,)), color=colour, label=f"{side} wheel, on its profile")
-        axes[0, 0].plot(*broken(table, table[f"{side}_y_rail_mm"], (side,)), color=colour, ls="--", label=f"{side} wheel, on the rail")
-        axes[0, 1].plot(*broken(table, np.degrees(table[f"{side}_angle_rad"]), (side,)), color=colour, label=f"{side} wheel")
+        axes[0, 0].plot(*broken(table, table[f"{side}_y_wheel_mm"], (side,)), color=colour, **DOTS, label=f"{side} wheel, on its profile")
+        axes[0, 0].plot(*broken(table, table[f"{side}_y_rail_mm"], (side,)), color=colour, ls="--", **DOTS, label=f"{side} wheel, on the rail")
+        axes[0, 1].plot(*broken(table, np.degrees(table[f"{side}_angle_rad"]), (side,)), color=colour, **DOTS, label=f"{side} wheel")
     axes[0, 0].set(ylabel="y of the contact [mm], + to the field side", title="where they touch; flange and gauge side at y < 0")
     axes[0, 1].set(ylabel="contact angle [degrees]", title="+ where the rail falls to the gauge side, as at the flange")
-    axes[1, 0].plot(*broken(table, table["radius_difference_mm"], ("own", "other")), color=GREEN)
+    axes[1, 0].plot(*broken(table, table["radius_difference_mm"], ("own", "other")), color=GREEN, **DOTS)
     axes[1, 0].set(xlabel="lateral shift of the wheelset [mm],\n+ own flange to its rail", ylabel="rolling radius difference [mm],\nown less other wheel")
     one_side = (shift > 0) & np.isfinite(table["equivalent_conicity"])
     axes[1, 1].plot(shift[one_side], table["equivalent_conicity"][one_side], color=GREEN)

@@ -30,26 +30,28 @@ def draw_forces(run: Run) -> Figure:
     rows = shown_rows(position, run.parameters)
     x, history, single = position[rows], {name: values[rows] for name, values in run.history.items()}, marker(run.history)
     wheelset = "patches" in run.summary
-    lateral = "lateral of both wheels, + to the own side" if "other_normal_force_N" in history else "lateral, + to the field side"
+    both = "other_normal_force_N" in history
+    longitudinal, lateral = (("longitudinal of both wheels, + forward", "lateral of both wheels, + to the own side") if both
+                             else ("longitudinal, + forward", "lateral, + to the field side"))
     figure, axes = subplots(4, 1, figsize=(10, 9.6), sharex=True, height_ratios=(1.5, 1, 1, 1))
     for axis, names in ((axes[0], (("normal_force_N", "vertical, of all patches" if wheelset else "normal", BLUE, "-"),
                                    *((name, f"normal, wheel {name.split('_')[1]}", SKY, "--") for name in history
                                      if name.startswith("wheel_") and name.endswith("_normal_force_N")))),
-                        (axes[1], (("longitudinal_force_N", "longitudinal, + forward", RED, "-"),
+                        (axes[1], (("longitudinal_force_N", longitudinal, RED, "-"),
                                    ("lateral_force_N", lateral, GREEN, "--")))):
         for name, text, colour, style in names:
             if name in history:
                 plot_passages(axis, x, x, 1e-3 * history[name], color=colour, ls=style, **single,
                               label=f"{text}\n(at the end {round(1e-3 * history[name][-1], 2) + 0.0:.2f} kN)")
     axes[0].set_ylabel("vertical force [kN]" if wheelset else "normal force [kN]")
-    axes[1].set_ylabel("force on\nthe wheel [kN]")
+    axes[1].set_ylabel("force on\nthe wheelset [kN]" if both else "force on\nthe wheel [kN]")
     static = static_load(run) if is_dynamic(run) else None
     if static is not None:
         axes[0].axhline(static, color="black", ls=":", lw=1.1, label=f"static load {static:.1f} kN")
     loads = [values for name, values in history.items() if name.endswith("normal_force_N") and not name.startswith("other_")]
     span_at_least(axes[0], np.append([] if static is None else static, 1e-3 * np.concatenate(loads)), 0.02, 0.1)
     for axis, name, factor, text, colour in ((axes[2], "traction_coefficient", 1.0, "traction\ncoefficient [-]", PURPLE),
-                                             (axes[3], "creepage", 100.0, "creepage [%]", ORANGE)):
+                                             (axes[3], "creepage", 100.0, "creepage by angular\nvelocity alone [%]" if wheelset else "creepage [%]", ORANGE)):
         axis.set_ylabel(text)
         if name not in history:
             continue
