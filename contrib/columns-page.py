@@ -6,14 +6,11 @@ With --check the page is only compared; the exit code is 1 if it is not current.
 """
 
 import json
-import os
-import sys
 
-from tread.commands import command_parser, run_command
-from tread.runs import PROGRAM, ROOT, execute, must_end_well
-from tread.tables import first_difference
+from tread.commands import run_command
+from tread.runs import execute, must_end_well
+from tread.tables import page_command
 
-PAGE = os.path.join(ROOT, "doc", "columns.md")
 HEAD = """# Columns of the tables
 
 The first row of each table has the names, which end with the unit; what ends without one is a pure number. [Results](results.md) says when which table is
@@ -41,21 +38,5 @@ def page(tables):
     return text
 
 
-def main():
-    parser = command_parser(__doc__)
-    parser.add_argument("--program", default=PROGRAM, help="the program to ask")
-    parser.add_argument("--check", action="store_true", help="write nothing")
-    arguments = parser.parse_args()
-    current = page(json.loads(must_end_well(execute(["--print-columns"], program=arguments.program)).stdout))
-    if not arguments.check:
-        with open(PAGE, "w", encoding="utf-8") as stream:
-            stream.write(current)
-        return
-    with open(PAGE, encoding="utf-8") as stream:
-        line = first_difference(stream.read(), current)
-    if line:
-        sys.exit(f"doc/columns.md is not current from line {line} on: run contrib/columns-page.py")
-
-
 if __name__ == "__main__":
-    run_command(main)
+    run_command(lambda: page_command(__doc__, "columns.md", lambda program: page(json.loads(must_end_well(execute(["--print-columns"], program=program)).stdout))))

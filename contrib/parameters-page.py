@@ -5,15 +5,10 @@
 With --check the page is only compared; the exit code is 1 if it is not current.
 """
 
-import os
-import sys
-
-from tread.commands import command_parser, run_command
-from tread.runs import PROGRAM, ROOT
+from tread.commands import run_command
 from tread.schema import listing
-from tread.tables import first_difference
+from tread.tables import page_command
 
-PAGE = os.path.join(ROOT, "doc", "parameters.md")
 HEAD = """# Parameters
 
 A parameter file has sections with one parameter a line:
@@ -41,22 +36,5 @@ def page(found):
     return text
 
 
-def main():
-    parser = command_parser(__doc__)
-    parser.add_argument("--program", default=PROGRAM, help="the program to ask")
-    parser.add_argument("--check", action="store_true", help="write nothing")
-    arguments = parser.parse_args()
-    current = page(listing(arguments.program))
-    if not arguments.check:
-        with open(PAGE, "w", encoding="utf-8") as stream:
-            stream.write(current)
-        return 0
-    with open(PAGE, encoding="utf-8") as stream:
-        line = first_difference(stream.read(), current)
-    if line:
-        sys.exit(f"doc/parameters.md is not current from line {line} on: run contrib/parameters-page.py")
-    return 0
-
-
 if __name__ == "__main__":
-    run_command(main)
+    run_command(lambda: page_command(__doc__, "parameters.md", lambda program: page(listing(program))))

@@ -3,9 +3,11 @@
 
 import os
 import re
+import sys
 
+from .commands import command_parser
 from .files import DataError
-from .runs import ROOT
+from .runs import PROGRAM, ROOT
 
 
 def machine():
@@ -54,6 +56,25 @@ def first_difference(kept, current):
         return None
     old, new = kept.splitlines(), current.splitlines()
     return 1 + next((i for i, pair in enumerate(zip(old, new)) if pair[0] != pair[1]), min(len(old), len(new)))
+
+
+def page_command(description, page, text_of):
+    """What a command does that writes a page of doc/ as the program says it, or with --check only compares it. @param page its name; @param
+    text_of a function of the program's path"""
+    parser = command_parser(description)
+    parser.add_argument("--program", default=PROGRAM, help="the program to ask")
+    parser.add_argument("--check", action="store_true", help="write nothing")
+    arguments = parser.parse_args()
+    current = text_of(arguments.program)
+    path = os.path.join(ROOT, "doc", page)
+    if not arguments.check:
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(current)
+        return
+    with open(path, encoding="utf-8") as stream:
+        line = first_difference(stream.read(), current)
+    if line:
+        sys.exit(f"doc/{page} is not current from line {line} on: run contrib/{parser.prog}")
 
 
 def fill(page, name, table):
