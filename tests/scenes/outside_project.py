@@ -6,16 +6,20 @@
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
 
+from tread.runs import ROOT
 from tread_runner import Check
 
 check = Check()
-PROJECT = """cmake_minimum_required(VERSION 3.18)
+with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as stream:
+    VERSION = re.search(r"project\(tread VERSION (\d+\.\d+)", stream.read())[1]
+PROJECT = f"""cmake_minimum_required(VERSION 3.18)
 project(outside C)
-find_package(tread 0.1 REQUIRED)
+find_package(tread {VERSION} REQUIRED)
 add_executable(outside outside.c)
 target_link_libraries(outside PRIVATE tread::half_space)
 """
