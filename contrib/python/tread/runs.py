@@ -56,7 +56,7 @@ def own_line(text: str) -> str | None:
 def environment(**more: str) -> dict[str, str]:
     """The variables of this process with those that runs need, as contrib/environment.sh sets and explains them, and more."""
     settings = {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                "OMPI_MCA_pml": "ob1"}
+                "OMPI_MCA_pml": "ob1", "OMPI_MCA_ess_singleton_isolated": "1"}
     if os.getuid() == 0:
         settings.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return {**os.environ, **settings, **more}
