@@ -23,6 +23,8 @@ namespace tread
         problem.apply(problem.constraints[j], impulse[j], velocity);
 
     const double static_coefficient = friction.coefficient(0.);
+    // The bound then is that of adhesion.
+    const bool bound_is_known = friction.is_constant() || !pairs.coefficient.empty();
 
     // Open constraints wait: they are looked at in the first sweep, and again before the end.
     slips.assign(problem.constraints.size(), false);
@@ -60,7 +62,7 @@ namespace tread
               if (size2 > bound * bound)
                 {
                   const double size = std::sqrt(size2);
-                  if (!pairs.coefficient.empty())
+                  if (bound_is_known)
                     tangential *= bound / size;
                   else
                     {

@@ -46,10 +46,11 @@ namespace tread
 
   double ExplicitDynamics::power_of(const NodalField &forces) const
   {
-    return reproducible_sum(
-      v.size(),
-      [&](const std::size_t i) { return mesh.shared_nodes.is_owned(i) ? dot(v[i], forces[i]) : 0.; },
-      mesh.comm);
+    ReproducibleSum<double> of_nodes;
+    for (unsigned int i = 0; i < v.size(); ++i)
+      if (mesh.shared_nodes.is_owned(i))
+        of_nodes.add(dot(v[i], forces[i]));
+    return of_nodes.value(mesh.comm);
   }
 
 
@@ -96,9 +97,10 @@ namespace tread
     for (unsigned int i = 0; i < v.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
         {
-          of_nodes.add(0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]));
+          double energy = 0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]);
           if (inverse_mass[i] > 0.)
-            of_nodes.add(0.5 / inverse_mass[i] * dot(v[i], v[i]));
+            energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
+          of_nodes.add(energy);
         }
     double energy = of_nodes.value(mesh.comm);
     if (supports)
@@ -127,15 +129,16 @@ namespace tread
         {
           const double  back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
           const Vector3 before = position(i) - back * v[i];
-          of_nodes.add(true_mass[i] * parameters.gravity * before[2]);
+          double        energy = true_mass[i] * parameters.gravity * before[2];
           if (const int number = wheel_of(i); number >= 0)
             {
               const Wheel    &wheel = wheels[number];
               const WheelHub &hub   = *wheel.hub;
               const Vector3   arm   = hub.off_axle(before - hub.middle() + back * hub.velocity());
-              of_nodes.add(0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] *
-                           dot(arm, arm));
+              energy +=
+                0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * dot(arm, arm);
             }
+          of_nodes.add(energy);
         }
     const double potential = of_nodes.value(mesh.comm);
     return supports ? potential + supports->weight_potential(time_step) : potential;

@@ -61,11 +61,21 @@ namespace tread
                                                 const Loop  &loop) const
   {
     if (!has_loads)
-      {
-        loop([](const unsigned int) { return Vector3{}; });
-        return;
-      }
-    const Quanta quanta = this->quanta; // which no force can overwrite in the loop
+      loop([](const unsigned int) { return Vector3{}; });
+    else if (levels.reproducible)
+      with_rounded_loads(quanta, run, factor, sums, loop);
+    else
+      with_rounded_loads(QuantaOf<NoRounding>(), run, factor, sums, loop);
+  }
+
+
+  template <typename Quanta, typename Loop>
+  inline void ExplicitDynamics::with_rounded_loads(const Quanta quanta, // a copy, which no force overwrites
+                                                   const Run   &run,
+                                                   const double factor,
+                                                   BodyLoads   &sums,
+                                                   const Loop  &loop) const
+  {
     Vector3      loss{};
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
     if (run.wheel >= 0)

@@ -9,6 +9,8 @@ namespace tread
 {
   namespace
   {
+    constexpr double pi = 3.14159265358979323846;
+
     /// max(p, 0) with its kink replaced by a parabola between -half and half.
     double rounded_ramp(const double p, const double half)
     {
@@ -53,26 +55,75 @@ namespace tread
   }
 
 
-  Defect defect_along(const MeasuredLine &line, const bool reversed)
+  std::function<double(double, double)> corrugation(const double wavelength)
   {
-    const double from = line.begin(), length = line.end() - line.begin();
-    const double z_begin = line(line.begin()), z_end = line(line.end());
-    const auto   below = [=](const double u) {
+    return [=](const double u, const double v) {
+      return u <= 0. || u >= 1. || std::abs(v) >= 1. ? 0. : 0.5 * (1. - std::cos(2. * pi * u / wavelength));
+    };
+  }
+
+
+  std::function<double(double, double)> with_ramps(std::function<double(double, double)> shape,
+                                                   const double                          ramp)
+  {
+    if (ramp == 0.)
+      return shape;
+    return [=](const double u, const double v) {
+      const double from_end = std::min(u, 1. - u);
+      return from_end <= 0.    ? 0. :
+             from_end >= ramp ? shape(u, v) :
+                                shape(u, v) * 0.5 * (1. - std::cos(pi * from_end / ramp));
+    };
+  }
+
+
+  std::function<double(double, double)> with_parabola(std::function<double(double, double)> shape)
+  {
+    return [=](const double u, const double v) {
+      return shape(u, v) * (1. - v * v);
+    };
+  }
+
+
+  Defect defect_along(const MeasuredLine &line, const LineDatum datum, const bool reversed)
+  {
+    const double       from = line.begin(), length = line.end() - line.begin();
+    const unsigned int n = 10000; // places along it
+    double             z_begin = line(line.begin()), z_end = line(line.end());
+    if (datum == LineDatum::fitted)
+      {
+        // Mean and slope are orthogonal about the middle.
+        double sum = 0., moment = 0., squares = 0.;
+        for (unsigned int i = 0; i <= n; ++i)
+          {
+            const double u = double(i) / n - 0.5, z = line(from + double(i) / n * length);
+            sum += z;
+            moment += u * z;
+            squares += u * u;
+          }
+        const double mean = sum / (n + 1), slope = moment / squares;
+        z_begin = mean - 0.5 * slope;
+        z_end   = mean + 0.5 * slope;
+      }
+    const auto below = [=](const double u) {
       return (1. - u) * z_begin + u * z_end - line(from + u * length);
     };
-    double             deepest = 0.;
-    const unsigned int n       = 10000;
+    double deepest = 0.;
     for (unsigned int i = 0; i <= n; ++i)
-      deepest = std::max(deepest, below(double(i) / n));
+      {
+        const double depth = below(double(i) / n);
+        deepest            = std::max(deepest, datum == LineDatum::fitted ? std::abs(depth) : depth);
+      }
     if (!(deepest > 0.))
-      throw std::runtime_error("a defect's profile must lie below the line between its ends");
+      throw std::runtime_error(datum == LineDatum::fitted ?
+                                 "the profile is straight" :
+                                 "a defect's profile must lie below the line between its ends");
 
     Defect defect;
     defect.length = length;
     defect.depth  = deepest;
     defect.shape  = [=](const double u, const double v) {
-      return u <= 0. || u >= 1. || std::abs(v) >= 1. ? 0.
-                                                      : below(reversed ? 1. - u : u) / deepest * (1. - v * v);
+      return u <= 0. || u >= 1. || std::abs(v) >= 1. ? 0. : below(reversed ? 1. - u : u) / deepest;
     };
     return defect;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/csv_table.h>
 #include <tread/base/format.h>
+#include <tread/base/hdf5_file.h>
 #include <tread/base/input_error.h>
 #include <tread/geometry/height_map.h>
 
@@ -8,6 +9,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <utility>
 
 namespace tread
 {
@@ -16,11 +20,10 @@ namespace tread
     /// Places that should be equal may differ by this share of the spacing, as printed digits do.
     constexpr double printed_digits = 1e-2;
 
-    CsvTable read(const std::string &file)
+    bool is_hdf5(const std::string &file)
     {
-      return CsvTable(
-        file, [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
-        "cannot read '" + file + "'");
+      const std::string ending = std::filesystem::path(file).extension();
+      return ending == ".h5" || ending == ".hdf5";
     }
 
     /// Weights of four neighbours at a place from 0 to 1 between the middle two.
@@ -66,29 +69,87 @@ namespace tread
 
 
   HeightMap::HeightMap(const std::string &file)
-    : HeightMap(read(file))
+    : HeightMap(is_hdf5(file) ? read_hdf5(file) : read_table(file))
   {
   }
 
 
-  HeightMap::HeightMap(const CsvTable &table)
-    : along(table.column("x_mm"), "x_mm", table.file)
-    , across(table.column("y_mm"), "y_mm", table.file)
+  HeightMap::Rows HeightMap::read_table(const std::string &file)
   {
-    const std::vector<double> &x = table.column("x_mm"), &y = table.column("y_mm"), &z = table.column("z_mm");
+    const CsvTable table(
+      file, [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
+      "cannot read '" + file + "'");
+    return {file, table.column("x_mm"), table.column("y_mm"), table.column("z_mm")};
+  }
+
+
+  HeightMap::Rows HeightMap::read_hdf5(const std::string &file)
+  {
+    const auto opened = [&] {
+      try
+        {
+          return std::make_unique<const hdf5::Handle>(hdf5::open(file), H5Fclose);
+        }
+      catch (const std::exception &)
+        {
+          throw InputError("cannot read '" + file + "' as a file of HDF5");
+        }
+    }();
+    const auto numbers = [&](const std::string &name) {
+      try
+        {
+          return hdf5::read(*opened, name);
+        }
+      catch (const std::exception &)
+        {
+          throw InputError("'" + file + "' has no dataset of numbers '" + name + "'");
+        }
+    };
+    const hdf5::Numbers x = numbers("x_mm"), y = numbers("y_mm"), z = numbers("z_mm");
+    const auto          extents = [](const hdf5::Numbers &n) {
+      std::string text;
+      for (const hsize_t extent : n.extents)
+        text += (text.empty() ? "" : " x ") + std::to_string(extent);
+      return text.empty() ? "a single number" : text;
+    };
+    if (x.extents.size() != 1 || y.extents.size() != 1 ||
+        z.extents != std::vector<hsize_t>{y.extents[0], x.extents[0]})
+      throw InputError("'" + file + "': x_mm must have one dimension (n_x), y_mm one (n_y), z_mm two, (n_y, "
+                                    "n_x); they are " +
+                       extents(x) + ", " + extents(y) + " and " + extents(z));
+    for (const auto &[name, values] : {std::pair("x_mm", &x), std::pair("y_mm", &y), std::pair("z_mm", &z)})
+      if (!std::all_of(values->values.begin(), values->values.end(),
+                       [](const double value) { return std::isfinite(value); }))
+        throw InputError("'" + file + "': " + name + " has a value that is no finite number");
+    Rows rows{file, {}, {}, z.values};
+    for (const double place_y : y.values)
+      for (const double place_x : x.values)
+        {
+          rows.x.push_back(place_x);
+          rows.y.push_back(place_y);
+        }
+    return rows;
+  }
+
+
+  HeightMap::HeightMap(const Rows &rows)
+    : along(rows.x, "x_mm", rows.file)
+    , across(rows.y, "y_mm", rows.file)
+  {
+    const std::vector<double> &x = rows.x, &y = rows.y, &z = rows.z;
     std::vector<std::size_t>   places;
     for (std::size_t row = 0; row < z.size(); ++row)
       places.push_back(across.place_of(1e-3 * y[row]) * along.n + along.place_of(1e-3 * x[row]));
     // Nothing is made room for that the file does not have.
     if (along.n * across.n > places.size())
-      fail_at_missing(places, table.file);
+      fail_at_missing(places, rows.file);
     heights.assign(along.n * across.n, 0.);
     std::vector<bool> known(heights.size(), false);
     for (std::size_t row = 0; row < z.size(); ++row)
       {
         const std::size_t k = places[row];
         if (known[k])
-          throw InputError("'" + table.file + "', row " + std::to_string(row + 1) + ": x " + text_of(x[row]) +
+          throw InputError("'" + rows.file + "', row " + std::to_string(row + 1) + ": x " + text_of(x[row]) +
                            " mm, y " + text_of(y[row]) + " mm is there twice");
         known[k]   = true;
         heights[k] = 1e-3 * z[row];
@@ -146,13 +207,20 @@ namespace tread
   }
 
 
-  double HeightMap::largest_on_border() const
+  double HeightMap::largest_on_ends() const
+  {
+    double largest = 0.;
+    for (std::size_t j = 0; j < across.n; ++j)
+      largest = std::max({largest, std::abs(at(0, j)), std::abs(at(along.n - 1, j))});
+    return largest;
+  }
+
+
+  double HeightMap::largest_on_sides() const
   {
     double largest = 0.;
     for (std::size_t i = 0; i < along.n; ++i)
       largest = std::max({largest, std::abs(at(i, 0)), std::abs(at(i, across.n - 1))});
-    for (std::size_t j = 0; j < across.n; ++j)
-      largest = std::max({largest, std::abs(at(0, j)), std::abs(at(along.n - 1, j))});
     return largest;
   }
 } // namespace tread

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/csv_table.h>
 #include <tread/base/file_text.h>
+#include <tread/base/hdf5_file.h>
 #include <tread/base/version.h>
 #include <tread/output/run_folder.h>
-
-#include "hdf5_file.h"
 
 #include <algorithm>
 #include <filesystem>

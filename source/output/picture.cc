@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/hdf5_file.h>
 #include <tread/output/picture.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/grid/reference_cell.h>
-
-#include "hdf5_file.h"
 
 #include <iomanip>
 #include <sstream>

@@ -87,12 +87,13 @@ namespace tread
                const double   factor,
                const Rounding rounding) const
       {
+        const double lambda = this->lambda, mu = this->mu;
         for (const auto &batch : this->batches)
           {
             Lanes F[3][3], amplitude[4][3], E[6], S[6], P[3][3];
             deform(batch, x, F, amplitude);
             green_lagrange(F, E);
-            HenckyPoint<Lanes>(E).stress(this->lambda, this->mu, S);
+            HenckyPoint<Lanes>(E).stress(lambda, mu, S);
             if constexpr (viscous)
               add_viscosity(batch, v, F, S);
             const Lanes volume = -factor * batch.volume, stiffness = -factor * batch.stiffness;

@@ -40,6 +40,17 @@ namespace tread
   };
 
 
+  /// Takes the place of a Quantum where nothing is rounded and not even the additions of 0 are to be made.
+  struct NoRounding
+  {
+    template <typename T>
+    T round(const T x) const
+    {
+      return x;
+    }
+  };
+
+
   /// A sum that does not depend on the order of its terms, nor on how they are divided among partial sums, to
   /// the last bit (after Demmel & Nguyen 2013; Ahrens, Demmel & Nguyen 2020, with bins that are fixed
   /// before).

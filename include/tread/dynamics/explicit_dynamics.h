@@ -380,6 +380,14 @@ namespace tread
                          BodyLoads   &sums,
                          const Loop  &loop) const;
 
+    /// The same for a run that has loads. @param quanta what they are rounded to
+    template <typename Quanta, typename Loop>
+    void with_rounded_loads(const Quanta quanta,
+                            const Run   &run,
+                            const double factor,
+                            BodyLoads   &sums,
+                            const Loop  &loop) const;
+
     bool has_body_loads(const Run &run) const
     {
       return parameters.mass_damping > 0. || (run.wheel >= 0 && compensation(wheels[run.wheel]) != 0.);
@@ -432,15 +440,16 @@ namespace tread
     static constexpr unsigned int n_hub_sums = 18, n_base_sums = 3;
 
     /// What is rounded before sums over nodes or ranks, so that they do not depend on the ranks; 0: nothing.
-    struct Quanta
+    template <typename Q>
+    struct QuantaOf
     {
-      Quantum force;     ///< on a node, N
-      Quantum on_hubs;   ///< forces and moments that add up to those of hubs, N and N m
-      Quantum moments;   ///< of masses of a wheel's nodes, kg m and kg m^2
-      Quantum loss;      ///< of one node in one step, J
-      Quantum stiffness; ///< of which masses of the relaxation are made, N/m
+      Q force;     ///< on a node, N
+      Q on_hubs;   ///< forces and moments that add up to those of hubs, N and N m
+      Q moments;   ///< of masses of a wheel's nodes, kg m and kg m^2
+      Q loss;      ///< of one node in one step, J
+      Q stiffness; ///< of which masses of the relaxation are made, N/m
     };
-    Quanta quanta;
+    QuantaOf<Quantum> quanta;
 
     /// Accumulated by step(), J: this rank's shares of what the ledger has by these names.
     struct Totals

@@ -44,10 +44,29 @@ namespace tread
   /// @param leading_rounding, trailing_rounding over the length
   std::function<double(double, double)> dip(const double leading_rounding, const double trailing_rounding);
 
-  /// The depth of a measured line over its chord as a defect with its length and its largest depth, and with
-  /// the lateral law 1 - v^2 (thesis, section 4.3.2.2). @param reversed rolled over from the other end.
-  /// @throws std::runtime_error where the line is nowhere below its chord.
-  Defect defect_along(const MeasuredLine &line, const bool reversed);
+  /// Shape of corrugation across the whole width: waves of depth (1 - cos)/2, so that crests lie in the
+  /// surface and troughs as deep as the defect; it begins at a crest. @param wavelength over the length
+  std::function<double(double, double)> corrugation(const double wavelength);
+
+  /// A shape whose heights grow from 0 at its ends, by half a cosine. @param ramp over the length, 0: none
+  std::function<double(double, double)> with_ramps(std::function<double(double, double)> shape,
+                                                   const double                          ramp);
+
+  /// A shape of the whole width with the lateral law 1 - v^2 (thesis, section 4.3.2.2).
+  std::function<double(double, double)> with_parabola(std::function<double(double, double)> shape);
+
+  /// What a measured line's depth is counted from.
+  enum class LineDatum
+  {
+    chord, ///< the straight line between its ends
+    fitted ///< the straight line that fits it best
+  };
+
+  /// The depth of a measured line as a defect with its length and its largest depth (height, where that is
+  /// larger and depth is counted from the fitted line), alike across the whole width. @param reversed rolled
+  /// over from the other end. @throws std::runtime_error where the line is nowhere below its chord, or
+  /// straight.
+  Defect defect_along(const MeasuredLine &line, const LineDatum datum, const bool reversed);
 } // namespace tread
 
 #endif

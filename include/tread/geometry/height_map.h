@@ -8,8 +8,6 @@
 
 namespace tread
 {
-  class CsvTable;
-
   /// Heights of a surface over its nominal one on a rectangular grid, as a scanner gives them: z up. In
   /// between cubic in each direction (Catmull and Rom 1974), so that planes and parabolas come out exactly.
   /// Lengths in m.
@@ -17,7 +15,8 @@ namespace tread
   {
   public:
     /// A table with the columns x_mm, y_mm and z_mm, separated by commas: each place of a grid with equal
-    /// spacings once, in any order. @throws InputError
+    /// spacings once, in any order. Or, if its name ends in .h5 or .hdf5, a file of HDF5 with the datasets
+    /// x_mm (n_x), y_mm (n_y) and z_mm (n_y, n_x). @throws InputError
     explicit HeightMap(const std::string &file);
 
     /// Outside the grid that of the nearest place on its border.
@@ -41,11 +40,21 @@ namespace tread
     }
     double lowest() const;
     double highest() const;
-    /// Largest amount on the border.
-    double largest_on_border() const;
+    /// Largest amount at the first and the last x.
+    double largest_on_ends() const;
+    /// Largest amount at the first and the last y.
+    double largest_on_sides() const;
 
   private:
-    explicit HeightMap(const CsvTable &table);
+    /// A place and its height in each row, mm.
+    struct Rows
+    {
+      std::string         file;
+      std::vector<double> x, y, z;
+    };
+    static Rows read_table(const std::string &file);
+    static Rows read_hdf5(const std::string &file);
+    explicit HeightMap(const Rows &rows);
 
     struct Axis
     {

@@ -8,16 +8,6 @@
 
 namespace tread
 {
-  /// Takes the place of a Quantum where nothing is rounded and not even the additions of 0 are to be made.
-  struct NoRounding
-  {
-    template <typename T>
-    T round(const T x) const
-    {
-      return x;
-    }
-  };
-
   /// The nodal vectors of n_lanes trilinear cells, seen as the patterns that their nodes can make: by
   /// component, without the constant one.
   struct NodalPatterns

@@ -33,24 +33,64 @@ namespace tread
     }
 
 
+    /// Alike across the whole head, or as the lateral law says. @param shape in words
+    void set_width(Defect &defect, const DefectSection &section, const std::string &shape)
+    {
+      const bool uniform = section.lateral_law == LateralLaw::uniform;
+      require(uniform || section.width > 0.,
+              "'Defect/Width (mm)' must be above 0 for a " + shape + " with 'Lateral law' parabola");
+      defect.width = uniform ? std::numeric_limits<double>::infinity() : section.width;
+      if (!uniform)
+        defect.shape = with_parabola(defect.shape);
+    }
+
+    /// Give a defect its length and its ramps.
+    void set_length(Defect &defect, const DefectSection &section)
+    {
+      if (section.length > 0.)
+        defect.length = section.length;
+      require(section.ramp <= 0.5 * defect.length,
+              "'Defect/Ramp (mm)' " + text_in_mm(section.ramp) + " must be at most half of its length, " +
+                text_in_mm(0.5 * defect.length));
+      defect.shape = with_ramps(defect.shape, section.ramp / defect.length);
+    }
+
+    std::shared_ptr<Defect> make_corrugation(const DefectSection &section, const std::string &)
+    {
+      require(section.wavelength > 0. && section.length >= section.wavelength && section.depth > 0.,
+              "corrugation needs 'Defect/Wavelength (mm)' and 'Defect/Depth (mm)' above 0 and 'Defect/Length "
+              "(mm)' of at least a wavelength");
+      const double waves = section.length / section.wavelength;
+      require(section.ramp > 0. || std::abs(waves - std::round(waves)) < 1e-6,
+              "'Defect/Length (mm)' is " + text_of(waves) +
+                " wavelengths, so that the corrugation ends in a step: make it a whole number, or give "
+                "'Defect/Ramp (mm)'");
+      auto defect   = std::make_shared<Defect>();
+      defect->shape = corrugation(section.wavelength / section.length);
+      set_width(*defect, section, "corrugation");
+      set_length(*defect, section);
+      return defect;
+    }
+
+
     std::shared_ptr<Defect> make_profile(const DefectSection &section, const std::string &file)
     {
       require(!section.profile_file.empty(), "'Defect/Shape' profile needs 'Defect/Profile file'");
       auto defect = std::make_shared<Defect>();
       try
         {
-          *defect = defect_along(read_longitudinal_profile(file), section.reversed);
+          *defect = defect_along(read_longitudinal_profile(file),
+                                 section.ramp > 0. ? LineDatum::fitted : LineDatum::chord, section.reversed);
         }
       catch (const std::runtime_error &error)
         {
           throw InputError("'Defect/Profile file': " + std::string(error.what()));
         }
-      const bool uniform = section.lateral_law == LateralLaw::uniform;
-      require(uniform || section.width > 0.,
-              "'Defect/Width (mm)' must be above 0 for a profile with 'Lateral law' parabola");
-      defect->width = uniform ? std::numeric_limits<double>::infinity() : section.width;
+      set_width(*defect, section, "profile");
+      set_length(*defect, section);
       return defect;
     }
+
 
     std::shared_ptr<Defect> make_map(const DefectSection &section, const std::string &file)
     {
@@ -69,12 +109,13 @@ namespace tread
       require(largest > 0., "'Defect/Profile file': all heights are 0");
       // Beside the map the surface is the nominal one.
       constexpr double step_allowed = 0.05;
-      require(
-        map->largest_on_border() <= step_allowed * largest,
-        "'Defect/Profile file': the border of the map is up to " + text_in_mm(map->largest_on_border()) +
-          " mm off the nominal surface, which follows it: a step. Take the plane of the border away, or "
-          "let the heights fade to 0; at most " +
-          text_in_mm(step_allowed * largest) + " mm are allowed");
+      const double     on_border =
+        std::max(map->largest_on_sides(), section.ramp > 0. ? 0. : map->largest_on_ends());
+      require(on_border <= step_allowed * largest,
+              "'Defect/Profile file': the border of the map is up to " + text_in_mm(on_border) +
+                " mm off the nominal surface, which follows it: a step. Take the plane of the border away, or "
+                "let the heights fade to 0, at its ends by 'Defect/Ramp (mm)'; at most " +
+                text_in_mm(step_allowed * largest) + " mm are allowed");
       auto defect      = std::make_shared<Defect>();
       defect->length   = map->x_end() - map->x_begin();
       defect->width    = section.width > 0. ? section.width : map->y_end() - map->y_begin();
@@ -88,6 +129,7 @@ namespace tread
                                map->y_begin() + across * (map->y_end() - map->y_begin())) /
                largest;
       };
+      set_length(*defect, section);
       return defect;
     }
   } // namespace
@@ -102,6 +144,8 @@ namespace tread
        }},
       {"dip", "of Length, Width and Depth, a sphere's cap where length and width are equal", make_dip},
       {"profile", "along the path as in Profile file, across as Lateral law says", make_profile},
+      {"corrugation", "waves of Wavelength and Depth along the path, across as Lateral law says",
+       make_corrugation},
       {"map", "heights over the rail's surface, along and across, as in Profile file", make_map}};
     return list;
   }
@@ -132,7 +176,8 @@ namespace tread
     section.add("Width (mm)", width,
                 "Lateral. 0: as long as it is wide, for a dip; as in the file, for a map.", Double(0., 200.));
     section.add("Depth (mm)", depth,
-                "Of the deepest point. A profile or a map is scaled to it; 0: as in the file.",
+                "Of the deepest point; of corrugation, from crests to troughs. A profile or a map is scaled to "
+                "it; 0: as in the file.",
                 Double(0., 1e3 * deepest));
     section.add("Lateral position (mm)", lateral_position,
                 "y of its middle, along the rail's top; the gauge side is y < 0.", Double(-50., 50.));
@@ -140,16 +185,21 @@ namespace tread
                 "Of a dip: the kink at its beginning is rounded over so much of the path. 0: sharp.",
                 Double(0., 1000.));
     section.add("Rounded trailing edge (mm)", trailing_rounding, "The same at its end.", Double(0., 1000.));
+    section.add("Wavelength (mm)", wavelength, "Of corrugation.", Double(0., 1000.));
+    section.add("Ramp (mm)", ramp,
+                "Of a profile, a map or corrugation: heights grow from 0 over so much of the path at its "
+                "beginning, and fade to 0 at its end. 0: none.",
+                Double(0., 1e4));
     section.add(
       "Profile file", profile_file,
-      "Of a profile: columns x and z in mm, z up; depth is counted from the straight line between the ends. "
-      "Of "
-      "a map: a table with a row of names, x_mm, y_mm and z_mm, separated by commas, on a grid with equal "
-      "spacings; z is the height over the surface without the defect, y is counted from the middle of the "
-      "rail's top, the first x lies at Position. Looked for in "
-      "the present folder and beside the parameter file.",
+      "Of a profile: columns x and z in mm, z up; depth is counted from the straight line between the ends, "
+      "with a Ramp from the one that fits best. Of a map: a table with a row of names, x_mm, y_mm and z_mm, "
+      "separated by commas, on a grid with equal spacings, or a file of HDF5 (.h5) with datasets x_mm (n_x), "
+      "y_mm (n_y), z_mm (n_y, n_x); z is the height over the surface without the defect, y is counted from "
+      "the middle of the rail's top, the first x lies at Position. Looked for in the present folder and "
+      "beside the parameter file.",
       dealii::Patterns::Anything());
-    section.choose("Lateral law", lateral_law, "Of a profile.");
+    section.choose("Lateral law", lateral_law, "Of a profile or corrugation.");
     section.add("Reversed", reversed, "A profile or a map is rolled over from its other end.");
     section.add("Repeated at (mm)", repeated_at,
                 "x of the leading edges of further defects like this one, separated by commas, at least its "

@@ -42,6 +42,7 @@ namespace tread
     double              length = 0., width = 0., depth = 0.;
     double              lateral_position = 0.;
     double              leading_rounding = 0., trailing_rounding = 0.;
+    double              wavelength = 0., ramp = 0.;
     std::string         profile_file;
     LateralLaw          lateral_law = LateralLaw::parabola;
     bool                reversed    = false;

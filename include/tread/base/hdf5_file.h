@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_output_hdf5_file_h
-#define tread_output_hdf5_file_h
+#ifndef tread_base_hdf5_file_h
+#define tread_base_hdf5_file_h
 
 #include <hdf5.h>
 
@@ -53,6 +53,35 @@ namespace tread::hdf5
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  }
+
+  /// A file that is there, to be read. Errors are thrown, not printed.
+  inline hid_t open(const std::string &path)
+  {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  }
+
+  /// The numbers of a dataset of a file, the last index running fastest, and its extents.
+  struct Numbers
+  {
+    std::vector<hsize_t> extents;
+    std::vector<double>  values;
+  };
+
+  inline Numbers read(const hid_t file, const std::string &name)
+  {
+    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose),
+      space(H5Dget_space(dataset), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    check(rank);
+    Numbers numbers;
+    numbers.extents.resize(rank);
+    check(H5Sget_simple_extent_dims(space, numbers.extents.data(), nullptr));
+    numbers.values.resize(H5Sget_simple_extent_npoints(space));
+    if (!numbers.values.empty())
+      check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.values.data()));
+    return numbers;
   }
 
   inline hid_t create_group(const hid_t parent, const std::string &name)
