@@ -95,6 +95,7 @@ class Case:
     poisson: float | None = None
     area: Area | None = None
     gap: np.ndarray | None = None  # (n_y, n_x), m
+    curvatures: tuple[float, float] | None = None  # A, B (1/m) where the gap is A x^2 + B y^2 and a constant
 
 
 class Words:
@@ -218,8 +219,8 @@ class Reader:
             raise words.refuse(f"'Z' = {second['Z']} keeps the undeformed distance, and there is none before it")
         self.make_geometry(renew=second["D"] > 0)
         if case.tangential and third["G"] == 2 and abs(self.step - case.area.element_x) > 0.01 * case.area.element_x:
-            raise words.refuse(f"DQ = {1e3 * self.step:g} mm with 'G' = 2: steps must be as long as an element, {1e3 * case.area.element_x:g} mm",
-                               case.line)
+            raise words.refuse(f"DQ = {1e3 * self.step:g} mm with 'G' = 2: steps must be as long as an element, "
+                               f"{1e3 * case.area.element_x:g} mm", case.line)
         return third["R"] in (0, 2)
 
     def result(self) -> Case:
@@ -353,8 +354,11 @@ class Reader:
             if renew or case.area is None:
                 case.area = area_between(values[0], values[1], values[4] * a, values[4] * b)
             case.gap = curvature_x * case.area.x ** 2 + curvature_y * case.area.y[:, None] ** 2
+            case.curvatures = curvature_x, curvature_y
             return
         case.area = area_of(kind, values)
+        base, plan, shape, _ = self.shape
+        case.curvatures = (1e3 * shape[0], 1e3 * shape[2]) if base == plan == 1 and not (shape[1] or shape[3] or shape[4]) else None
         if self.shape[0] == 9 and len(self.shape[2]) != case.area.n_x * case.area.n_y:
             raise self.words.refuse("the undeformed distance that is kept is of another number of elements")
         case.gap = gap_of(case.area, *self.shape)
