@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Input files of CONTACT: its figures for the shipped case and for its creep-force table, each way to say the same, what is refused, and
-finite elements beside the half-space."""
+"""Input files of CONTACT: its figures for the shipped case and for its creep-force table, each way to say the same, what is refused, its
+matlab files, and finite elements beside the half-space."""
 
 import os
 import subprocess
@@ -18,7 +18,7 @@ from tread.creep_table import FORCE, FRICTION, POISSON, SHEAR
 from tread.files import DataError, read_table
 from tread.manchester import DATA as MANCHESTER
 from tread.patches import read_contact, read_patch
-from tread.runs import ROOT, environment
+from tread.runs import ROOT, Run, environment, execute
 from tread_runner import Check
 
 program = os.path.abspath(sys.argv[1])
@@ -331,7 +331,7 @@ def wheels_on_rails():
         value = {name: column[row] for name, column in wanted.items()}
         lines += track_lines(value["side"], position=f"0 {value['y_ws_mm']} 10000 {value['roll_rad']} {value['yaw_rad']} 0",
                              speed=f"2000 0 0 0 0 {value['omega_rad_s']}", **({"z": 0, "e": 2} if lines else {}), end="")
-    done = command(file_of(*lines, "0 MODULE"), "--output", path("track"), "--program", program)
+    done = command(file_of(*lines, "0 MODULE"), "--output", path("track"), "--program", program, "--mat")
     check.that("module 1 ends well", done.returncode == 0 and done.stderr == "" and done.stdout.count("\n") == len(rows))
     patches = read_table(path("track/patches.csv"), text=("side",))
     check.that("a patch for each", list(patches["case"]) == list(range(1, len(rows) + 1)) and list(patches["side"]) == list(wanted["side"][rows]))
@@ -345,10 +345,127 @@ def wheels_on_rails():
             check.below(name + key, patches[key][case] - wanted[given][row], allowed)
         check.below(name + "spin", patches["spin_per_m"][case] - 1e3 * wanted["cphi_rad_mm"][row], 2e-3)
         check.relative(name + "largest pressure", patches["max_pressure_MPa"][case], wanted["p_max_MPa"][row], 4e-3)
+        mat_of_patch(name, path(f"track/case.{case + 1:04d}a.mat"), {key: values[case] for key, values in patches.items()},
+                     Run(path(f"track/case-{case + 1}")).summary["patches"][0])
     check.that("scenes and their results are kept", os.path.exists(path("track/case-2.prm")) and os.path.exists(path("track/case-2/summary.json")))
     bad = command(file_of(*[line.replace("'S1002'", "'S1003'") for line in track_lines()]), "--output", path("bad-track"), "--program", program)
     check.that("what the program refuses is said with its place", bad.returncode == 1 and bad.stderr.count("\n") == 1
                and "line 2: case 1: 'Wheel/Tread profile'" in bad.stderr)
+
+
+class Mat:
+    """A file in the layout of CONTACT's matlab files, read by what its user guide says of it (appendix A.6): mm, MPa."""
+
+    def __init__(self, name):
+        with open(name, encoding="ascii") as stream:
+            rows = [[float(word) for word in line.split()] for line in stream if not line.startswith("%")]
+        check.that(os.path.basename(name) + ": eleven numbers in each row, format 2320",
+                   {len(row) for row in rows} == {11} and rows[0][-1] == 2320)
+        self.places, (grid, self.material, self.friction) = rows[:3], rows[3:6]
+        self.n_x, self.n_y = map(int, grid[:2])
+        (self.x_low, self.y_low, self.dx, self.dy, self.chi, self.step), self.side = grid[2:8], grid[8]
+        table = np.array(rows[6:])
+        for k, field in enumerate("igs h mu pn px py un ux uy srel".split(), 1):
+            values = np.zeros(self.n_x * self.n_y)
+            values[table[:, 0].astype(int) - 1] = table[:, k]
+            setattr(self, field, values.reshape(self.n_y, self.n_x))
+        self.x = self.x_low + (np.arange(self.n_x) + 0.5) * self.dx
+        self.y = (self.y_low + (np.arange(self.n_y) + 0.5) * self.dy)[:, None]
+        self.contact = self.igs > 0.
+
+    def integral(self, values):
+        """N, of a stress."""
+        return (values * self.dx * self.dy).sum()
+
+    def moment(self):
+        """Of the shear about the origin, N m."""
+        return 1e-3 * self.integral(self.x * self.py - self.y * self.px)
+
+
+def matlab_files():
+    """Module 3. The displacements come from the tractions by closed forms of their own: with the gap they must give the approach of the
+    solver, and with the creepages the slip."""
+    kinematics = "82000 0.0004 -0.0003 0.0002 1.5 0.5"
+    done = command(file_of(*lines_of(kinematics, end=""), *lines_of(kinematics, chi="180d 0.8 30000", end=""), *lines_of(pbtnfs="200100")),
+                   "--output", path("mat"), "--mat")
+    check.that("three cases with matlab files", done.returncode == 0 and done.stderr == "")
+    table = read_table(path("mat/summary.csv"), text=("method",))
+    check.that("rows say how they were computed", list(table["method"]) == 3 * ["half-space"])
+    for case in range(3):
+        mat, name = Mat(path(f"mat/case.000{case + 1}.mat")), f"matlab file, case {case + 1}: "
+        for key, value in (("normal_force_N", mat.integral(mat.pn)), ("longitudinal_force_N", mat.integral(mat.px)),
+                           ("lateral_force_N", mat.integral(mat.py)), ("spin_moment_Nm", mat.moment()), ("max_pressure_MPa", mat.pn.max()),
+                           ("patch_area_mm2", mat.integral(mat.contact)), ("adhesion_share", (mat.igs == 1).sum() / mat.contact.sum())):
+            if table[key][case]:
+                check.relative(name + key, value, table[key][case], 1e-7)
+            else:
+                check.absolute(name + key, value, 0., 1e-9)
+        check.below(name + "gap and displacement over the approach",
+                    np.abs((mat.h + mat.un)[mat.contact] / table["approach_mm"][case] - 1.).max(), 1e-7)
+        check.that(name + "control digits and constants", mat.material[:6] == [0 if case == 2 else 3, 0, 82000, 82000, 0.28, 0.28]
+                   and mat.friction[:2] == [0, 0] and mat.friction[3:5] == [0.3, 0.3] and abs(mat.chi - (np.pi if case else 0.)) < 1e-9
+                   and (mat.mu[mat.contact] == 0.3).all())
+        if case == 2:
+            check.that(name + "no slip", not mat.srel.any())
+            continue
+        check.that(name + "speed, step and centre of the spin", mat.friction[2] == 30000 and mat.step == (0.4 if case == 0 else 0.8)
+                   and mat.places[2][9:11] == [1.5, 0.5])
+        # Particles come from the neighbour ahead, over an element of 0.8 mm; CONTACT takes the slip a sixth of it ahead.
+        ahead = 1 if case == 0 else -1
+        before = lambda values: np.roll(values, -ahead, axis=1)
+        slip_x = 0.0004 - 0.0002 * (mat.y - 0.5) + (mat.ux - before(mat.ux)) / mat.dx
+        slip_y = -0.0003 + 0.0002 * (mat.x + ahead * mat.dx / 6 - 1.5) + (mat.uy - before(mat.uy)) / mat.dx
+        within = mat.contact & before(mat.contact)
+        check.below(name + "slip by the displacements less that of the file, 1e-6",
+                    1e6 * np.abs(np.hypot(slip_x, slip_y) - mat.srel)[within].max(), 0.01)
+        check.that(name + "some slip and some adhere", 0.05 < table["adhesion_share"][case] < 0.95 and mat.srel.max() > 2e-4)
+        check.below(name + "friction bound", (np.hypot(mat.px, mat.py) - mat.mu * mat.pn).max() / mat.pn.max(), 1e-6)
+
+
+def mat_of_patch(name, file, row, patch):
+    """Module 1: integrals are the forces of patches.csv, which are those of the solver of second order; the gap is counted from the point
+    where the bodies overlap most; the places are those of the patch in the track."""
+    mat = Mat(file)
+    name += os.path.basename(file) + ", "
+    check.relative(name + "normal force", mat.integral(mat.pn), row["normal_force_N"], 1e-5)
+    for key, values in (("longitudinal_force_N", mat.px), ("lateral_force_N", mat.py)):
+        check.below(name + key + " over friction times load", (mat.integral(values) - row[key]) / 0.3 / row["normal_force_N"], 2e-3)
+    check.relative(name + "area", mat.integral(mat.contact), row["area_mm2"], 1e-8)
+    # On the rail; axes of a left wheel are turned about x, those of a right one mirrored.
+    own = 1. if row["side"] == "right" else -1.
+    check.below(name + "spin moment over friction, load and radius",
+                (mat.moment() + own * patch["spin_moment_Nm"]) / 0.3 / row["normal_force_N"] / np.sqrt(patch["area_m2"] / np.pi), 2e-3)
+    overlap = 1e3 * patch["overlap_m"]
+    check.below(name + "smallest gap over the overlap", np.abs(mat.h[mat.contact].min()) / overlap, 1e-3)
+    check.below(name + "gap and displacement over the overlap", np.abs((mat.h + mat.un)[mat.contact] / overlap - 1.).max(), 1e-6)
+    (_, _, _, rail_y, rail_z, _, *_), (wheel_x, wheel_y, wheel_z, roll, yaw, radius, *_), contact = mat.places
+    check.absolute(name + "contact in the track across, mm", rail_y + contact[1], row["y_mm"], 1e-6)
+    check.absolute(name + "contact angle", contact[3], row["contact_angle_rad"], 1e-9)
+    check.that(name + "side", mat.side == (1 if row["side"] == "right" else 0) and wheel_y * row["y_mm"] > 0.)
+    # The reference point lies on the rail, in the overlap with the wheel's rolling circle.
+    check.absolute(name + "distance from the axle, mm", np.hypot(radius + contact[6], contact[4]) + 0.5 * overlap,
+                   1e3 * patch["rolling_radius_m"], 0.5 * overlap + 5e-3)
+    # To first order of the angles, of a wheel 750 mm from the middle.
+    check.absolute(name + "y by the wheel's place, mm", wheel_y + contact[5] + yaw * contact[4] - roll * contact[6], row["y_mm"], 0.02)
+    check.absolute(name + "height by the wheel's place, mm", wheel_z + contact[6] + roll * contact[5], rail_z + contact[2], 0.02)
+    check.absolute(name + "x by the wheel's place, mm", wheel_x + contact[4] - yaw * contact[5], row["x_mm"], 0.02)
+
+
+def two_patches():
+    """S1002 on 60E1 1:20 stands on tread and gauge corner. The rail's points are those that the program writes of its profile."""
+    must = execute([os.path.join(ROOT, "prm/curves/two-patches.prm"), "--contact-points", "--output", path("points")], program=program)
+    check.that("the rail's points are written", must.returncode == 0)
+    points = read_table(path("points/rail_profile.csv"))
+    np.savetxt(path("rail.txt"), np.column_stack([points["y_rail_mm"], -points["z_mm"]]))
+    lines = track_lines("left", position="0 -6.0 97119 0 0 0", speed="38888.9 0 0 0 0 -84.5")
+    done = command(file_of(*[line.replace(RAIL, "rail.txt") for line in lines]), "--output", path("two"), "--program", program, "--mat")
+    check.that("two patches, two matlab files", done.returncode == 0
+               and sorted(name for name in os.listdir(path("two")) if name.endswith(".mat")) == ["case.0001a.mat", "case.0001b.mat"])
+    rows = read_table(path("two/patches.csv"), text=("side", "method"))
+    for number, patch in enumerate(Run(path("two/case-1")).summary["patches"]):
+        name = path(f"two/case.0001{'ab'[number]}.mat")
+        mat_of_patch("two patches: ", name, {key: values[number] for key, values in rows.items()}, patch)
+        check.that("how many patches and which", Mat(name).places[2][7:9] == [2, number + 1])
 
 
 def rolled_wheels():
@@ -459,6 +576,6 @@ def refused_to_roll():
 
 
 for part in (shipped_case, creep_table, printed_examples, ways_to_say_the_same, forces_and_approach, several_cases, wheels_on_rails,
-             refusals, rolled_wheels, rolled_hertzian, refused_to_roll):
+             refusals, matlab_files, two_patches, rolled_wheels, rolled_hertzian, refused_to_roll):
     part()
 check.exit()

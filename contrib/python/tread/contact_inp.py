@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Solve the cases of an input file of CONTACT by half-space theory, and roll them by finite elements.
 
-    contrib/contact-inp.py CASE.inp --output FOLDER [--finite-elements [--cell MM] [--ranks N]]
+    contrib/contact-inp.py CASE.inp --output FOLDER [--finite-elements [--cell MM] [--ranks N]] [--mat]
 
 or python3 -m tread.contact_inp, or tread-contact-inp. In the folder are summary.csv with a row for each case, and case-1.csv,
 case-2.csv, ... with the elements in contact, which the commands that read patch.csv read too. Cases of module 3: the normal problem
@@ -11,7 +11,8 @@ and signs. What else a file asks for is refused in one line with its place; the 
 
 --finite-elements rolls each case besides, by the scene case-1-finite-elements.prm: both tables have its answers in rows of their own, whose
 column "method" says so, in the same axes and signs. Of module 3 those cases are rolled whose gap is that of an upright wheel on a rail
-with a crown, A x^2 + B y^2; others are refused.
+with a crown, A x^2 + B y^2; others are refused. --mat writes the elements of the half-space in the layout of CONTACT's matlab files too,
+CASE.0001.mat, of module 1 CASE.0001a.mat, CASE.0001b.mat for its patches.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ import numpy as np
 from . import half_space
 from .commands import command_parser, run_command
 from .contact_cases import EXCLUDED, Case, Reader, Words
+from .contact_mat import mat_path, write_mat_of_case, write_mats_of_track_case
 from .contact_rolled import roll_track_case, roll_upright, upright_wheel
 from .contact_track import PATCH, TrackCase, TrackReader, solve_track_case
 from .files import DataError
@@ -226,8 +228,14 @@ class Job:
     finite_elements: bool = False
     cell: float | None = None  # mm; None: by the patch
     ranks: int = 1
+    mat: bool = False
     summary: list[list] = dataclasses.field(default_factory=list)  # rows of summary.csv
     patches: list[list] = dataclasses.field(default_factory=list)  # rows of patches.csv
+
+    @property
+    def name(self) -> str:
+        """Of the input, without its ending."""
+        return os.path.splitext(os.path.basename(self.input))[0]
 
     def solve(self, case: Case | TrackCase) -> Iterator[tuple[str, str]]:
         """Solve a case and write what belongs to it. Yields (method, what is printed of it)."""
@@ -239,6 +247,8 @@ class Job:
     def solve_track(self, case: TrackCase, own: str, title: str) -> Iterator[tuple[str, str]]:
         """A case of module 1."""
         run, patches = solve_track_case(case, own, title, self.program)
+        if self.mat:
+            write_mats_of_track_case(self.folder, self.name, case, run)
         yield HALF_SPACE, self.add_patches(case, HALF_SPACE, patches)
         if self.finite_elements:
             rolled, patches = roll_track_case(case, run, own + "-finite-elements", self.cell, title, self.ranks, self.program)
@@ -258,6 +268,8 @@ class Job:
         result = solve_case(case)
         scene = upright_wheel(case, result, self.cell) if self.finite_elements else None
         write_elements(own + ".csv", case, result)
+        if self.mat:
+            write_mat_of_case(mat_path(self.folder, self.name, case.number), case, result)
         border = "; the patch reaches the border of the potential contact area" if result["reaches_border"] else ""
         yield HALF_SPACE, self.add_summary(HALF_SPACE, result) + border
         if scene:
@@ -287,6 +299,7 @@ def main():
     parser.add_argument("--finite-elements", action="store_true", help="roll the cases besides, in seconds to minutes each")
     parser.add_argument("--cell", type=float, metavar="MM", help="edge of the finest cells (a fifth of the patch's smaller half length)")
     parser.add_argument("--ranks", type=int, metavar="N", help="MPI processes of a rolled case (1)")
+    parser.add_argument("--mat", action="store_true", help="write the elements in the layout of CONTACT's matlab files, too")
     parser.add_argument("--program", default=PROGRAM, help="tread itself, for module 1 and finite elements")
     arguments = parser.parse_args()
     for name, value in (("--cell", arguments.cell), ("--ranks", arguments.ranks)):
@@ -294,7 +307,8 @@ def main():
             parser.error(f"{name} needs --finite-elements")
         if value is not None and not value > 0:
             parser.error(f"{name} must be above 0")
-    job = Job(arguments.input, arguments.output, arguments.program, arguments.finite_elements, arguments.cell, arguments.ranks or 1)
+    job = Job(arguments.input, arguments.output, arguments.program, arguments.finite_elements, arguments.cell, arguments.ranks or 1,
+              arguments.mat)
     for case in cases_of(arguments.input):
         if not case.solved:
             print(f"case {case.number}: only read (R = 2 or 3)")
