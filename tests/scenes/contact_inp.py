@@ -16,7 +16,7 @@ from tread.contact_inp import read_cases, solve_case
 from tread.contact_rolled import upright_wheel
 from tread.creep_table import FORCE, FRICTION, POISSON, SHEAR
 from tread.files import DataError, read_table
-from tread.manchester import DATA as MANCHESTER
+from tread.manchester import DATA as MANCHESTER, positions
 from tread.patches import read_contact, read_patch
 from tread.runs import ROOT, Run, environment, execute
 from tread_runner import Check
@@ -353,6 +353,17 @@ def wheels_on_rails():
                and "line 2: case 1: 'Wheel/Tread profile'" in bad.stderr)
 
 
+def shipped_positions():
+    """The input file of the Manchester benchmark has the positions of the table."""
+    cases = read_cases(os.path.join(DATA, "manchester.inp"))
+    wanted = list(positions())
+    check.that("manchester.inp has twelve cases", len(cases) == len(wanted) == 12
+               and [case.side for case in cases] == [side for side, *_ in wanted])
+    check.below("their positions and angular velocities, mm, mrad, rad/s", max(
+        abs(case.settings[name] - value) for case, (_, _, settings, _) in zip(cases, wanted) for name, value in settings.items()), 1e-9)
+    check.that("their rail is the shipped one", all(os.path.samefile(case.settings["Rail/Measured head"], RAIL) for case in cases))
+
+
 class Mat:
     """A file in the layout of CONTACT's matlab files, read by what its user guide says of it (appendix A.6): mm, MPa."""
 
@@ -576,6 +587,6 @@ def refused_to_roll():
 
 
 for part in (shipped_case, creep_table, printed_examples, ways_to_say_the_same, forces_and_approach, several_cases, wheels_on_rails,
-             refusals, matlab_files, two_patches, rolled_wheels, rolled_hertzian, refused_to_roll):
+             refusals, shipped_positions, matlab_files, two_patches, rolled_wheels, rolled_hertzian, refused_to_roll):
     part()
 check.exit()
