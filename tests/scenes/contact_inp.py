@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Input files of CONTACT: its figures for the shipped case and for its creep-force table, each way to say the same, and what is refused."""
+"""Input files of CONTACT: its figures for the shipped case and for its creep-force table, each way to say the same, what is refused, its
+matlab files, and finite elements beside the half-space."""
 
 import os
 import subprocess
@@ -9,14 +10,15 @@ import tempfile
 
 import numpy as np
 
-from tread import hertz
+from tread import half_space, hertz
 from tread.contact_examples import OF_ELEMENTS, of_inputs
 from tread.contact_inp import read_cases, solve_case
+from tread.contact_rolled import upright_wheel
 from tread.creep_table import FORCE, FRICTION, POISSON, SHEAR
 from tread.files import DataError, read_table
-from tread.manchester import DATA as MANCHESTER
+from tread.manchester import DATA as MANCHESTER, positions
 from tread.patches import read_contact, read_patch
-from tread.runs import ROOT, environment
+from tread.runs import ROOT, Run, environment, execute
 from tread_runner import Check
 
 program = os.path.abspath(sys.argv[1])
@@ -329,7 +331,7 @@ def wheels_on_rails():
         value = {name: column[row] for name, column in wanted.items()}
         lines += track_lines(value["side"], position=f"0 {value['y_ws_mm']} 10000 {value['roll_rad']} {value['yaw_rad']} 0",
                              speed=f"2000 0 0 0 0 {value['omega_rad_s']}", **({"z": 0, "e": 2} if lines else {}), end="")
-    done = command(file_of(*lines, "0 MODULE"), "--output", path("track"), "--program", program)
+    done = command(file_of(*lines, "0 MODULE"), "--output", path("track"), "--program", program, "--mat")
     check.that("module 1 ends well", done.returncode == 0 and done.stderr == "" and done.stdout.count("\n") == len(rows))
     patches = read_table(path("track/patches.csv"), text=("side",))
     check.that("a patch for each", list(patches["case"]) == list(range(1, len(rows) + 1)) and list(patches["side"]) == list(wanted["side"][rows]))
@@ -343,12 +345,248 @@ def wheels_on_rails():
             check.below(name + key, patches[key][case] - wanted[given][row], allowed)
         check.below(name + "spin", patches["spin_per_m"][case] - 1e3 * wanted["cphi_rad_mm"][row], 2e-3)
         check.relative(name + "largest pressure", patches["max_pressure_MPa"][case], wanted["p_max_MPa"][row], 4e-3)
+        mat_of_patch(name, path(f"track/case.{case + 1:04d}a.mat"), {key: values[case] for key, values in patches.items()},
+                     Run(path(f"track/case-{case + 1}")).summary["patches"][0])
     check.that("scenes and their results are kept", os.path.exists(path("track/case-2.prm")) and os.path.exists(path("track/case-2/summary.json")))
     bad = command(file_of(*[line.replace("'S1002'", "'S1003'") for line in track_lines()]), "--output", path("bad-track"), "--program", program)
     check.that("what the program refuses is said with its place", bad.returncode == 1 and bad.stderr.count("\n") == 1
                and "line 2: case 1: 'Wheel/Tread profile'" in bad.stderr)
 
 
-for part in (shipped_case, creep_table, printed_examples, ways_to_say_the_same, forces_and_approach, several_cases, wheels_on_rails, refusals):
+def shipped_positions():
+    """The input file of the Manchester benchmark has the positions of the table."""
+    cases = read_cases(os.path.join(DATA, "manchester.inp"))
+    wanted = list(positions())
+    check.that("manchester.inp has twelve cases", len(cases) == len(wanted) == 12
+               and [case.side for case in cases] == [side for side, *_ in wanted])
+    check.below("their positions and angular velocities, mm, mrad, rad/s", max(
+        abs(case.settings[name] - value) for case, (_, _, settings, _) in zip(cases, wanted) for name, value in settings.items()), 1e-9)
+    check.that("their rail is the shipped one", all(os.path.samefile(case.settings["Rail/Measured head"], RAIL) for case in cases))
+
+
+class Mat:
+    """A file in the layout of CONTACT's matlab files, read by what its user guide says of it (appendix A.6): mm, MPa."""
+
+    def __init__(self, name):
+        with open(name, encoding="ascii") as stream:
+            rows = [[float(word) for word in line.split()] for line in stream if not line.startswith("%")]
+        check.that(os.path.basename(name) + ": eleven numbers in each row, format 2320",
+                   {len(row) for row in rows} == {11} and rows[0][-1] == 2320)
+        self.places, (grid, self.material, self.friction) = rows[:3], rows[3:6]
+        self.n_x, self.n_y = map(int, grid[:2])
+        (self.x_low, self.y_low, self.dx, self.dy, self.chi, self.step), self.side = grid[2:8], grid[8]
+        table = np.array(rows[6:])
+        for k, field in enumerate("igs h mu pn px py un ux uy srel".split(), 1):
+            values = np.zeros(self.n_x * self.n_y)
+            values[table[:, 0].astype(int) - 1] = table[:, k]
+            setattr(self, field, values.reshape(self.n_y, self.n_x))
+        self.x = self.x_low + (np.arange(self.n_x) + 0.5) * self.dx
+        self.y = (self.y_low + (np.arange(self.n_y) + 0.5) * self.dy)[:, None]
+        self.contact = self.igs > 0.
+
+    def integral(self, values):
+        """N, of a stress."""
+        return (values * self.dx * self.dy).sum()
+
+    def moment(self):
+        """Of the shear about the origin, N m."""
+        return 1e-3 * self.integral(self.x * self.py - self.y * self.px)
+
+
+def matlab_files():
+    """Module 3. The displacements come from the tractions by closed forms of their own: with the gap they must give the approach of the
+    solver, and with the creepages the slip."""
+    kinematics = "82000 0.0004 -0.0003 0.0002 1.5 0.5"
+    done = command(file_of(*lines_of(kinematics, end=""), *lines_of(kinematics, chi="180d 0.8 30000", end=""), *lines_of(pbtnfs="200100")),
+                   "--output", path("mat"), "--mat")
+    check.that("three cases with matlab files", done.returncode == 0 and done.stderr == "")
+    table = read_table(path("mat/summary.csv"), text=("method",))
+    check.that("rows say how they were computed", list(table["method"]) == 3 * ["half-space"])
+    for case in range(3):
+        mat, name = Mat(path(f"mat/case.000{case + 1}.mat")), f"matlab file, case {case + 1}: "
+        for key, value in (("normal_force_N", mat.integral(mat.pn)), ("longitudinal_force_N", mat.integral(mat.px)),
+                           ("lateral_force_N", mat.integral(mat.py)), ("spin_moment_Nm", mat.moment()), ("max_pressure_MPa", mat.pn.max()),
+                           ("patch_area_mm2", mat.integral(mat.contact)), ("adhesion_share", (mat.igs == 1).sum() / mat.contact.sum())):
+            if table[key][case]:
+                check.relative(name + key, value, table[key][case], 1e-7)
+            else:
+                check.absolute(name + key, value, 0., 1e-9)
+        check.below(name + "gap and displacement over the approach",
+                    np.abs((mat.h + mat.un)[mat.contact] / table["approach_mm"][case] - 1.).max(), 1e-7)
+        check.that(name + "control digits and constants", mat.material[:6] == [0 if case == 2 else 3, 0, 82000, 82000, 0.28, 0.28]
+                   and mat.friction[:2] == [0, 0] and mat.friction[3:5] == [0.3, 0.3] and abs(mat.chi - (np.pi if case else 0.)) < 1e-9
+                   and (mat.mu[mat.contact] == 0.3).all())
+        if case == 2:
+            check.that(name + "no slip", not mat.srel.any())
+            continue
+        check.that(name + "speed, step and centre of the spin", mat.friction[2] == 30000 and mat.step == (0.4 if case == 0 else 0.8)
+                   and mat.places[2][9:11] == [1.5, 0.5])
+        # Particles come from the neighbour ahead, over an element of 0.8 mm; CONTACT takes the slip a sixth of it ahead.
+        ahead = 1 if case == 0 else -1
+        before = lambda values: np.roll(values, -ahead, axis=1)
+        slip_x = 0.0004 - 0.0002 * (mat.y - 0.5) + (mat.ux - before(mat.ux)) / mat.dx
+        slip_y = -0.0003 + 0.0002 * (mat.x + ahead * mat.dx / 6 - 1.5) + (mat.uy - before(mat.uy)) / mat.dx
+        within = mat.contact & before(mat.contact)
+        check.below(name + "slip by the displacements less that of the file, 1e-6",
+                    1e6 * np.abs(np.hypot(slip_x, slip_y) - mat.srel)[within].max(), 0.01)
+        check.that(name + "some slip and some adhere", 0.05 < table["adhesion_share"][case] < 0.95 and mat.srel.max() > 2e-4)
+        check.below(name + "friction bound", (np.hypot(mat.px, mat.py) - mat.mu * mat.pn).max() / mat.pn.max(), 1e-6)
+
+
+def mat_of_patch(name, file, row, patch):
+    """Module 1: integrals are the forces of patches.csv, which are those of the solver of second order; the gap is counted from the point
+    where the bodies overlap most; the places are those of the patch in the track."""
+    mat = Mat(file)
+    name += os.path.basename(file) + ", "
+    check.relative(name + "normal force", mat.integral(mat.pn), row["normal_force_N"], 1e-5)
+    for key, values in (("longitudinal_force_N", mat.px), ("lateral_force_N", mat.py)):
+        check.below(name + key + " over friction times load", (mat.integral(values) - row[key]) / 0.3 / row["normal_force_N"], 2e-3)
+    check.relative(name + "area", mat.integral(mat.contact), row["area_mm2"], 1e-8)
+    # On the rail; axes of a left wheel are turned about x, those of a right one mirrored.
+    own = 1. if row["side"] == "right" else -1.
+    check.below(name + "spin moment over friction, load and radius",
+                (mat.moment() + own * patch["spin_moment_Nm"]) / 0.3 / row["normal_force_N"] / np.sqrt(patch["area_m2"] / np.pi), 2e-3)
+    overlap = 1e3 * patch["overlap_m"]
+    check.below(name + "smallest gap over the overlap", np.abs(mat.h[mat.contact].min()) / overlap, 1e-3)
+    check.below(name + "gap and displacement over the overlap", np.abs((mat.h + mat.un)[mat.contact] / overlap - 1.).max(), 1e-6)
+    (_, _, _, rail_y, rail_z, _, *_), (wheel_x, wheel_y, wheel_z, roll, yaw, radius, *_), contact = mat.places
+    check.absolute(name + "contact in the track across, mm", rail_y + contact[1], row["y_mm"], 1e-6)
+    check.absolute(name + "contact angle", contact[3], row["contact_angle_rad"], 1e-9)
+    check.that(name + "side", mat.side == (1 if row["side"] == "right" else 0) and wheel_y * row["y_mm"] > 0.)
+    # The reference point lies on the rail, in the overlap with the wheel's rolling circle.
+    check.absolute(name + "distance from the axle, mm", np.hypot(radius + contact[6], contact[4]) + 0.5 * overlap,
+                   1e3 * patch["rolling_radius_m"], 0.5 * overlap + 5e-3)
+    # To first order of the angles, of a wheel 750 mm from the middle.
+    check.absolute(name + "y by the wheel's place, mm", wheel_y + contact[5] + yaw * contact[4] - roll * contact[6], row["y_mm"], 0.02)
+    check.absolute(name + "height by the wheel's place, mm", wheel_z + contact[6] + roll * contact[5], rail_z + contact[2], 0.02)
+    check.absolute(name + "x by the wheel's place, mm", wheel_x + contact[4] - yaw * contact[5], row["x_mm"], 0.02)
+
+
+def two_patches():
+    """S1002 on 60E1 1:20 stands on tread and gauge corner. The rail's points are those that the program writes of its profile."""
+    must = execute([os.path.join(ROOT, "prm/curves/two-patches.prm"), "--contact-points", "--output", path("points")], program=program)
+    check.that("the rail's points are written", must.returncode == 0)
+    points = read_table(path("points/rail_profile.csv"))
+    np.savetxt(path("rail.txt"), np.column_stack([points["y_rail_mm"], -points["z_mm"]]))
+    lines = track_lines("left", position="0 -6.0 97119 0 0 0", speed="38888.9 0 0 0 0 -84.5")
+    done = command(file_of(*[line.replace(RAIL, "rail.txt") for line in lines]), "--output", path("two"), "--program", program, "--mat")
+    check.that("two patches, two matlab files", done.returncode == 0
+               and sorted(name for name in os.listdir(path("two")) if name.endswith(".mat")) == ["case.0001a.mat", "case.0001b.mat"])
+    rows = read_table(path("two/patches.csv"), text=("side", "method"))
+    for number, patch in enumerate(Run(path("two/case-1")).summary["patches"]):
+        name = path(f"two/case.0001{'ab'[number]}.mat")
+        mat_of_patch("two patches: ", name, {key: values[number] for key, values in rows.items()}, patch)
+        check.that("how many patches and which", Mat(name).places[2][7:9] == [2, number + 1])
+
+
+def rolled_wheels():
+    """Module 1 by finite elements, with four cells in the smaller half length of a patch: CONTACT's figures of the Manchester benchmark
+    within half as much again as was found, at least 0.4 % of forces."""
+    wanted = read_table(MANCHESTER, text=("side",))
+    rows = [row for row, key in enumerate(zip(wanted["side"], wanted["y_ws_mm"])) if key in (("left", 4), ("right", 2))]
+    lines = []
+    for row in rows:
+        value = {name: column[row] for name, column in wanted.items()}
+        lines += track_lines(value["side"], position=f"0 {value['y_ws_mm']} 10000 {value['roll_rad']} {value['yaw_rad']} 0",
+                             speed=f"2000 0 0 0 0 {value['omega_rad_s']}", **({"z": 0, "e": 2} if lines else {}), end="")
+    done = command(file_of(*lines, "0 MODULE"), "--output", path("rolled"), "--program", program, "--finite-elements", "--cell", "0.5")
+    check.that("module 1 by finite elements ends well", done.returncode == 0 and done.stderr == "" and "warning" not in done.stdout
+               and done.stdout.count("finite elements: FN") == 2 and "case 2, half-space: FN" in done.stdout)
+    patches = read_table(path("rolled/patches.csv"), text=("side", "method"))
+    check.that("a row for each method", list(patches["method"]) == 2 * ["half-space", "finite elements"]
+               and list(patches["case"]) == [1, 1, 2, 2])
+    for case, row in enumerate(rows):
+        name, at = f"{wanted['side'][row]} wheel at {wanted['y_ws_mm'][row]:g} mm by finite elements: ", 2 * case + 1
+        check.relative(name + "normal force", patches["normal_force_N"][at], wanted["FN_N"][row], 4e-3)
+        for key, given in (("longitudinal_force_N", "FX_N"), ("lateral_force_N", "FS_N")):
+            check.below(name + key + " over friction times load", (patches[key][at] - wanted[given][row]) / 3000., 5e-3)
+        check.relative(name + "largest pressure", patches["max_pressure_MPa"][at], wanted["p_max_MPa"][row], 0.015)
+        for key in ("x_mm", "y_mm", "contact_angle_rad", "creepage", "lateral_creepage", "spin_per_m"):
+            check.absolute(name + key + " is that of the half-space", patches[key][at], patches[key][at - 1], 1e-9)
+        check.that(name + "it is another answer", patches["normal_force_N"][at] != patches["normal_force_N"][at - 1])
+
+
+def rolled_hertzian():
+    """Module 3 by finite elements, beside slip of second order on finer elements, which has no step of CONTACT's. Half as much again as was
+    found: three cells are in the smaller semi-axis, and the lateral force under spin converges last (doc/verification.md)."""
+    thesis = lines_of("127100 0.6 0 0", pbtnfs="203110", friction="0.5 0.5", chi="0 0.1 30000", poisson="0.3 0.3 80769.231 80769.231",
+                      kind="1", area="50 40 -8.5 -6.6 0.34 0.33", gap=("1 1", "1.0869565e-3 0 1.6666667e-3 0 0 0"), end="")
+    back = lines_of("82000 -0.0009 0.0001 0.0004 -1 0.5", chi="180d 0.8 30000", area="44 44 8. 4. 1.1")
+    done = command(file_of(*thesis, *back), "--output", path("upright"), "--program", program, "--finite-elements", "--cell", "1.2")
+    check.that("module 3 by finite elements ends well", done.returncode == 0 and done.stderr == "")
+    table = read_table(path("upright/summary.csv"), text=("method",))
+    check.that("a row for each method", list(table["method"]) == 2 * ["half-space", "finite elements"]
+               and list(table["case"]) == [1, 1, 2, 2])
+    of = lambda name, case: table[name][2 * case + 1]
+    one = half_space.solve(curvature_x=1.0869565, curvature_y=1.6666667, normal_force=127100., friction=0.5, young=210e9, poisson=0.3,
+                           creepage=of("creepage", 0))
+    name = "thesis by finite elements: "
+    for key, wanted, allowed in (("normal_force_N", 127100., 3e-3), ("longitudinal_force_N", one["longitudinal_force"], 0.013),
+                                 ("max_pressure_MPa", 1e-6 * one["max_pressure"], 0.015),
+                                 ("frictional_power_W", 30. * one["frictional_work"], 0.018)):
+        check.relative(name + key, of(key, 0), float(wanted), allowed)
+    check.relative(name + "largest slip, m/s", of("max_slip_m_per_s", 0), table["max_slip_m_per_s"][0], 0.05)
+    check.below(name + "lateral force over the load", of("lateral_force_N", 0) / 127100., 1e-6)
+    # What rolls backwards is the mirror image at x = 0; the middle of the spin moved to the middle of the patch.
+    curvature_x, curvature_y = hertz.curvatures(8e-3, 4e-3, 82e3, 82e9 / 0.72)
+    two = half_space.solve(curvature_x=curvature_x, curvature_y=curvature_y, normal_force=82e3, friction=0.3, young=2.56 * 82e9,
+                           poisson=0.28, creepage=0.0009 - 0.0004 * 0.5, lateral_creepage=0.0001 + 0.0004 * 1., spin=-0.4)
+    name = "backwards, with spin, by finite elements: "
+    check.relative(name + "normal force", of("normal_force_N", 1), 82e3, 3e-3)
+    for key, wanted, allowed in (("longitudinal_force_N", -two["longitudinal_force"], 0.005),
+                                 ("lateral_force_N", two["lateral_force"], 0.03)):
+        check.below(name + key + " over friction times load", (of(key, 1) - float(wanted)) / 0.3 / 82e3, allowed)
+    check.below(name + "spin moment over friction, load and mean semi-axis",
+                (of("spin_moment_Nm", 1) + float(two["spin_moment"])) / 0.3 / 82e3 / 5.66e-3, 0.005)
+    check.that(name + "all three are there", min(abs(of(key, 1)) for key in ("longitudinal_force_N", "lateral_force_N")) > 2000.
+               and abs(of("spin_moment_Nm", 1)) > 5.)
+
+
+ROLLED_REFUSALS = (
+    ("a profile for a gap", dict(kind="1", area="22 22 -8.8 -4.4 0.8 0.4", gap=("2 1", "3 0 590 -6 6", "0.09 0 0.09")), "IBASE = 1"),
+    ("a planform", dict(kind="1", area="22 22 -8.8 -4.4 0.8 0.4", gap=("1 3", "8.5e-4 0 2.4e-3 0 0 0", "-9 9 -3 3 -6 6 -5 5")),
+     "IPLAN = 1"),
+    ("a gap whose middle is elsewhere", dict(kind="1", area="22 22 -8.8 -4.4 0.8 0.4", gap=("1 1", "8.5e-4 0 2.4e-3 1e-4 0 0")), "B(4)"),
+    ("a patch at the border", dict(kind="1", area="10 10 -4. -2. 0.8 0.4"), "reaches the border"),
+    ("a wheel that is too large", dict(kind="-1", area="22 22 2e-4 4e-3 1.1"),
+     "in rolling direction, 1/(2 A) = 2500 mm, is none of a wheel of tread: 10 to 2000 mm"),
+    ("a rail that is too sharp", dict(kind="-1", kinematics="100 0 0 0", area="22 22 2e-3 0.06 1.1"),
+     "across, 1/(2 B) = 8.333 mm, is none of a rail"),
+    ("a patch that is too large", dict(kind="-1", area="22 22 0.02 0.03 1.1"), "too large for bodies with radii of 25 and 16.67 mm"),
+    ("a stiff body that keeps its volume", dict(poisson="0.5 0.5 82000 82000"), "Poisson's ratio 0.5"),
+)
+
+
+def refused_to_roll():
+    for name, changes, words in ROLLED_REFUSALS:
+        case = read_cases(file_of(*lines_of(**changes)))[0]
+        try:
+            upright_wheel(case, solve_case(case), None)
+            said = "nothing"
+        except DataError as error:
+            said = str(error)
+        print("  " + said)
+        check.that(f"finite elements refuse {name}", words in said and "\n" not in said)
+    case = read_cases(file_of(*lines_of(pbtnfs="200100", poisson="0.28 0.28 820 820", kinematics="820 0.001 0 0")))[0]
+    scene = upright_wheel(case, solve_case(case), None)
+    check.that("the normal problem alone is rolled without friction",
+               scene["Contact/Friction coefficient"] == scene["Motion/Creepage"] == 0.)
+    # A hundredth of the stiffness with a hundredth of the density has the waves of steel; semi-axes of 8 and 4 mm.
+    check.relative("soft cells are light", scene["Wheel/Density (kg per m3)"] / 7800., 2.56 * 0.82 / 210., 1e-9)
+    check.that("one and a half patch lengths and what forces are averaged over", scene["Motion/Rolled distance (mm)"] == 1.5 * 16. + 10.)
+    check.that("cells by the smaller semi-axis, blocks by the larger one", scene["Mesh/Finest cell (mm)"] == 0.8
+               and abs(scene["Rail/Block height (mm)"] / 104. - 1.) < 1e-6)
+    done = command(file_of(*lines_of(kind="1", area="10 10 -4. -2. 0.8 0.4")), "--output", path("refused"), "--finite-elements",
+                   "--program", program)
+    check.that("refused in one line with its place", done.returncode == 1 and done.stderr.count("\n") == 1 and done.stdout == ""
+               and "line 2: case 1: the patch reaches the border" in done.stderr and os.listdir(path("refused")) == [])
+    for options in (["--cell", "1"], ["--ranks", "2"], ["--finite-elements", "--cell", "0"]):
+        done = command(file_of(*lines_of()), "--output", path("options"), *options)
+        check.that(f"{' '.join(options)} is refused", done.returncode == 2 and options[-2] in done.stderr
+                   and not os.path.exists(path("options")))
+
+
+for part in (shipped_case, creep_table, printed_examples, ways_to_say_the_same, forces_and_approach, several_cases, wheels_on_rails,
+             refusals, shipped_positions, matlab_files, two_patches, rolled_wheels, rolled_hertzian, refused_to_roll):
     part()
 check.exit()

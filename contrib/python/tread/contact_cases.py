@@ -90,11 +90,13 @@ class Case:
     friction: float | None = None
     backwards: bool = False  # rolls towards -x
     speed: float = 1.  # m/s
+    step: float = 0.  # DQ, m; 0: not known
     spin_step: float = 1. / 6.  # share of an element by which CONTACT moves the spin's centre
     shear_modulus: float | None = None  # Pa
     poisson: float | None = None
     area: Area | None = None
     gap: np.ndarray | None = None  # (n_y, n_x), m
+    curvatures: tuple[float, float] | None = None  # A, B (1/m) where the gap is A x^2 + B y^2 and a constant
 
 
 class Words:
@@ -176,7 +178,6 @@ class Reader:
         self.words, self.case = words, Case()
         self.planned: tuple[int, list[float]] | None = None  # IPOTCN and its values, mm
         self.shape: tuple[int, int, list[float], list[float]] | None = None  # IBASE, IPLAN and their values, mm
-        self.step = 0.  # DQ, m; 0: not known
 
     def control_digits(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
         """{digit: value} of the three lines, each checked as soon as it is read; and the lines of the solvers, which ours does not need."""
@@ -206,7 +207,7 @@ class Reader:
         self.kinematics(first["N"], first["F"])
         self.friction(second["L"])
         self.material(second["C"], case.tangential)
-        if case.tangential and not self.step:
+        if case.tangential and not case.step:
             raise words.refuse(f"'C' = {second['C']} keeps CHI, DQ and VELOC, and there are none before it")
         if second["D"] == 2:
             self.potential_area()
@@ -217,9 +218,9 @@ class Reader:
         elif self.shape is None and self.planned[0] > 0:
             raise words.refuse(f"'Z' = {second['Z']} keeps the undeformed distance, and there is none before it")
         self.make_geometry(renew=second["D"] > 0)
-        if case.tangential and third["G"] == 2 and abs(self.step - case.area.element_x) > 0.01 * case.area.element_x:
-            raise words.refuse(f"DQ = {1e3 * self.step:g} mm with 'G' = 2: steps must be as long as an element, {1e3 * case.area.element_x:g} mm",
-                               case.line)
+        if case.tangential and third["G"] == 2 and abs(case.step - case.area.element_x) > 0.01 * case.area.element_x:
+            raise words.refuse(f"DQ = {1e3 * case.step:g} mm with 'G' = 2: steps must be as long as an element, "
+                               f"{1e3 * case.area.element_x:g} mm", case.line)
         return third["R"] in (0, 2)
 
     def result(self) -> Case:
@@ -283,7 +284,7 @@ class Reader:
                 raise words.refuse(f"CHI = {math.degrees(values[0]):g} degrees: rolling is along x, 0 or 180 degrees")
             if values[1] <= 0. or values[2] <= 0.:
                 raise words.refuse("DQ and VELOC must be above 0")
-            case.backwards, self.step, case.speed = angle > 1., 1e-3 * values[1], 1e-3 * values[2]
+            case.backwards, case.step, case.speed = angle > 1., 1e-3 * values[1], 1e-3 * values[2]
             case.spin_step = values[3] if len(values) == 4 else 1. / 6.
         nu1, nu2, g1, g2 = words.read("dddd", "POISS 1,2, GG 1,2")
         if not (0. <= nu1 <= 0.5 and 0. <= nu2 <= 0.5 and g1 > 0. and g2 > 0.):
@@ -353,8 +354,11 @@ class Reader:
             if renew or case.area is None:
                 case.area = area_between(values[0], values[1], values[4] * a, values[4] * b)
             case.gap = curvature_x * case.area.x ** 2 + curvature_y * case.area.y[:, None] ** 2
+            case.curvatures = curvature_x, curvature_y
             return
         case.area = area_of(kind, values)
+        base, plan, shape, _ = self.shape
+        case.curvatures = (1e3 * shape[0], 1e3 * shape[2]) if base == plan == 1 and not (shape[1] or shape[3] or shape[4]) else None
         if self.shape[0] == 9 and len(self.shape[2]) != case.area.n_x * case.area.n_y:
             raise self.words.refuse("the undeformed distance that is kept is of another number of elements")
         case.gap = gap_of(case.area, *self.shape)

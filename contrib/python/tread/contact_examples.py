@@ -4,10 +4,13 @@ Manchester benchmark."""
 
 import csv
 import os
+import tempfile
 
 import numpy as np
 
 from .contact_inp import read_cases, solve_case
+from .contact_rolled import roll_track_case, roll_upright, upright_wheel
+from .contact_track import solve_track_case
 from .files import read_table
 from .manchester import positions, solve
 from .runs import PROGRAM, ROOT
@@ -20,6 +23,14 @@ QUANTITIES = {"normal_force_N": "normal force, N", "longitudinal_force_N": "long
               "patch_area_mm2": "area, mm2", "adhesion_share": "adhesion share", "frictional_power_of_elements_W": "frictional power, W"}
 # Where they differ most.
 OF_ELEMENTS = {"pressure_MPa": "pressure of elements, MPa", "shear_MPa": "shear of elements, MPa", "slip": "slip of elements over the speed"}
+# What finite elements tell, too.
+OF_ROLLED = {"longitudinal_force_N": "longitudinal force, N", "lateral_force_N": "lateral force, N", "spin_moment_Nm": "spin moment, N m",
+             "max_pressure_MPa": "largest pressure, MPa", "adhesion_share": "adhesion share", "frictional_power_W": "frictional power, W"}
+# File, case and name of those that are rolled.
+ROLLED = (("thesis", 2, "thesis, traction coefficient 0.15"), ("thesis", 1, "thesis, traction coefficient 0.30"),
+          ("examples", 3, "lateral creepage and spin"), ("examples", 8, "Eurosprinter, creepage 0.0008"),
+          ("examples", 10, "Eurosprinter, creepage 0.0024"), ("examples", 22, "gauge corner, quadratic gap"))
+NARROWEST = 1e-3  # m, of patches that are rolled
 OF_PATCHES = {"normal_force_N": ("normal force, N", 1.), "longitudinal_force_N": ("longitudinal force, N", 1.), "lateral_force_N": ("lateral force, N", 1.),
               "max_pressure_Pa": ("largest pressure, MPa", 1e-6)}
 
@@ -60,3 +71,32 @@ def of_profiles(program=PROGRAM):
         patch, = solve(side, settings, program)["patches"]
         for name, (quantity, unit) in OF_PATCHES.items():
             yield "manchester", f"A-2.2, {side} wheel, {shift:g} mm", quantity, unit * given[name], unit * patch[name]
+
+
+def of_finite_elements(program=PROGRAM, ranks=1):
+    """Yields (name with the size of the cells, quantity, half-space's answer, finite elements') of Hertzian examples."""
+    for file, number, name in ROLLED:
+        case = read_cases(os.path.join(DATA, f"{file}.inp"))[number - 1]
+        result = solve_case(case)
+        scene = upright_wheel(case, result, None)
+        with tempfile.TemporaryDirectory() as folder:
+            _, rolled = roll_upright(case, result, scene, os.path.join(folder, "run"), name, ranks, program)
+        for key, quantity in OF_ROLLED.items():
+            # Nothing but rounding acts where nothing should.
+            if abs(result[key]) > 1e-6 * result["normal_force_N"] or key in ("max_pressure_MPa", "adhesion_share"):
+                yield f"{name}; cells of {scene['Mesh/Finest cell (mm)']:g} mm", quantity, float(result[key]), float(rolled[key])
+
+
+def of_rolled_profiles(program=PROGRAM, ranks=1):
+    """Yields (side, shift of the wheelset to the right in mm, finest cell in mm, half-space's patch, finite elements' patch) of the
+    Manchester benchmark's positions but those on the flange, whose narrow patches take long; patches are {name: value} with the names of
+    contact_track.PATCH."""
+    for case in read_cases(os.path.join(DATA, "manchester.inp")):
+        with tempfile.TemporaryDirectory() as folder:
+            run, (half_space,) = solve_track_case(case, os.path.join(folder, "half-space"), program=program)
+            if run.summary["patches"][0]["width_m"] < NARROWEST:
+                continue
+            answer, (rolled,) = roll_track_case(case, run, os.path.join(folder, "rolled"), None, "", ranks, program)
+            cell = float(answer.parameters["Mesh/Finest cell (mm)"])
+        own = 1. if case.side == "right" else -1.
+        yield case.side, own * case.settings["Wheelset/Lateral shift (mm)"] + 0., cell, half_space, rolled

@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Solve the cases of an input file of CONTACT by half-space theory.
+"""Solve the cases of an input file of CONTACT by half-space theory, and roll them by finite elements.
 
-    contrib/contact-inp.py CASE.inp --output FOLDER
+    contrib/contact-inp.py CASE.inp --output FOLDER [--finite-elements [--cell MM] [--ranks N]] [--mat]
 
 or python3 -m tread.contact_inp, or tread-contact-inp. In the folder are summary.csv with a row for each case, and case-1.csv,
 case-2.csv, ... with the elements in contact, which the commands that read patch.csv read too. Cases of module 3: the normal problem
 alone (T = 0) or steady rolling (T = 3), at given creepages or forces. A case of module 1, a wheel on a rail by their profiles, becomes
 a scene, case-1.prm, with the results of tread --reference-only in the folder case-1; its patches are rows of patches.csv, in CONTACT's axes
 and signs. What else a file asks for is refused in one line with its place; the cases before it are solved.
+
+--finite-elements rolls each case besides, by the scene case-1-finite-elements.prm: both tables have its answers in rows of their own, whose
+column "method" says so, in the same axes and signs. Of module 3 those cases are rolled whose gap is that of an upright wheel on a rail
+with a crown, A x^2 + B y^2; others are refused. --mat writes the elements of the half-space in the layout of CONTACT's matlab files too,
+CASE.0001.mat, of module 1 CASE.0001a.mat, CASE.0001b.mat for its patches.
 """
 
 from __future__ import annotations
 
 import csv
+import dataclasses
 import math
 import os
 from collections.abc import Iterator
@@ -22,13 +28,17 @@ import numpy as np
 from . import half_space
 from .commands import command_parser, run_command
 from .contact_cases import EXCLUDED, Case, Reader, Words
+from .contact_mat import mat_path, write_mat_of_case, write_mats_of_track_case
+from .contact_rolled import roll_track_case, roll_upright, upright_wheel
 from .contact_track import PATCH, TrackCase, TrackReader, solve_track_case
 from .files import DataError
-from .runs import PROGRAM, ProgramError
+from .runs import PROGRAM, ProgramError, Run
 
 # Of friction times load, and of the approach.
 FORCE_TOLERANCE, APPROACH_TOLERANCE = 1e-7, 1e-9
 STEPS = 40
+
+HALF_SPACE, FINITE_ELEMENTS = "half-space", "finite elements"
 
 SUMMARY = ("case", "line", "normal_force_N", "longitudinal_force_N", "lateral_force_N", "spin_moment_Nm", "friction_coefficient",
            "creepage", "lateral_creepage", "spin_per_m", "approach_mm", "max_pressure_MPa", "patch_area_mm2", "adhesion_share",
@@ -208,42 +218,106 @@ def write_elements(path: str, case: Case, result: dict) -> None:
     _write_csv(path, ELEMENTS, zip(*(value.tolist() for value in values), states.tolist()))
 
 
-def _solve_and_write(case: Case | TrackCase, folder: str, title: str, program: str, rows: dict[str, list]) -> str:
-    """Solve a case, write what belongs to it, add to the rows of the tables. @returns what is printed"""
-    own = os.path.join(folder, f"case-{case.number}")
-    if isinstance(case, TrackCase):
-        _, patches = solve_track_case(case, own, title, program)
-        rows["patches.csv"] += [[case.number, case.line, case.side, number, *patch.values()] for number, patch in enumerate(patches, 1)]
-        _write_csv(os.path.join(folder, "patches.csv"), ("case", "line", "side", "patch", *(name for name, _, _ in PATCH)), rows["patches.csv"])
-        return "; ".join(f"FN {patch['normal_force_N']:.6g} N, FX {patch['longitudinal_force_N']:.6g} N, FS {patch['lateral_force_N']:.6g} N, largest "
-                         f"pressure {patch['max_pressure_MPa']:.6g} MPa" for patch in patches)
-    result = solve_case(case)
-    os.makedirs(folder, exist_ok=True)
-    write_elements(own + ".csv", case, result)
-    rows["summary.csv"].append([result[name] for name in SUMMARY])
-    _write_csv(os.path.join(folder, "summary.csv"), SUMMARY, rows["summary.csv"])
-    return (f"FN {result['normal_force_N']:.6g} N, FX {result['longitudinal_force_N']:.6g} N, FY {result['lateral_force_N']:.6g} N, "
-            f"creepages {result['creepage']:.6g} {result['lateral_creepage']:.6g}, largest pressure {result['max_pressure_MPa']:.6g} MPa"
-            + ("; the patch reaches the border of the potential contact area" if result["reaches_border"] else ""))
+@dataclasses.dataclass
+class Job:
+    """What is made of the cases of a file."""
+
+    input: str
+    folder: str
+    program: str = PROGRAM
+    finite_elements: bool = False
+    cell: float | None = None  # mm; None: by the patch
+    ranks: int = 1
+    mat: bool = False
+    summary: list[list] = dataclasses.field(default_factory=list)  # rows of summary.csv
+    patches: list[list] = dataclasses.field(default_factory=list)  # rows of patches.csv
+
+    @property
+    def name(self) -> str:
+        """Of the input, without its ending."""
+        return os.path.splitext(os.path.basename(self.input))[0]
+
+    def solve(self, case: Case | TrackCase) -> Iterator[tuple[str, str]]:
+        """Solve a case and write what belongs to it. Yields (method, what is printed of it)."""
+        os.makedirs(self.folder, exist_ok=True)
+        own = os.path.join(self.folder, f"case-{case.number}")
+        title = f"{os.path.basename(self.input)}, case {case.number}"
+        yield from (self.solve_track if isinstance(case, TrackCase) else self.solve_basic)(case, own, title)
+
+    def solve_track(self, case: TrackCase, own: str, title: str) -> Iterator[tuple[str, str]]:
+        """A case of module 1."""
+        run, patches = solve_track_case(case, own, title, self.program)
+        if self.mat:
+            write_mats_of_track_case(self.folder, self.name, case, run)
+        yield HALF_SPACE, self.add_patches(case, HALF_SPACE, patches)
+        if self.finite_elements:
+            rolled, patches = roll_track_case(case, run, own + "-finite-elements", self.cell, title, self.ranks, self.program)
+            yield FINITE_ELEMENTS, self.add_patches(case, FINITE_ELEMENTS, patches)
+            yield from self.warnings(rolled)
+
+    def add_patches(self, case: TrackCase, method: str, patches: list[dict[str, float]]) -> str:
+        """Rows of patches.csv. @returns what is printed"""
+        self.patches += [[case.number, case.line, case.side, method, number, *patch.values()] for number, patch in enumerate(patches, 1)]
+        header = ("case", "line", "side", "method", "patch", *(name for name, _, _ in PATCH))
+        _write_csv(os.path.join(self.folder, "patches.csv"), header, self.patches)
+        return "; ".join(f"FN {patch['normal_force_N']:.6g} N, FX {patch['longitudinal_force_N']:.6g} N, "
+                         f"FS {patch['lateral_force_N']:.6g} N, largest pressure {patch['max_pressure_MPa']:.6g} MPa" for patch in patches)
+
+    def solve_basic(self, case: Case, own: str, title: str) -> Iterator[tuple[str, str]]:
+        """A case of module 3."""
+        result = solve_case(case)
+        scene = upright_wheel(case, result, self.cell) if self.finite_elements else None
+        write_elements(own + ".csv", case, result)
+        if self.mat:
+            write_mat_of_case(mat_path(self.folder, self.name, case.number), case, result)
+        border = "; the patch reaches the border of the potential contact area" if result["reaches_border"] else ""
+        yield HALF_SPACE, self.add_summary(HALF_SPACE, result) + border
+        if scene:
+            rolled, result = roll_upright(case, result, scene, own + "-finite-elements", title, self.ranks, self.program)
+            yield FINITE_ELEMENTS, self.add_summary(FINITE_ELEMENTS, result)
+            yield from self.warnings(rolled)
+
+    def add_summary(self, method: str, result: dict) -> str:
+        """A row of summary.csv. @returns what is printed"""
+        self.summary.append([method, *(result[name] for name in SUMMARY)])
+        _write_csv(os.path.join(self.folder, "summary.csv"), ("method", *SUMMARY), self.summary)
+        return (f"FN {result['normal_force_N']:.6g} N, FX {result['longitudinal_force_N']:.6g} N, FY {result['lateral_force_N']:.6g} N, "
+                f"creepages {result['creepage']:.6g} {result['lateral_creepage']:.6g}, "
+                f"largest pressure {result['max_pressure_MPa']:.6g} MPa")
+
+    @staticmethod
+    def warnings(rolled: Run) -> Iterator[tuple[str, str]]:
+        """Lines with what a rolled case warns of."""
+        for warning in rolled.summary["warnings"]:
+            yield FINITE_ELEMENTS, f"warning: {warning}"
 
 
 def main():
     parser = command_parser(__doc__)
     parser.add_argument("input", metavar="CASE.inp")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="of the results; it is made if it is not there")
-    parser.add_argument("--program", default=PROGRAM, help="tread itself, for module 1")
+    parser.add_argument("--finite-elements", action="store_true", help="roll the cases besides, in seconds to minutes each")
+    parser.add_argument("--cell", type=float, metavar="MM", help="edge of the finest cells (a fifth of the patch's smaller half length)")
+    parser.add_argument("--ranks", type=int, metavar="N", help="MPI processes of a rolled case (1)")
+    parser.add_argument("--mat", action="store_true", help="write the elements in the layout of CONTACT's matlab files, too")
+    parser.add_argument("--program", default=PROGRAM, help="tread itself, for module 1 and finite elements")
     arguments = parser.parse_args()
-    rows = {"summary.csv": [], "patches.csv": []}
+    for name, value in (("--cell", arguments.cell), ("--ranks", arguments.ranks)):
+        if value is not None and not arguments.finite_elements:
+            parser.error(f"{name} needs --finite-elements")
+        if value is not None and not value > 0:
+            parser.error(f"{name} must be above 0")
+    job = Job(arguments.input, arguments.output, arguments.program, arguments.finite_elements, arguments.cell, arguments.ranks or 1,
+              arguments.mat)
     for case in cases_of(arguments.input):
         if not case.solved:
             print(f"case {case.number}: only read (R = 2 or 3)")
             continue
-        title = f"{os.path.basename(arguments.input)}, case {case.number}"
         try:
-            said = _solve_and_write(case, arguments.output, title, arguments.program, rows)
+            for method, said in job.solve(case):
+                print(f"case {case.number}{', ' + method if job.finite_elements else ''}: {said}", flush=True)
         except (DataError, ProgramError, half_space.HalfSpaceError) as error:
             raise DataError(f"{arguments.input}, line {case.line}: case {case.number}: {error}") from None
-        print(f"case {case.number}: {said}", flush=True)
 
 
 def command_line():

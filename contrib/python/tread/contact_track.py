@@ -137,13 +137,19 @@ class TrackReader(contact_cases.Reader):
             self.settings.update({"Motion/Speed (km per h)": 3.6e-3 * speed, "Motion/Angular velocity (rad per s)": -turning})
 
 
-def scene_text(case: TrackCase, title: str) -> str:
-    """A parameter file with the settings of a case."""
+def scene_text(settings: dict[str, float | str], title: str) -> str:
+    """A parameter file with the settings {"Section/Name": value} of a case."""
     sections: dict[str, list[str]] = {"Scene": [f"  set Title = {title}"]}
-    for name, value in case.settings.items():
+    for name, value in settings.items():
         section, _, own = name.partition("/")
         sections.setdefault(section, []).append(f"  set {own} = {value:.12g}" if isinstance(value, float) else f"  set {own} = {value}")
     return "\n".join("\n".join([f"subsection {section}", *lines, "end", ""]) for section, lines in sections.items())
+
+
+def patch_rows(side: str, patches: list[dict]) -> list[dict[str, float]]:
+    """[{name: value}] of patches of tread's summary: the names of PATCH, in CONTACT's axes and signs."""
+    factor = signs(side)
+    return [{name: unit * factor.get(source, 1.) * patch[source] + 0. for name, source, unit in PATCH} for patch in patches]
 
 
 def solve_track_case(case: TrackCase, output: str, title: str = "", program: str = PROGRAM) -> tuple[Run, list[dict[str, float]]]:
@@ -153,8 +159,6 @@ def solve_track_case(case: TrackCase, output: str, title: str = "", program: str
     """
     os.makedirs(os.path.dirname(output) or ".", exist_ok=True)
     with open(output + ".prm", "w", encoding="utf-8") as stream:
-        stream.write(scene_text(case, title))
+        stream.write(scene_text(case.settings, title))
     answer = run(output + ".prm", options=["--reference-only"], output=output, program=program)
-    factor = signs(case.side)
-    return answer, [{name: unit * factor.get(source, 1.) * patch[source] + 0. for name, source, unit in PATCH}
-                    for patch in answer.summary["patches"]]
+    return answer, patch_rows(case.side, answer.summary["patches"])
