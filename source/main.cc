@@ -170,7 +170,8 @@ namespace
     if (line.points.wanted)
       scene.read_surfaces(line.scene, line.settings);
     else
-      scene.read(line.scene, line.settings);
+      scene.read(line.scene, line.settings,
+                 line.reference_only ? tread::SceneUse::half_space : tread::SceneUse::roll);
     if (!line.print_parameters.empty())
       {
         if (speaks && line.print_parameters == "json")

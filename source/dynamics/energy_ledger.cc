@@ -135,8 +135,7 @@ namespace tread
               const Wheel    &wheel = wheels[number];
               const WheelHub &hub   = *wheel.hub;
               const Vector3   arm   = hub.off_axle(before - hub.middle() + back * hub.velocity());
-              energy +=
-                0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * dot(arm, arm);
+              energy += 0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * dot(arm, arm);
             }
           of_nodes.add(energy);
         }

@@ -70,9 +70,9 @@ namespace tread
       return shape;
     return [=](const double u, const double v) {
       const double from_end = std::min(u, 1. - u);
-      return from_end <= 0.    ? 0. :
-             from_end >= ramp ? shape(u, v) :
-                                shape(u, v) * 0.5 * (1. - std::cos(pi * from_end / ramp));
+      return from_end <= 0.     ? 0.
+             : from_end >= ramp ? shape(u, v)
+                                : shape(u, v) * 0.5 * (1. - std::cos(pi * from_end / ramp));
     };
   }
 
@@ -88,7 +88,7 @@ namespace tread
   Defect defect_along(const MeasuredLine &line, const LineDatum datum, const bool reversed)
   {
     const double       from = line.begin(), length = line.end() - line.begin();
-    const unsigned int n = 10000; // places along it
+    const unsigned int n       = 10000; // places along it
     double             z_begin = line(line.begin()), z_end = line(line.end());
     if (datum == LineDatum::fitted)
       {
@@ -115,9 +115,9 @@ namespace tread
         deepest            = std::max(deepest, datum == LineDatum::fitted ? std::abs(depth) : depth);
       }
     if (!(deepest > 0.))
-      throw std::runtime_error(datum == LineDatum::fitted ?
-                                 "the profile is straight" :
-                                 "a defect's profile must lie below the line between its ends");
+      throw std::runtime_error(datum == LineDatum::fitted
+                                 ? "the profile is straight"
+                                 : "a defect's profile must lie below the line between its ends");
 
     Defect defect;
     defect.length = length;

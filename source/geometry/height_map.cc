@@ -114,8 +114,9 @@ namespace tread
     };
     if (x.extents.size() != 1 || y.extents.size() != 1 ||
         z.extents != std::vector<hsize_t>{y.extents[0], x.extents[0]})
-      throw InputError("'" + file + "': x_mm must have one dimension (n_x), y_mm one (n_y), z_mm two, (n_y, "
-                                    "n_x); they are " +
+      throw InputError("'" + file +
+                       "': x_mm must have one dimension (n_x), y_mm one (n_y), z_mm two, (n_y, "
+                       "n_x); they are " +
                        extents(x) + ", " + extents(y) + " and " + extents(z));
     for (const auto &[name, values] : {std::pair("x_mm", &x), std::pair("y_mm", &y), std::pair("z_mm", &z)})
       if (!std::all_of(values->values.begin(), values->values.end(),

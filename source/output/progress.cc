@@ -3,11 +3,41 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 namespace tread
 {
+  void TimeLeft::add(const double seconds, const double measure)
+  {
+    if (!(measure > 0.))
+      return;
+    constexpr double anew      = 2.3; // logarithm of 10
+    const double     logarithm = std::log(measure);
+    if (!samples.empty() && logarithm > samples.back().logarithm + anew)
+      samples.clear();
+    samples.push_back({seconds, samples.empty() ? logarithm : std::min(logarithm, samples.back().logarithm)});
+  }
+
+
+  std::optional<double> TimeLeft::seconds() const
+  {
+    constexpr std::size_t least = 4;
+    if (samples.size() < least)
+      return {};
+    const Sample &now   = samples.back();
+    auto          since = std::find_if(samples.rbegin(), samples.rend(),
+                                       [&](const Sample &before) { return before.logarithm >= now.logarithm + 1.; });
+    const Sample &then  = since == samples.rend() ? samples.front() : *since;
+    const double  rate  = (then.logarithm - now.logarithm) / (now.seconds - then.seconds);
+    if (!(rate > 0.) || !std::isfinite(rate))
+      return {};
+    return std::max(0., (now.logarithm - std::log(limit)) / rate);
+  }
+
+
   Progress::Progress(const bool speaks)
     : speaks(speaks)
     , terminal(isatty(fileno(stdout)) &&

@@ -30,7 +30,9 @@ struct tread_half_space
 
 namespace
 {
-  constexpr double elements_along_semi_axis = 16.;
+  /// Where none are given. Shorter ones in rolling direction than across, relative to the patch, are the
+  /// most accurate for their number (doc/half-space-library.md).
+  constexpr double elements_along_a = 28., elements_along_b = 10.;
 
   unsigned int order_of(const tread_half_space_case &problem)
   {
@@ -102,10 +104,8 @@ namespace
     c.spin             = problem.spin;
     const HertzEllipse hertz =
       hertz_ellipse(c.curvature_x, c.curvature_y, combine(c.wheel, c.rail).hertz_modulus(), c.normal_force);
-    c.element_size =
-      problem.element_x != 0. ? problem.element_x : hertz.semi_axis_x / elements_along_semi_axis;
-    c.element_size_y =
-      problem.element_y != 0. ? problem.element_y : hertz.semi_axis_y / elements_along_semi_axis;
+    c.element_size   = problem.element_x != 0. ? problem.element_x : hertz.semi_axis_x / elements_along_a;
+    c.element_size_y = problem.element_y != 0. ? problem.element_y : hertz.semi_axis_y / elements_along_b;
     Edges         edges;
     RollingResult result = solve_rolling(c, order_of(problem), edges);
     set_common(answer, result);

@@ -22,7 +22,7 @@ namespace tread
   } // namespace
 
 
-  void Scene::check() const
+  void Scene::check(const SceneUse use) const
   {
     if (is_positioned())
       return check_wheelset();
@@ -33,10 +33,12 @@ namespace tread
     check_motion();
     rail.check();
     check_surfaces();
-    check_defect();
-    check_peak_stress();
     wheel.check();
     further_wheels.check(2. * wheel.radius);
+    if (use == SceneUse::half_space)
+      return;
+    check_defect();
+    check_peak_stress();
     mesh.check();
     check_mesh();
     check_track();
@@ -76,8 +78,14 @@ namespace tread
 
   namespace
   {
-    /// A hundred times what the time step of the smallest cells resolves is not what anyone means, 1/s.
-    constexpr double fastest = 1e5;
+    /// @param names of the parameters that swing or settle at this rate (1/s), @param part that does
+    void require_slow(const double rate, const std::string &names, const std::string &part)
+    {
+      // A hundred times what the time step of the smallest cells resolves is not what anyone means.
+      constexpr double fastest = 1e5; // 1/s
+      require(rate <= fastest, names + " swing or settle within " + text_of(1e6 / rate) + " us, which no " +
+                                 part + " does; at least " + text_of(1e6 / fastest) + " us are allowed");
+    }
   } // namespace
 
 
@@ -96,11 +104,10 @@ namespace tread
       {wheelset.axle_torsion, wheelset.axle_bending, wheelset.axle_damping, wheelset.track.wheel_origin()});
     const double frequency = axle.largest_frequency(wheel_inertia, of_chord),
                  rate      = std::max(frequency, wheelset.axle_damping * frequency * frequency);
-    require(rate <= fastest,
-            "'Wheelset/Axle torsional stiffness (MN m per rad)', 'Axle bending stiffness (MN m2)' and "
-            "'Axle damping (us)' swing or settle within " +
-              text_of(1e6 / rate) + " us, which no axle does; at least " + text_of(1e6 / fastest) +
-              " us are allowed. A rigid one is 'rigid'");
+    require_slow(rate,
+                 "'Wheelset/Axle torsional stiffness (MN m per rad)' and 'Axle bending stiffness (MN m2)', "
+                 "which may be 'rigid', and 'Axle damping (us)'",
+                 "axle");
   }
 
 
@@ -111,10 +118,7 @@ namespace tread
                          const double inertia) {
       if (inertia == 0.)
         return;
-      const double rate = std::max(std::sqrt(stiffness / inertia), damping / inertia);
-      require(rate <= fastest, names + " swing or settle within " + text_of(1e6 / rate) +
-                                             " us, which no guidance does; at least " + text_of(1e6 / fastest) +
-                                             " us are allowed");
+      require_slow(std::max(std::sqrt(stiffness / inertia), damping / inertia), names, "guidance");
     };
     slow("'Guidance/Lateral stiffness (MN per m)' and 'Lateral damping (kN s per m)'", springs.stiffness,
          springs.damping, wheelset.n_wheels() * wheel.mass);
@@ -130,12 +134,10 @@ namespace tread
     const double inverse = 1. / wheel.mass + 1. / vehicle.sprung_mass,
                  rate    = std::max(std::sqrt(vehicle.suspension_stiffness * inverse),
                                     vehicle.suspension_damping * inverse);
-    require(rate <= fastest,
-            "'Vehicle/Sprung mass (kg)' " + text_of(vehicle.sprung_mass) +
-              ", 'Suspension stiffness (kN per m)' and 'Suspension damping (N s per m)' swing or settle "
-              "within " +
-              text_of(1e6 / rate) + " us, which no suspension does; at least " + text_of(1e6 / fastest) +
-              " us are allowed");
+    require_slow(rate,
+                 "'Vehicle/Sprung mass (kg)' " + text_of(vehicle.sprung_mass) +
+                   ", 'Suspension stiffness (kN per m)' and 'Suspension damping (N s per m)'",
+                 "suspension");
   }
 
 
@@ -196,6 +198,19 @@ namespace tread
                 "'Defect/Repeated at (mm)' " + text_in_mm(begin) +
                   " lies outside the cubes of 'Mesh/Fine from (mm)' to 'Fine to (mm)', from " +
                   text_in_mm(fine.begin) + " to " + text_in_mm(fine.end) + " mm");
+      }
+    if (defect.shape == "corrugation")
+      {
+        // Six nodes a wave: fewer make another one of it.
+        constexpr double cells_of_wave = 6.;
+        const double     cell          = is_finest(made.begin, made.begin + made.length)
+                                           ? mesh.finest_cell
+                                           : std::max(mesh.finest_cell, mesh.path_cell);
+        require(defect.wavelength >= cells_of_wave * cell,
+                "'Defect/Wavelength (mm)' " + text_in_mm(defect.wavelength) + " is lost between cells of " +
+                  text_in_mm(cell) + " mm along the path; at least " + text_in_mm(cells_of_wave * cell) +
+                  ", or finer cells by 'Mesh/Finest cell (mm)', 'Path cell (mm)', 'Fine from (mm)' and 'Fine "
+                  "to (mm)'");
       }
     const char *of_width = defect.width > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
     for (const auto &[name, size] :

@@ -307,7 +307,7 @@ namespace tread
   }
 
 
-  void Scene::read(const std::string &file, const std::vector<std::string> &settings)
+  void Scene::read(const std::string &file, const std::vector<std::string> &settings, const SceneUse use)
   {
     take(file, settings);
     // A wheelset in a given position has no point of first contact by an upright wheel.
@@ -315,7 +315,7 @@ namespace tread
       shapes = make_path();
     else
       make_shapes();
-    check();
+    check(use);
   }
 
 

@@ -66,6 +66,7 @@ namespace tread
     };
     bool         free_rolling_known = false;
     unsigned int unloaded           = 0; // measurements in a row
+    TimeLeft     time_left(scene.start.tolerance);
 
     const auto after_each_measurement = [&](const unsigned int iteration, const double share) {
       if (interrupted())
@@ -101,8 +102,13 @@ namespace tread
             return Vector3{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
           });
         }
+      time_left.add(progress.seconds(), share);
       if (progress.due())
-        progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share));
+        {
+          const std::optional<double> left = time_left.seconds();
+          progress.show(format("start: iteration %u, force balance %.1e of the load", iteration, share) +
+                        (left ? format("  about %.0f s left", *left) : ""));
+        }
     };
     relaxation_iterations =
       dynamics.relax(scene.start.tolerance, scene.start.max_iterations, after_each_measurement);

@@ -69,7 +69,7 @@ namespace tread::fuzz
     {
       constexpr double half_width = 25e-3; // m
       std::string      refusal;
-      const bool       any = is_read([&] { return read_rail_head(file, half_width, 0.5 * half_width); }, refusal) +
+      const bool any = is_read([&] { return read_rail_head(file, half_width, 0.5 * half_width); }, refusal) +
                        is_read([&] { return read_wheel_tread(file, half_width); }, refusal) +
                        is_read([&] { return read_rail_points(file); }, refusal) +
                        is_read([&] { return read_wheel_points(file); }, refusal);
@@ -80,7 +80,7 @@ namespace tread::fuzz
     {
       std::string refusal;
       const auto  depth = [&](const bool reversed) {
-        const Defect defect = defect_along(read_longitudinal_profile(file), reversed);
+        const Defect defect = defect_along(read_longitudinal_profile(file), LineDatum::chord, reversed);
         require_finite(defect.length);
         return defect.height(0.3 * defect.length, 0.);
       };
@@ -94,7 +94,7 @@ namespace tread::fuzz
         for (const double v : {-1., 0., 0.7, 1., 2.})
           require_finite(map.height((1. - u) * map.x_begin() + u * map.x_end(),
                                     (1. - v) * map.y_begin() + v * map.y_end()));
-      require_finite(map.lowest() + map.highest() + map.largest_on_border());
+      require_finite(map.lowest() + map.highest() + map.largest_on_ends() + map.largest_on_sides());
     }
 
     void read_guidance(const std::string &file)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Treads, inclined and measured rails, where they touch first, and the height of defects.
+#include <tread/base/hdf5_file.h>
+#include <tread/base/input_error.h>
 #include <tread/geometry/defect.h>
 #include <tread/geometry/height_map.h>
 #include <tread/geometry/measured_line.h>
@@ -7,9 +9,12 @@
 #include <tread/geometry/running_surfaces.h>
 #include <tread/geometry/wheel_tread.h>
 
+#include <deal.II/base/numbers.h>
+
 #include "check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -208,15 +213,18 @@ namespace
 
     // A measured line on a slope: depth counts from its chord.
     const MeasuredLine line({0., 10e-3, 20e-3, 30e-3, 40e-3}, {1e-3, 0.6e-3, 0.4e-3, 0.4e-3, 0.2e-3});
-    Defect             along = defect_along(line, false);
+    Defect             along = defect_along(line, LineDatum::chord, false);
+    const auto         alike = along.shape;
     along.width              = 40e-3;
+    along.shape              = with_parabola(alike);
     check.absolute("profile: length, mm", 1e3 * along.length, 40., 1e-9);
     check.absolute("profile: at a point of the file, um", 1e6 * along.height(10e-3, 0.), -200., 1e-6);
     check.absolute("profile: half way to the side a parabola, um", 1e6 * along.height(10e-3, 10e-3), -150.,
                    1e-6);
     along.width = std::numeric_limits<double>::infinity();
+    along.shape = alike;
     check.absolute("profile: uniform, um", 1e6 * along.height(10e-3, 30e-3), -200., 1e-6);
-    Defect back = defect_along(line, true);
+    Defect back = defect_along(line, LineDatum::chord, true);
     back.width  = 40e-3;
     check.absolute("profile: reversed, um", 1e6 * back.height(30e-3, 0.), -200., 1e-6);
   }
@@ -268,6 +276,92 @@ namespace
                    1e3 * height(3.11, -2.83), 0.1);
     check.absolute("map: beyond it the border's height, um", 1e6 * map.height(-5e-3, 0.5e-3),
                    1e3 * height(0., 0.5), 1e-9);
+  }
+
+  void check_hdf5_map(tests::Check &check)
+  {
+    const std::string file  = "geometry_surfaces_map.h5";
+    const auto        write = [&](const std::vector<double> &x, const std::vector<double> &y,
+                           const std::vector<double> &z) {
+      const hdf5::Handle stream(hdf5::create(file), H5Fclose);
+      hdf5::write_rows(stream, "x_mm", x);
+      hdf5::write_rows(stream, "y_mm", y);
+      hdf5::write_rows(stream, "z_mm", z, x.size());
+    };
+    // Three places across, four along: their order cannot be mistaken.
+    const std::vector<double> x{2., 4., 6., 8.}, y{-1., 0., 1.};
+    std::vector<double>       z;
+    for (const double across : y)
+      for (const double along : x)
+        z.push_back(0.01 * along - 0.02 * across);
+    write(x, y, z);
+    const HeightMap map(file);
+    check.absolute("map of HDF5: begins at, mm", 1e3 * map.x_begin(), 2., 1e-12);
+    check.absolute("map of HDF5: ends at, mm", 1e3 * map.y_end(), 1., 1e-12);
+    check.absolute("map of HDF5: a plane, um", 1e6 * map.height(4.7e-3, -0.3e-3), 1e3 * (0.047 + 0.006),
+                   1e-9);
+    const auto refused = [&](const std::string &what, const std::string &words) {
+      const std::string said = tests::complaint<InputError>([&] { HeightMap again(file); });
+      check.that(what + ": \"" + said + "\"", said.find(words) != std::string::npos);
+    };
+    z.resize(8);
+    write(x, y, z);
+    refused("map of HDF5: of another size", "they are 4, 3 and 2 x 4");
+    z.assign(12, std::nan(""));
+    write(x, y, z);
+    refused("map of HDF5: nan", "z_mm has a value that is no finite number");
+    write({2., 4., 7.}, y, std::vector<double>(9, 0.));
+    refused("map of HDF5: unequal spacings", "does not lie on a grid");
+    {
+      const hdf5::Handle stream(hdf5::create(file), H5Fclose);
+    }
+    refused("map of HDF5: without a dataset", "has no dataset of numbers 'x_mm'");
+    std::ofstream(file) << "x_mm,y_mm,z_mm\n";
+    refused("map of HDF5: a text", "as a file of HDF5");
+    std::remove(file.c_str());
+  }
+
+  void check_long_defects(tests::Check &check)
+  {
+    Defect waves;
+    waves.length = 0.3;
+    waves.depth  = 50e-6;
+    waves.width  = std::numeric_limits<double>::infinity();
+    waves.shape  = corrugation(0.06 / waves.length);
+    check.absolute("corrugation: crest, um", 1e6 * waves.height(0.12, 0.01), 0., 1e-9);
+    check.absolute("corrugation: trough, um", 1e6 * waves.height(0.15, -0.02), -50., 1e-9);
+    check.absolute("corrugation: mean depth, um", 1e6 * waves.height(0.135, 0.), -25., 1e-9);
+    check.absolute("corrugation: before it, um", 1e6 * waves.height(-0.03, 0.), 0., 0.);
+    // A ramp over a third of the length: half a cosine, and the same from both ends.
+    waves.shape = with_ramps(waves.shape, 0.1 / waves.length);
+    check.absolute("ramp: trough at 30 mm of 100, um", 1e6 * waves.height(0.03, 0.),
+                   -50. * 0.5 * (1. - std::cos(0.3 * dealii::numbers::PI)), 1e-9);
+    check.absolute("ramp: the same from the other end, um", 1e6 * waves.height(0.27, 0.),
+                   1e6 * waves.height(0.03, 0.), 1e-9);
+    check.absolute("ramp: beyond it nothing, um", 1e6 * waves.height(0.15, 0.), -50., 1e-9);
+
+    // A measured wave on a slope, which begins at a crest and ends in a trough.
+    const std::string file = "geometry_surfaces_wave.txt";
+    std::ofstream     stream(file);
+    stream << std::setprecision(15);
+    for (int i = 0; i <= 450; ++i)
+      stream << i << " " << 0.05 * std::cos(2. * dealii::numbers::PI * i / 100.) + 1e-3 * i << "\n";
+    stream.close();
+    const MeasuredLine line = read_longitudinal_profile(file);
+    std::remove(file.c_str());
+    const Defect chord = defect_along(line, LineDatum::chord, false),
+                 fit   = defect_along(line, LineDatum::fitted, false);
+    check.absolute("measured wave: depth below its chord, mm", 1e3 * chord.depth, 0.1, 0.03);
+    // The line of best fit leans by what the odd half wave moves it.
+    check.absolute("measured wave: depth from its fitted line, mm", 1e3 * fit.depth, 0.05, 0.01);
+    double sum = 0., moment = 0.;
+    for (int i = 0; i <= 450; ++i)
+      {
+        sum += fit.height(1e-3 * i, 0.);
+        moment += (i - 225) * fit.height(1e-3 * i, 0.);
+      }
+    check.absolute("measured wave: no mean beside its fitted line, um", 1e6 * sum / 451., 0., 0.3);
+    check.absolute("measured wave: no slope, um", 1e6 * moment / 451. / 225., 0., 0.3);
   }
 
   void check_files(tests::Check &check)
@@ -431,5 +525,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_first_contact(check);
   check_defects(check);
   check_height_map(check);
+  check_hdf5_map(check);
+  check_long_defects(check);
   check_files(check);
 }

@@ -435,7 +435,8 @@ namespace tread
     RailBase                                          *rail_base = nullptr;
     std::vector<unsigned int>                          base_nodes;
     /// Sums over the ranks in a step: of each wheel force and moment on the hub, moments of the
-    /// compensated loads, and moments on both wheels of a flexible axle; then the force on the rail's base; then those of the supports.
+    /// compensated loads, and moments on both wheels of a flexible axle; then the force on the rail's base;
+    /// then those of the supports.
     std::vector<double>           rank_sums;
     static constexpr unsigned int n_hub_sums = 18, n_base_sums = 3;
 

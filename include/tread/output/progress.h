@@ -3,10 +3,39 @@
 #define tread_output_progress_h
 
 #include <chrono>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace tread
 {
+  /// Time left until a measure that falls to a limit, faster here and slower there, has reached it: at the
+  /// mean rate since it was e times as large, or from the beginning on.
+  class TimeLeft
+  {
+  public:
+    /// @param limit above 0
+    explicit TimeLeft(const double limit)
+      : limit(limit)
+    {
+    }
+
+    /// The measure now, s after some beginning. One that has grown tenfold begins anew.
+    void add(const double seconds, const double measure);
+
+    /// Seconds; nothing as long as it does not fall, or of fewer than four measures.
+    std::optional<double> seconds() const;
+
+  private:
+    struct Sample
+    {
+      double seconds, logarithm; ///< of the least measure until then
+    };
+    double              limit;
+    std::vector<Sample> samples;
+  };
+
+
   /// Lines on the terminal, from rank 0 only: the last one is rewritten in place on a terminal,
   /// and repeated every few seconds in a log file.
   class Progress

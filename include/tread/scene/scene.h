@@ -33,6 +33,14 @@
 
 namespace tread
 {
+  /// What a scene is read for.
+  enum class SceneUse
+  {
+    roll,      ///< by finite elements
+    half_space ///< the half-space solver alone, which has no mesh: sections of mesh, cells and track may say
+               ///< what they like
+  };
+
   /// All that a user chooses: the sections of the parameter file, and what follows from several of them. Each
   /// section declares its own parameters. SI units.
   class Scene
@@ -61,8 +69,10 @@ namespace tread
 
     /// Read a parameter file (none: all defaults) with those that its lines "include NAME" name, relative to
     /// its folder, then "Section/Name=value" settings in their order, and
-    /// check that they make sense together. @throws InputError
-    void read(const std::string &file, const std::vector<std::string> &settings);
+    /// check that they make sense together for what is wanted. @throws InputError
+    void read(const std::string              &file,
+              const std::vector<std::string> &settings,
+              const SceneUse                  use = SceneUse::roll);
     /// The same for the rigid surfaces of a wheelset in its track, which need no more than their own
     /// sections.
     void read_surfaces(const std::string &file, const std::vector<std::string> &settings);
@@ -295,7 +305,7 @@ namespace tread
     /// @param depth of files that include each other. @throws InputError
     void parse(const std::string &file, const unsigned int depth = 0);
     void set(const std::string &setting);
-    void check() const;
+    void check(const SceneUse use) const;
     void check_motion() const;
     void check_suspension() const;
     void check_axle() const;

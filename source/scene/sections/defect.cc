@@ -49,9 +49,9 @@ namespace tread
     {
       if (section.length > 0.)
         defect.length = section.length;
-      require(section.ramp <= 0.5 * defect.length,
-              "'Defect/Ramp (mm)' " + text_in_mm(section.ramp) + " must be at most half of its length, " +
-                text_in_mm(0.5 * defect.length));
+      require(section.ramp <= 0.5 * defect.length, "'Defect/Ramp (mm)' " + text_in_mm(section.ramp) +
+                                                     " must be at most half of its length, " +
+                                                     text_in_mm(0.5 * defect.length));
       defect.shape = with_ramps(defect.shape, section.ramp / defect.length);
     }
 
@@ -111,11 +111,12 @@ namespace tread
       constexpr double step_allowed = 0.05;
       const double     on_border =
         std::max(map->largest_on_sides(), section.ramp > 0. ? 0. : map->largest_on_ends());
-      require(on_border <= step_allowed * largest,
-              "'Defect/Profile file': the border of the map is up to " + text_in_mm(on_border) +
-                " mm off the nominal surface, which follows it: a step. Take the plane of the border away, or "
-                "let the heights fade to 0, at its ends by 'Defect/Ramp (mm)'; at most " +
-                text_in_mm(step_allowed * largest) + " mm are allowed");
+      require(
+        on_border <= step_allowed * largest,
+        "'Defect/Profile file': the border of the map is up to " + text_in_mm(on_border) +
+          " mm off the nominal surface, which follows it: a step. Take the plane of the border away, or "
+          "let the heights fade to 0, at its ends by 'Defect/Ramp (mm)'; at most " +
+          text_in_mm(step_allowed * largest) + " mm are allowed");
       auto defect      = std::make_shared<Defect>();
       defect->length   = map->x_end() - map->x_begin();
       defect->width    = section.width > 0. ? section.width : map->y_end() - map->y_begin();
@@ -175,10 +176,11 @@ namespace tread
                 "Along the rail. A profile or a map is stretched to it; 0: as in the file.", Double(0., 1e4));
     section.add("Width (mm)", width,
                 "Lateral. 0: as long as it is wide, for a dip; as in the file, for a map.", Double(0., 200.));
-    section.add("Depth (mm)", depth,
-                "Of the deepest point; of corrugation, from crests to troughs. A profile or a map is scaled to "
-                "it; 0: as in the file.",
-                Double(0., 1e3 * deepest));
+    section.add(
+      "Depth (mm)", depth,
+      "Of the deepest point; of corrugation, from crests to troughs. A profile or a map is scaled to "
+      "it; 0: as in the file.",
+      Double(0., 1e3 * deepest));
     section.add("Lateral position (mm)", lateral_position,
                 "y of its middle, along the rail's top; the gauge side is y < 0.", Double(-50., 50.));
     section.add("Rounded leading edge (mm)", leading_rounding,
