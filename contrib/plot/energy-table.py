@@ -8,6 +8,8 @@ for peaks of stress (results of other lengths are run anew), --scenes chooses.
 Scenes without results are named, and keep the row that they have in the table.
 """
 
+from __future__ import annotations
+
 import fnmatch
 import glob
 import os
@@ -28,12 +30,12 @@ MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
             ("contact unconverged [% of steps]", "contact_unconverged_share", 100, 1.))
 
 
-def scenes(pattern):
+def scenes(pattern: str) -> list[str]:
     paths = sorted(glob.glob("**/*.prm", root_dir=os.path.join(ROOT, "prm"), recursive=True))
     return [path for path in paths if fnmatch.fnmatch(path, pattern)]
 
 
-def settings_of(scene, rolled):
+def settings_of(scene: str, rolled: float | None) -> dict[str, str]:
     settings = {"Output/Write volume": "false"}
     if rolled is None:
         return settings
@@ -47,12 +49,12 @@ def settings_of(scene, rolled):
     return settings
 
 
-def commit_of(summary):
+def commit_of(summary: dict) -> str:
     """What stands in brackets in the version of the program."""
     return summary["version"].partition("(")[2].rstrip(")")
 
 
-def cell(summary, key, factor, large):
+def cell(summary: dict, key: str, factor: float, large: float | None) -> str:
     value = summary.get(key)
     if value is None:
         return "-"
@@ -60,7 +62,7 @@ def cell(summary, key, factor, large):
     return f"**{text}**" if large is not None and abs(factor * value) > large else text
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results", "energy"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no such results yet")

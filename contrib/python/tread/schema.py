@@ -116,8 +116,12 @@ def make_schema(program: str = PROGRAM, processes: int = 2) -> dict:
     """The schema of a program, which is asked once or twice for each parameter; some minutes."""
     found = listing(program)
     asked = [(f"{section}/{name}", default, meaning) for section, entries in found for name, default, meaning in entries]
+
+    def ask(one: tuple[str, str, str]) -> dict:
+        return parameter_schema(*one, program)
+
     with concurrent.futures.ThreadPoolExecutor(processes) as pool:
-        answers = dict(zip((path for path, _, _ in asked), pool.map(lambda one: parameter_schema(*one, program), asked)))
+        answers = dict(zip((path for path, _, _ in asked), pool.map(ask, asked)))
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Parameters of tread", "type": "object",
             "additionalProperties": False,
             "properties": {section: {"type": "object", "additionalProperties": False,
@@ -140,7 +144,7 @@ def parameters(schema: dict | None = None) -> dict[str, dict]:
             for name, entry in group["properties"].items()}
 
 
-def value_of(text: str, schema: dict):
+def value_of(text: str, schema: dict) -> object:
     """The text of a parameter file as the schema has it. What is not of its type is left as text."""
     if "anyOf" in schema:
         return next((value for value in (value_of(text, part) for part in schema["anyOf"]) if not isinstance(value, str)), text)
@@ -179,7 +183,7 @@ def allowed(schema: dict) -> str:
     return f"{word}, {low} to {high}" if None not in (low, high) else f"{word}, {low} or more" if high is None else f"{word}, at most {high}"
 
 
-def fits(value, schema: dict) -> bool:
+def fits(value: object, schema: dict) -> bool:
     """Whether a value is one that the schema allows: type, enum, const, anyOf, minimum, maximum, items, minItems, maxItems, pattern."""
     if "anyOf" in schema:
         return any(fits(value, part) for part in schema["anyOf"])
