@@ -11,11 +11,10 @@ Scenes without results are named, and keep the row that they have in the table.
 from __future__ import annotations
 
 import fnmatch
-import glob
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import available_ranks, run_scene
+from tread.measured_runs import available_ranks, run_scene, shipped_scenes
 from tread.files import DataError, Error, read_summary
 from tread.runs import ROOT, parameters_of
 from tread.tables import fill, machine, markdown, number, rows_of
@@ -28,11 +27,6 @@ MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
             ("hourglass over internal energy [%]", "hourglass_of_internal_energy", 100, 8.),
             ("slip chatter [%]", "slip_chatter_share", 100, 10.),
             ("contact unconverged [% of steps]", "contact_unconverged_share", 100, 1.))
-
-
-def scenes(pattern: str) -> list[str]:
-    paths = sorted(glob.glob("**/*.prm", root_dir=os.path.join(ROOT, "prm"), recursive=True))
-    return [path for path in paths if fnmatch.fnmatch(path, pattern)]
 
 
 def settings_of(scene: str, rolled: float | None) -> dict[str, str]:
@@ -72,7 +66,7 @@ def main() -> None:
     parser.add_argument("--print", action="store_true", dest="only_print", help="print the table instead of filling it in")
     arguments = parser.parse_args()
     rows, missing = [], []
-    for scene in scenes(arguments.scenes):
+    for scene in fnmatch.filter(shipped_scenes(), arguments.scenes):
         folder = os.path.join(arguments.results, scene[:-len(".prm")].replace(os.sep, "-"))
         try:
             summary = run_scene(scene, folder, settings_of(scene, arguments.rolled), arguments.ranks) if arguments.run \

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 
 from tread.comparison import compare
 from tread.commands import command_parser, run_command
-from tread.measured_runs import contact_measures, run_scene
+from tread.measured_runs import contact_measures, run_scene, shipped_scenes
 from tread.patches import read_patch
 from tread.files import is_complete, read_summary, reference_value
 from tread.runs import ROOT
@@ -276,7 +276,7 @@ def run_missing(results: str, tables: Sequence[str]) -> None:
     if not {"half-space", "published", "sensitivity"} & set(tables):
         return
     for pattern in ("verification/half-space-*.prm", "thesis/3.1-*.prm"):
-        for scene in sorted(glob.glob(pattern, root_dir=os.path.join(ROOT, "prm"))):
+        for scene in shipped_scenes(pattern):
             run_scene(scene, os.path.join(results, os.path.basename(scene)[:-len(".prm")]))
     for cells in ("0.63", "0.33"):
         name = f"half-space-{cells}-mu0.30"

@@ -84,6 +84,24 @@ def read_summary(folder: str | os.PathLike) -> dict:
     return summary
 
 
+def read_toml(path: str) -> dict:
+    """A TOML file. Pythons before 3.11 need tomli for it. @raises DataError"""
+    try:
+        import tomllib as toml
+    except ImportError:
+        try:
+            import tomli as toml
+        except ImportError:
+            raise Error(f"{path}: reading TOML needs Python 3.11, or tomli: apt install python3-tomli, or pip install tomli") from None
+    try:
+        with open(path, "rb") as stream:
+            return toml.load(stream)
+    except OSError as error:
+        raise DataError(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise DataError(f"{path}: {error}") from None
+
+
 def is_complete(folder: str | os.PathLike) -> bool:
     """Whether a folder has the results of a run that came to its end."""
     try:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import glob
 import json
 import os
 import re
@@ -21,6 +22,12 @@ Name = TypeVar("Name")
 def shipped(scene: str) -> str:
     """The path of a scene of prm/."""
     return os.path.join(ROOT, "prm", scene)
+
+
+def shipped_scenes(pattern: str = "**/*.prm") -> list[str]:
+    """The scenes of prm/ whose paths, seen from there, are like a pattern; ** stands for any folders."""
+    folder = os.path.join(ROOT, "prm")
+    return sorted(os.path.relpath(path, folder) for path in glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))
 
 
 def available_ranks() -> int:
