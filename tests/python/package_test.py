@@ -24,7 +24,7 @@ from unittest import mock
 import numpy as np
 
 import tread
-from tread import files, limits, measured_runs, studies, tables
+from tread import files, limits, measured_runs, schema, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch, read_patches
 from tread.files import read_table
@@ -293,6 +293,31 @@ class ModesTable(InFolder):
         rows = [row.split(" | ") for row in result.stdout.splitlines()[2:]]
         # An amplitude q with the energy (omega q)^2 / 2 of 1 J.
         self.assertEqual([(row[3], row[5]) for row in rows], [("high", f"{0.2e6 * 2**0.5 / (2000 * np.pi):.1f}"), ("low", f"{0.01e6 * 2**0.5 / (200 * np.pi):.1f}")])
+
+
+class EnergyTable(InFolder):
+    def row(self):
+        result = subprocess.run([os.path.join(ROOT, "contrib", "plot", "energy-table.py"), "results", "--scenes", "smooth-rolling.prm", "--print"],
+                                capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = [row.strip("| ").split(" | ") for row in result.stdout.splitlines() if row.startswith("| smooth-rolling |")]
+        self.assertEqual(len(rows), 1)
+        return rows[0]
+
+    def test_what_is_beyond_the_limits_of_the_run_is_bold(self):
+        known = {name: schema.parameters()[f"Watchdogs/{name}"]["default"] for name in ("Energy residual", "Contact loss", "Numerical damping", "Hourglass energy",
+                                                                                       "Slip chatter", "Unconverged steps")}
+        keys = ("energy_residual_of_dissipated", "contact_loss_of_dissipated", "damping_of_friction_and_plasticity", "hourglass_of_internal_energy",
+                "slip_chatter_share", "contact_unconverged_share")
+        bold = lambda: [cell.startswith("**") for cell in self.row()[3:9]]
+        for share, expected in ((-1.01, True), (0.99, False)):
+            summary = {"rolled_m": 0.03, "dissipated_work_J": 1., "warnings": [], "version": "0 (abc)",
+                       **{key: share * limit for key, limit in zip(keys, known.values())}}
+            write(self.path("results", "smooth-rolling", "summary.json"), json.dumps(summary))
+            self.assertEqual(bold(), [expected] * 6)
+        # The run has other limits of its own.
+        write(self.path("results", "smooth-rolling", "parameters.prm"), "subsection Watchdogs\n  set Contact loss = 0.001\n  set Slip chatter = 0.001\nend\n")
+        self.assertEqual(bold(), [False, True, False, False, True, False])
 
 
 class Runs(InFolder):
