@@ -9,13 +9,12 @@ no program.
 from __future__ import annotations
 
 import concurrent.futures
-import difflib
 import functools
 import json
 import math
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from .files import DataError, Error, parameter_lines
 from .runs import PROGRAM, execute, must_end_well, own_line
@@ -226,19 +225,37 @@ def scene_errors(path: str, schema: dict | None = None, depth: int = 0) -> Itera
         elif kind == "end":
             opened.pop()
         elif name not in known:
-            close = nearest(name, known)
-            yield path, number, f"no parameter '{name}'" + (f"; did you mean '{close}'?" if close else "")
+            yield path, number, not_among(name, known)
         elif not fits(value_of(text, known[name]), known[name]):
             yield path, number, f"'{name}' cannot be '{text}'; allowed: {allowed(known[name])}"
     if opened:
         yield path, last, f"the subsection of line {opened[-1]} has no end"
 
 
-def nearest(name: str, known: dict[str, dict]) -> str | None:
-    """The parameter that was most likely meant, the right name in another section before all."""
-    own = name.split("/", 1)[-1]
-    elsewhere = [path for path in known if path.split("/", 1)[1] == own]
-    return next(iter(elsewhere or difflib.get_close_matches(name, known, 1)), None)
+def not_among(name: str, known: Iterable[str]) -> str:
+    """What is said of a parameter that there is not, with the one that was most likely meant, as the program finds it: source/scene/input.cc."""
+    own, bare = name_in_section(name), name.partition(" (")[0]
+    # The right name in another section is the likeliest slip.
+    close = min(known, key=lambda path: min(edit_distance(name, path), edit_distance(bare, path.partition(" (")[0]) + 1,
+                                            edit_distance(own, name_in_section(path)) + 1))
+    return f"no parameter '{name}'; did you mean '{close}'?"
+
+
+def name_in_section(path: str) -> str:
+    """A unit may have a / too."""
+    name, bracket, unit = path.partition("(")
+    return name.rpartition("/")[2] + bracket + unit
+
+
+def edit_distance(a: str, b: str) -> int:
+    """How many letters are put in, left out or exchanged (Levenshtein), large ones being small ones."""
+    a, b = a.lower(), b.lower()
+    row = list(range(len(b) + 1))
+    for i, letter in enumerate(a, 1):
+        diagonal, row[0] = row[0], i
+        for j, other in enumerate(b, 1):
+            diagonal, row[j] = row[j], min(row[j - 1] + 1, row[j] + 1, diagonal + (letter != other))
+    return row[-1]
 
 
 def check_scenes() -> int:

@@ -23,6 +23,8 @@ A study is a text file in the format of the scenes:
       set Defect/Length (mm) & Defect/Depth (mm) = 5 & 0.03 | 10 & 0.06     # vary together
     end
 
+Parameters that there are not are refused before the first run. Values that cannot be are left to the run that has them.
+
 Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv, or of another
 table, as in max(strip.csv:von_mises_MPa); at(strip.csv:von_mises_MPa:x_mm), which is x_mm in the row where von_mises_MPa is
 largest; and, with a smooth twin, dynamic(...) and frequency(...) of a force: the peak of what the defect adds, and its
@@ -55,12 +57,13 @@ import signal
 import subprocess
 import time
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, List, Optional, Tuple
 
-from .files import DataError, frame_or_rows, input_of, is_complete, own_parameters
+from .files import DataError, Error, frame_or_rows, input_of, is_complete, own_parameters
 from .limits import Limit
 from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line, scene_path, text_of, version_of
+from .schema import listing, not_among, parameters
 
 if TYPE_CHECKING:
     import pandas
@@ -76,8 +79,12 @@ class Interruption(Exception):
     pass
 
 
-def values_of(text: str) -> list[str]:
-    return [value.strip() for value in text.split("|") if value.strip()]
+def values_of(text: str, none_empty: str = "") -> list[str]:
+    """What | separates. Empty values are left out, or refused if it is said what must have none. @raises DataError"""
+    values = [value.strip() for value in text.split("|")] if text.strip() else []
+    if none_empty and "" in values:
+        raise DataError(f"{none_empty} has an empty value")
+    return [value for value in values if value]
 
 
 def settings_of(text: str, where: str) -> dict[str, str]:
@@ -97,7 +104,7 @@ class Study:
     def __init__(self, path: str, entries: Mapping[str, str], vary: Mapping[str, str]):
         """@param path of the file, or what names the call in messages @param entries {entry: text}, those of DEFAULTS
         @param vary {"Section/Name", or several with & between them: values separated by |}"""
-        self.vary = vary
+        self.path, self.vary = path, vary
         self.scene = os.path.join(os.path.dirname(os.path.abspath(path)), entries["Scene"])
         self.settings = settings_of(entries["Settings"], f"{path}: 'Settings'")
         self.without_defect = settings_of(entries["Smooth twin"], f"{path}: 'Smooth twin'")
@@ -113,13 +120,11 @@ class Study:
         self.directory = entries["Directory"] or os.path.join(
             "results", os.path.splitext(os.path.basename(path))[0])
         self.processes, self.ranks = (self.count(path, entries, name) for name in ("Processes", "Ranks"))
-        lists = [[split_together(value) for value in values_of(text)] for text in self.vary.values()]
+        lists = [[split_together(value) for value in values_of(text, f"{path}: 'Vary/{name}'")] for name, text in self.vary.items()]
         names = [split_together(name) for name in self.vary]
-        for together, (name, text), values in zip(names, self.vary.items(), lists):
+        for together, name, values in zip(names, self.vary, lists):
             if not values:
                 raise DataError(f"{path}: 'Vary/{name}' has no value")
-            if "" in (value.strip() for value in text.split("|")):
-                raise DataError(f"{path}: 'Vary/{name}' has an empty value")
             if "Output/Directory" in together:
                 raise DataError(f"{path}: 'Vary/Output/Directory': each run of a study has a folder of its own, below 'Directory'")
             for value in values:
@@ -186,6 +191,20 @@ class Study:
         if not vary:
             raise DataError(f"{path}: 'subsection Vary' names no parameter")
         return entries, vary
+
+    def must_name_parameters(self, program: str) -> None:
+        """@raises DataError naming a parameter that there is not: every run would fail of it. A program may be newer than this package: it
+        is asked for its own before one is refused."""
+        known: Collection[str] = parameters()
+        given = [(entry, name) for entry, names in (("Vary", self.members[0]), ("Settings", self.settings), ("Smooth twin", self.without_defect))
+                 for name in names]
+        if all(name in known for _, name in given):
+            return
+        with contextlib.suppress(Error, OSError):
+            known = [*known, *(f"{section}/{name}" for section, entries in listing(program) for name, _, _ in entries)]
+        for entry, name in given:
+            if name not in known:
+                raise DataError(f"{self.path}: '{entry}': {not_among(name, known)}")
 
     @staticmethod
     def count(path: str, entries: Mapping[str, str], name: str) -> int:
@@ -527,6 +546,7 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
     for path, what in ((scene, "scene"), (program, "program; build it or name it with program=")):
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
+    asked.must_name_parameters(program)
     root = os.fspath(output or os.path.join("results", os.path.splitext(os.path.basename(scene))[0]))
     members = members_of(asked, root, program, options)
     try:
@@ -568,6 +588,7 @@ def main() -> int:
     for path, what in ((asked.scene, "scene"), (arguments.program, "program; build it or name it with --program")):
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
+    asked.must_name_parameters(arguments.program)
     asked.processes, asked.ranks = arguments.processes or asked.processes, arguments.ranks or asked.ranks
     root = arguments.output or asked.directory
     members = members_of(asked, root, arguments.program)
