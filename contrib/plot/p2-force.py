@@ -261,6 +261,8 @@ def smoothed(x: np.ndarray, force: np.ndarray, width: float) -> tuple[np.ndarray
 def largest_behind(x: np.ndarray, force: np.ndarray, place: float) -> tuple[float, float]:
     """(force, x)."""
     chosen = np.where(x > place)[0]
+    if not len(chosen):
+        raise DataError(f"the run does not reach {1e3 * place:.1f} mm, where the force is looked for behind the joint")
     best = chosen[np.argmax(force[chosen])]
     return force[best], x[best]
 
