@@ -9,10 +9,9 @@ as loose as the largest of their errors makes it. tests/loose-limits.toml says w
 import collections
 import os
 import re
-import tomllib
 
 from tread.commands import command_parser, run_command
-from tread.files import DataError
+from tread.files import DataError, read_toml
 from tread.runs import ROOT
 from tread.tables import fill, markdown
 
@@ -41,10 +40,9 @@ def comparisons(log):
 def reasons():
     """[(test, part of what is compared)] of limits that stay wide. @raises DataError"""
     try:
-        with open(LIST, "rb") as stream:
-            return [(entry["test"], entry["what"]) for entry in tomllib.load(stream)["limit"] if entry["reason"]]
-    except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
-        raise DataError(f"{LIST}: {error}") from None
+        return [(entry["test"], entry["what"]) for entry in read_toml(LIST)["limit"] if entry["reason"]]
+    except KeyError as error:
+        raise DataError(f"{LIST}: no {error}") from None
 
 
 def shared(test, what, limit):

@@ -27,11 +27,10 @@ import shutil
 import subprocess
 import sys
 import time
-import tomllib
 import zlib
 
 from tread.commands import command_parser, run_command
-from tread.files import DataError, Error
+from tread.files import DataError, Error, read_toml
 from tread.runs import ROOT, environment
 from tread.tables import fill, machine, markdown
 
@@ -52,12 +51,7 @@ def faults_of_lists():
     """[fault] of tests/mutations, with its place in the file. @raises DataError naming what is wrong"""
     faults, wrong = [], []
     for path in sorted(glob.glob(os.path.join(ROOT, "tests/mutations/*.toml"))):
-        with open(path, "rb") as stream:
-            try:
-                listed = tomllib.load(stream).get("fault", [])
-            except tomllib.TOMLDecodeError as error:
-                raise DataError(f"{path}: {error}") from None
-        for fault in listed:
+        for fault in read_toml(path).get("fault", []):
             if unknown := (KEYS - fault.keys()) | (fault.keys() - KEYS - {"survives"}):
                 raise DataError(f"{path}: {fault.get('name', 'a fault')}: {', '.join(sorted(unknown))} missing or unknown")
             try:

@@ -11,11 +11,15 @@ moves as one body, and little where it is the wheel itself that vibrates between
 defect alone does. The twin must be the same scene but for the defect.
 """
 
+from __future__ import annotations
+
 import json
 import os
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch as Swatch
 from matplotlib.patheffects import Normal, Stroke
@@ -36,7 +40,7 @@ BAND_COLOURS = {"squats": ORANGE, "welds": GREEN}
 MEASURED_HZ, MEASURED_SPEED, WAVELENGTHS_MM = 1500, 110 / 3.6, (20, 40)
 
 
-def record(run):
+def record(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times in the middle of the intervals that the rows are means over, positions there in mm; accelerations and contact forces in
     two rows."""
     history = run.table("history.csv", ("time_s", "position_m", ACCELERATION, FORCE))
@@ -47,7 +51,7 @@ def record(run):
     return middle(time), middle(x), np.array([history[ACCELERATION][1:], history[FORCE][1:]])
 
 
-def must_be_twins(run, twin):
+def must_be_twins(run: Run, twin: Run) -> None:
     """@raises DataError naming the first parameter that differs and may not."""
     own, other = run.parameters, twin.parameters
     for name in sorted(set(own) | set(other)):
@@ -58,7 +62,7 @@ def must_be_twins(run, twin):
 class AxleBox:
     """Accelerations in m/s2 over positions in mm, band-passed and as a scalogram."""
 
-    def __init__(self, run, twin, band, begin, end):
+    def __init__(self, run: Run, twin: Run | None, band: tuple[float, float], begin: float | None, end: float | None):
         self.run, self.twin_run, self.band = run, twin, band
         time, x, own = record(run)
         other = np.zeros_like(own)
@@ -85,14 +89,14 @@ class AxleBox:
         self.scalogram = Scalogram(self.acceleration, self.step, low, high)
         self.defect = extent_of_defect(run.parameters)
 
-    def energy_share(self, low, high):
+    def energy_share(self, low: float, high: float) -> float:
         """Of the squared acceleration: what lies between two frequencies."""
         padded = 8 * len(self.acceleration)  # narrow bands contain several frequencies
         energy = abs(np.fft.rfft(self.acceleration, padded)) ** 2
         frequency = np.fft.rfftfreq(padded, self.step)
         return float(energy[(frequency >= low) & (frequency <= high)].sum() / (energy.sum() or 1))
 
-    def dominant(self):
+    def dominant(self) -> list[dict]:
         """The maxima of the wavelet power as entries of axle-box.json."""
         force = Scalogram(self.force, self.step, *self.band)
         entries = []
@@ -104,7 +108,7 @@ class AxleBox:
                             "force_over_acceleration_kg": float(force.amplitude[k, n] / self.scalogram.amplitude[k, n])})
         return entries
 
-    def figures(self):
+    def figures(self) -> dict:
         """What axle-box.json has."""
         wavelengths = [1e3 * self.speed / length for length in WAVELENGTHS_MM[::-1]]
         most = int(np.argmax(abs(self.acceleration)))
@@ -119,7 +123,7 @@ class AxleBox:
                              f"wavelengths of 20 to 40 mm, {wavelengths[0]:.0f}-{wavelengths[1]:.0f} Hz": self.energy_share(*wavelengths)}}
 
 
-def text_of(figures):
+def text_of(figures: dict) -> str:
     """The figures as tables."""
     lines = [f"{figures['speed_km_per_h']:.1f} km/h, {figures['band_Hz'][0]:g} to {figures['band_Hz'][1]:g} Hz: RMS {figures['rms_m_per_s2']:.3g} m/s2, "
              f"largest {figures['largest_m_per_s2']:.4g} m/s2 at {figures['largest_at_mm']:.1f} mm", "",
@@ -135,7 +139,7 @@ def text_of(figures):
     return "\n".join(lines)
 
 
-def label_maxima(figure, axis, dominant):
+def label_maxima(figure: Figure, axis: Axes, dominant: list[dict]) -> None:
     """Frequency and wavelength at each maximum, where they cover neither another label nor another maximum."""
     figure.canvas.draw()  # lays out the axes, which labels are measured in
     points = [axis.transData.transform((line["position_mm"], line["frequency_Hz"])) for line in dominant]
@@ -155,7 +159,7 @@ def label_maxima(figure, axis, dominant):
         placed.append(extent)
 
 
-def draw(box, figures):
+def draw(box: AxleBox, figures: dict) -> Figure:
     use_style()
     figure, axes = subplots(2, 2, figsize=(12, 7), sharex="col", sharey="row", width_ratios=(4, 1.2), height_ratios=(1, 1.6))
     above, map_axis, beside = axes[0, 0], axes[1, 0], axes[1, 1]
@@ -215,7 +219,7 @@ def draw(box, figures):
     return figure
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("run", metavar="RUN")
     parser.add_argument("--smooth-twin", metavar="TWIN")

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Error measures of a run of tread against CONTACT or the half-space solution: tread/comparison.py."""
 
+from __future__ import annotations
+
 import json
 import os
 
@@ -25,7 +27,7 @@ LINES = (("largest pressure", "max_pressure_relative_difference", "{:+.2%}"),
          ("ripple of the traction, 10 mm", "traction_ripple_last_10_mm", "{:.2%}"))
 
 
-def main():
+def main() -> None:
     parser = command_parser(comparison.__doc__)
     parser.add_argument("run", metavar="RUN_DIR")
     parser.add_argument("contact", metavar="CONTACT.csv", nargs="?",

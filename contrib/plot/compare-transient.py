@@ -10,6 +10,8 @@ Reads RUN/history.csv and REFERENCE/transient.csv and prints the traction coeffi
 ends with exit code 1 if a difference beyond --from (2 mm) is larger, in per cent of the half-space's value.
 """
 
+from __future__ import annotations
+
 import os
 
 import numpy as np
@@ -19,14 +21,14 @@ from tread.files import DataError
 from tread.runs import Run
 
 
-def columns(folder, table, *names):
+def columns(folder: str, table: str, *names: str) -> list[np.ndarray]:
     found = Run(folder).table(table, names)
     if len(found[names[0]]) < 2:
         raise DataError(f"{os.path.join(folder, table)}: fewer than two rows")
     return [found[name] for name in names]
 
 
-def compare(run, reference):
+def compare(run: str, reference: str) -> list[tuple[float, float, float, float]]:
     """Rows of rolled distance in mm, traction coefficient of the run and of the half-space, difference in %."""
     time, position, traction = columns(run, "history.csv", "time_s", "position_m", "traction_coefficient")
     speed = (position[-1] - position[0]) / (time[-1] - time[0])
@@ -38,7 +40,7 @@ def compare(run, reference):
     return list(zip(rolled[both], traction[both], there, 100 * (traction[both] / there - 1)))
 
 
-def main():
+def main() -> int:
     parser = command_parser(__doc__)
     parser.add_argument("run")
     parser.add_argument("reference")

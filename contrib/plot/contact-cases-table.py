@@ -7,12 +7,16 @@
 With --finite-elements the tables of rolled examples, which takes two minutes.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable
+
 from tread.commands import command_parser, run_command
 from tread.contact_examples import of_finite_elements, of_inputs, of_profiles, of_rolled_profiles
 from tread.tables import fill, markdown
 
 
-def table(rows, names=("CONTACT", "tread")):
+def table(rows: Iterable[tuple[str, str, str, float, float]], names: tuple[str, str] = ("CONTACT", "tread")) -> str:
     """Of (folder, case, quantity, given, computed): differences over what is given; in its own unit as well where that is nothing or they are
     large."""
     cells, before = [], None
@@ -26,7 +30,7 @@ def table(rows, names=("CONTACT", "tread")):
     return markdown(["case", "quantity", *names, "difference"], cells)
 
 
-def profiles_table(rows):
+def profiles_table(rows: Iterable[tuple[str, float, float, dict, dict]]) -> str:
     """Of of_rolled_profiles(): differences of forces along the surface over friction times load, 3 kN."""
     cells = []
     for side, shift, cell, half_space, rolled in rows:
@@ -40,7 +44,7 @@ def profiles_table(rows):
     return markdown(["wheel", "y_ws, mm", "cell, mm", *of("FN, N"), *of("FX, N"), *of("FS, N"), *of("p_max, MPa")], cells)
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("--finite-elements", action="store_true", help="roll examples")
     parser.add_argument("--ranks", type=int, default=1, metavar="N", help="MPI processes of each (1)")

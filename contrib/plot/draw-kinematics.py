@@ -5,7 +5,10 @@
     draw-kinematics.py [--picture doc/pictures/kinematics.png]
 """
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING, Any, Tuple, Union
 
 import numpy as np
 
@@ -13,19 +16,24 @@ from tread.commands import command_parser, run_command
 from tread.plots import BLUE, GREEN, ORANGE, PURPLE, RED, save, subplots, use_style
 from tread.runs import ROOT
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 # A wheel with its flange from the back of it outwards, mm: points of S1002, z up from the running circle.
 WHEEL = np.array(((-70, -9.5), (-69.6, -13.5), (-66, -22), (-60.7, -26.6), (-55, -28), (-51, -27.3), (-47, -25), (-42.2, -20.4), (-40.8, -18.1),
                   (-38.2, -11.3), (-36, -7.5), (-32.8, -5.2), (-25.6, -2.6), (-17, -1.2), (-7.2, -.3), (3.6, .1), (14.7, .25), (33.9, .9),
                   (51.3, 2.05), (60, 2.6), (65, 7)))
+Place = Union[Tuple[float, ...], np.ndarray]
 TRACK = dict(arrowstyle="-|>", linewidth=1.4)
 
 
-def arrow(axes, begin, end, text, colour, shift=(0, 0), **more):
+def arrow(axes: Axes, begin: Place, end: Place, text: str, colour: str, shift: tuple[float, float] = (0, 0), **more: Any) -> None:
     axes.annotate("", end, begin, arrowprops=dict(TRACK, color=colour))
     axes.text(end[0] + shift[0], end[1] + shift[1], text, color=colour, ha="center", va="center", **more)
 
 
-def turning(axes, middle, radius, from_degrees, to_degrees, text, colour, place):
+def turning(axes: Axes, middle: Place, radius: float, from_degrees: float, to_degrees: float, text: str, colour: str,
+            place: tuple[float, float]) -> None:
     angle = np.radians(np.linspace(from_degrees, to_degrees, 40))
     x, y = middle[0] + radius * np.cos(angle), middle[1] + radius * np.sin(angle)
     axes.plot(x[:-3], y[:-3], color=colour, linewidth=1.4)
@@ -33,7 +41,7 @@ def turning(axes, middle, radius, from_degrees, to_degrees, text, colour, place)
     axes.text(*place, text, color=colour, ha="center", va="center")
 
 
-def from_behind(axes, rail):
+def from_behind(axes: Axes, rail: np.ndarray) -> None:
     """Both wheels, seen in rolling direction; the own side on the right of the page."""
     axes.set_title("seen along the track; the own side is drawn on the right")
     for side in (1, -1):
@@ -64,7 +72,7 @@ def from_behind(axes, rail):
     axes.set(xlim=(-400, 400), ylim=(-50, 135), aspect="equal")
 
 
-def from_above(axes):
+def from_above(axes: Axes) -> None:
     axes.set_title("seen from above, much yawed")
     yaw = np.radians(14)
     turn = lambda x, y: (np.cos(yaw) * x - np.sin(yaw) * y, np.sin(yaw) * x + np.cos(yaw) * y)
@@ -90,7 +98,7 @@ def from_above(axes):
     axes.set(xlim=(-110, 150), ylim=(-105, 150), aspect="equal")
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("--picture", default=os.path.join(ROOT, "doc", "pictures", "kinematics.png"))
     arguments = parser.parse_args()

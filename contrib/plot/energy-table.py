@@ -8,59 +8,62 @@ for peaks of stress (results of other lengths are run anew), --scenes chooses.
 Scenes without results are named, and keep the row that they have in the table.
 """
 
+from __future__ import annotations
+
 import fnmatch
-import glob
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import available_ranks, run_scene
+from tread.measured_runs import available_ranks, run_scene, shipped_scenes
 from tread.files import DataError, Error, read_summary
-from tread.runs import ROOT, parameters_of
+from tread.runs import ROOT, Run, parameters_of
+from tread.schema import parameters
 from tread.tables import fill, machine, markdown, number, rows_of
 
-# (heading, key, factor, what is large: include/tread/output/quality.h)
+# Heading, key of summary.json, factor, and the parameter beyond which a run warns.
 MEASURES = (("dissipated [J]", "dissipated_work_J", 1, None),
-            ("residual [%]", "energy_residual_of_dissipated", 100, 2.),
-            ("contact loss [%]", "contact_loss_of_dissipated", 100, 2.),
-            ("damping over friction and plasticity [%]", "damping_of_friction_and_plasticity", 100, 20.),
-            ("hourglass over internal energy [%]", "hourglass_of_internal_energy", 100, 8.),
-            ("slip chatter [%]", "slip_chatter_share", 100, 10.),
-            ("contact unconverged [% of steps]", "contact_unconverged_share", 100, 1.))
+            ("residual [%]", "energy_residual_of_dissipated", 100, "Watchdogs/Energy residual"),
+            ("contact loss [%]", "contact_loss_of_dissipated", 100, "Watchdogs/Contact loss"),
+            ("damping over friction and plasticity [%]", "damping_of_friction_and_plasticity", 100, "Watchdogs/Numerical damping"),
+            ("hourglass over internal energy [%]", "hourglass_of_internal_energy", 100, "Watchdogs/Hourglass energy"),
+            ("slip chatter [%]", "slip_chatter_share", 100, "Watchdogs/Slip chatter"),
+            ("contact unconverged [% of steps]", "contact_unconverged_share", 100, "Watchdogs/Unconverged steps"))
 
 
-def scenes(pattern):
-    paths = sorted(glob.glob("**/*.prm", root_dir=os.path.join(ROOT, "prm"), recursive=True))
-    return [path for path in paths if fnmatch.fnmatch(path, pattern)]
-
-
-def settings_of(scene, rolled):
+def settings_of(scene: str, rolled: float | None) -> dict[str, str]:
     settings = {"Output/Write volume": "false"}
     if rolled is None:
         return settings
-    parameters = parameters_of(scene)
+    own = parameters_of(scene)
     # Peaks of stress are looked for where the whole path leads.
-    if float(parameters["Motion/Rolled distance (mm)"]) > rolled and parameters["Peak stress/Region"] == "none":
+    if float(own["Motion/Rolled distance (mm)"]) > rolled and own["Peak stress/Region"] == "none":
         settings["Motion/Rolled distance (mm)"] = f"{rolled:g}"
         # The torque must set in on the way.
-        if float(parameters["Motion/Hold distance (mm)"]) >= rolled:
+        if float(own["Motion/Hold distance (mm)"]) >= rolled:
             settings["Motion/Hold distance (mm)"] = f"{0.5 * rolled:g}"
     return settings
 
 
-def commit_of(summary):
+def commit_of(summary: dict) -> str:
     """What stands in brackets in the version of the program."""
     return summary["version"].partition("(")[2].rstrip(")")
 
 
-def cell(summary, key, factor, large):
-    value = summary.get(key)
+def limits_of(folder: str) -> dict[str, float]:
+    """{parameter of MEASURES: value} of a run; those that it does not have are the program's defaults."""
+    own, known = Run(folder).parameters, parameters()
+    return {name: float(own.get(name, known[name]["default"])) for *_, name in MEASURES if name}
+
+
+def cell(value: float | None, factor: float, limit: float | None) -> str:
+    """Bold if it is beyond the limit."""
     if value is None:
         return "-"
     text = number(factor * value)
-    return f"**{text}**" if large is not None and abs(factor * value) > large else text
+    return f"**{text}**" if limit is not None and abs(value) > limit else text
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results", "energy"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no such results yet")
@@ -70,7 +73,7 @@ def main():
     parser.add_argument("--print", action="store_true", dest="only_print", help="print the table instead of filling it in")
     arguments = parser.parse_args()
     rows, missing = [], []
-    for scene in scenes(arguments.scenes):
+    for scene in fnmatch.filter(shipped_scenes(), arguments.scenes):
         folder = os.path.join(arguments.results, scene[:-len(".prm")].replace(os.sep, "-"))
         try:
             summary = run_scene(scene, folder, settings_of(scene, arguments.rolled), arguments.ranks) if arguments.run \
@@ -79,8 +82,9 @@ def main():
             print(f"note: {error}")
             missing.append(scene)
             continue
+        limits = limits_of(folder)
         rows.append([scene[:-len(".prm")], number(1e3 * summary["rolled_m"])]
-                    + [cell(summary, key, factor, large) for _, key, factor, large in MEASURES]
+                    + [cell(summary.get(key), factor, limits.get(name)) for _, key, factor, name in MEASURES]
                     + [str(len(summary["warnings"])), commit_of(summary)])
     if not rows:
         raise DataError(f"no results in {arguments.results}")

@@ -8,8 +8,12 @@ Prints the table of doc/kinematics.md, in some minutes on two cores. The creepag
 secant through two runs. With --profiles it only writes the profiles of prm/curves/profiles anew.
 """
 
+from __future__ import annotations
+
 import os
 import tempfile
+from collections.abc import Mapping, Sequence
+from typing import Tuple
 
 import numpy as np
 
@@ -22,8 +26,11 @@ WHEEL_RADIUS, HALF_ARC = 10., 55.  # of the arc across, mm; degrees to both side
 # groove's radius, mm: (creepages about free rolling, cells in mm)
 GROOVES = {10.25: ((2e-4, 3e-4), (0.42, 0.3, 0.21)), 10.05: ((6e-4, 8e-4), (0.42, 0.3, 0.21)), 10.02: ((8e-4, 1.1e-3), (0.42, 0.3, 0.21))}
 
+# y and z, mm.
+Point = Tuple[float, float]
 
-def polygon(points, longest):
+
+def polygon(points: Sequence[Point], longest: float) -> list[Point]:
     """Points of a polygon's sides, at most so many mm apart."""
     result = [points[0]]
     for (y0, z0), (y1, z1) in zip(points[:-1], points[1:]):
@@ -32,12 +39,12 @@ def polygon(points, longest):
     return result
 
 
-def arc(radius):
+def arc(radius: float) -> list[Point]:
     angles = np.radians(np.arange(-HALF_ARC, HALF_ARC + 0.5))
     return list(zip(radius * np.sin(angles), radius * (1. - np.cos(angles))))
 
 
-def ridge():
+def ridge() -> list[Point]:
     """The wheel's profile, z up: arc, tangents, a plane above, and a flange far beside the groove's block."""
     around = arc(WHEEL_RADIUS)
     end = around[-1][0] + (9. - around[-1][1]) / np.tan(np.radians(HALF_ARC))
@@ -45,7 +52,7 @@ def ridge():
             *polygon([around[-1], (end, 9)], 0.2)[1:], *polygon([(end, 9), (25, 9)], 1.)[1:]]
 
 
-def groove(radius):
+def groove(radius: float) -> list[Point]:
     """The rail's, z up: a plane with a gauge face 30 mm beside the middle of its groove, whose edges are rounded: splines overshoot corners."""
     around = arc(radius)
     slope, edge, corner = np.radians(HALF_ARC), 2., 5.
@@ -57,7 +64,7 @@ def groove(radius):
             *edges[0], *polygon([edges[0][-1], (30, top), (30, top - 30)], 0.5)[1:]]
 
 
-def write_profiles():
+def write_profiles() -> None:
     for name, points, what in [("ridge-10", ridge(), "Wheel with an arc of 10 mm for its tread")] + [
             (f"groove-{radius}", groove(radius), f"Rail with a groove of {radius} mm") for radius in GROOVES]:
         with open(os.path.join(ROOT, "prm/curves/profiles", name + ".txt"), "w", encoding="utf-8") as file:
@@ -65,10 +72,11 @@ def write_profiles():
             file.writelines(f"{y:.7f} {z:.7f}\n" for y, z in points)
 
 
-def free_rolling(radius, creepages, settings, options=(), ranks=2):
+def free_rolling(radius: float, creepages: Sequence[float], settings: Mapping[str, object], options: Sequence[str] = (),
+                 ranks: int = 2) -> tuple[float, dict]:
     """(creepage, run's summary) without longitudinal force: the secant through two runs, then a third one there, under the load that
     makes the vertical force LOAD: tractions of conformal contact carry some of it, which the start does not know."""
-    def at(creepage, load=LOAD):
+    def at(creepage: float, load: float = LOAD) -> dict:
         with tempfile.TemporaryDirectory() as folder:
             return run(SCENE, {**settings, "Rail/Measured head": os.path.join(ROOT, f"prm/curves/profiles/groove-{radius}.txt"), "Motion/Creepage": creepage,
                                "Vehicle/Sprung mass (kg)": load / 9.81 - 900., "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), options=options).summary
@@ -78,7 +86,7 @@ def free_rolling(radius, creepages, settings, options=(), ranks=2):
     return free, at(free, LOAD * LOAD / runs[0]["normal_force_N"])
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("--profiles", action="store_true", help="write the profiles and stop")
     if parser.parse_args().profiles:
@@ -87,7 +95,7 @@ def main():
     print("| groove, mm | | creepage, 1e-3 | FX, N | FN, kN | FY in the track, N | p_max, MPa | area, mm2 | length, mm | width, mm | friction, W | residual |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|---|")
 
-    def line(radius, name, found):
+    def line(radius: float, name: str, found: tuple[float, dict]) -> None:
         creepage, summary = found
         patch, residual = summary["patches"][0], summary.get("energy_residual_of_dissipated")
         print(f"| {radius} | {name} | {1e3 * creepage:.4f} | {summary['longitudinal_force_N']:.1f} | {1e-3 * patch['normal_force_N']:.3f} | "

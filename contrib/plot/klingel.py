@@ -8,8 +8,11 @@ Runs prm/curves/klingel.prm, two minutes on two cores, fits a sine to the latera
 draws shift, yaw and forces. With --profiles it only writes the profiles of prm/curves/profiles anew.
 """
 
+from __future__ import annotations
+
 import os
 import tempfile
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -22,7 +25,7 @@ SCENE = "curves/klingel.prm"
 CONICITY, CROWN_RADIUS, WHEEL_RADIUS, HALF_DISTANCE = 0.2, 0.3, 0.2, 0.75  # -, m; of the contacts from the middle of the track
 
 
-def wavelengths():
+def wavelengths() -> dict[str, float]:
     """(m) Klingel's, of two cones on edges (1883); on crowned rails, which raise the conicity; and with the roll that the cones bring with
     them, by which the contacts move across more than the axle does: all without slip, for small shifts (A. H. Wickens, Fundamentals of Rail
     Vehicle Dynamics, 2003, chapter 2)."""
@@ -33,9 +36,9 @@ def wavelengths():
     return {name: 2. * np.pi / np.sqrt(square) for name, square in squares.items()}
 
 
-def fitted_wave(x, y):
+def fitted_wave(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float]:
     """(wavelength, amplitude, rms of the rest) of the sine through y(x) with any phase, m."""
-    def fit(wavelength):
+    def fit(wavelength: float) -> tuple[float, float]:
         basis = np.column_stack([np.cos(2. * np.pi * x / wavelength), np.sin(2. * np.pi * x / wavelength)])
         parts, *_ = np.linalg.lstsq(basis, y, rcond=None)
         return np.sqrt(np.mean((basis @ parts - y) ** 2)), np.hypot(*parts)
@@ -47,10 +50,10 @@ def fitted_wave(x, y):
     return (best, *fit(best)[::-1])
 
 
-def write_profiles():
+def write_profiles() -> None:
     """A cone with a flange, and a head whose crown leans as the cone does, both through y = 0."""
-    def line(points, spacing=0.5):
-        points = np.array(points)
+    def line(corners: Sequence[tuple[float, float]], spacing: float = 0.5) -> np.ndarray:
+        points = np.array(corners)
         along = np.concatenate([[0.], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
         at = np.unique(np.concatenate([along, np.linspace(0., along[-1], int(along[-1] / spacing) + 1)]))
         return np.column_stack([np.interp(at, along, points[:, d]) for d in (0, 1)])
@@ -67,7 +70,7 @@ def write_profiles():
             file.writelines(f"{y:.7f} {z:.7f}\n" for y, z in points)
 
 
-def draw(history, wave, picture):
+def draw(history: Mapping[str, np.ndarray], wave: float, picture: str) -> None:
     use_style()
     x = history["position_m"] - history["position_m"][0]
     figure, axes = subplots(1, 2, figsize=(14, 3.8))
@@ -90,7 +93,7 @@ def draw(history, wave, picture):
     save(figure, picture)
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("--profiles", action="store_true", help="write the profiles and stop")
     parser.add_argument("--settings", nargs="*", default=[], metavar="NAME=VALUE", help="parameters of the scene")

@@ -11,6 +11,10 @@ half-space. Forces act on the wheel in contact axes, each wheel's lateral axis p
 Differences: of forces over those of CONTACT, or in N where they are more than 1 % of them; of the place in um; of the largest pressure in %.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+
 from tread.commands import command_parser, run_command
 from tread.manchester import positions, roll, solve
 
@@ -19,13 +23,13 @@ ROLLED = (("left", 4), ("left", 8), ("right", 2), ("right", 4), ("right", 6), ("
 CELLS_IN_HALF_LENGTH = 3.5
 
 
-def force_text(computed, reference):
+def force_text(computed: float, reference: float) -> str:
     difference = computed - reference
     small = abs(difference) > 0.01 * abs(reference)
     return f"{computed + 0.:.0f} | {reference + 0.:.0f} | " + (f"{difference:+.0f} N" if small else f"{100 * (computed / reference - 1):+.2f} %")
 
 
-def half_space_table(more):
+def half_space_table(more: Mapping[str, str]) -> None:
     print("| wheel | y_ws, mm | FN, N | CONTACT | diff. | FX, N | CONTACT | diff. | FS, N | CONTACT | diff. | place, um | p_max, MPa | "
           "CONTACT | diff. |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for side, shift, settings, reference in positions():
@@ -42,7 +46,7 @@ def half_space_table(more):
               f"{100 * (pressure / given - 1):+.2f} % |")
 
 
-def finite_element_table(sizes, more):
+def finite_element_table(sizes: int, more: Mapping[str, str]) -> None:
     print("| wheel | y_ws, mm | angle | cell, mm | cells | FN, N | half-space | FX, N | half-space | FS, N | half-space | p_max, MPa | half-space | "
           "residual |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for side, shift, settings, _ in positions():
@@ -64,7 +68,7 @@ def finite_element_table(sizes, more):
                   f"{100 * summary['energy_residual_of_dissipated']:+.3f} % |", flush=True)
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("--set", action="append", default=[], metavar="SETTING", help="a further setting for all positions")
     parser.add_argument("--finite-elements", action="store_true", help="roll, and compare with the half-space")

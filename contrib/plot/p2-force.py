@@ -13,7 +13,10 @@ Jenkins et al. (1974): P2 = P0 + 2 alpha V sqrt(Mu/(Mu + Mt)) (1 - pi Ct/(4 sqrt
 to the dynamic stiffness of the same beam under the joint between 10 Hz and the frequency at which wheel and track swing.
 """
 
+from __future__ import annotations
+
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -27,8 +30,8 @@ SHEAR_COEFFICIENT = 10 * 1.3 / (12 + 11 * 0.3)  # of a rectangle, nu = 0.3 (Cowp
 class Track:
     """A bar on pads, sleepers and ballast as a Timoshenko beam. SI."""
 
-    def __init__(self, p, element):
-        def number(name):
+    def __init__(self, p: Mapping[str, str], element: float):
+        def number(name: str) -> float:
             return float(p[name])
 
         if p["Rail/Shape"] != "block" or p["Track/Foundation"] != "two-layer" or p["Track/Sleepers"] != "mass":
@@ -64,7 +67,8 @@ class Track:
         ends[[0, -1]] = 0.5
         self.node_mass, self.node_rotary = self.mass * self.h * ends, self.rotary * self.h * ends
 
-    def forces(self, w, turn, sleeper, v, spin, sleeper_v):
+    def forces(self, w: np.ndarray, turn: np.ndarray, sleeper: np.ndarray, v: np.ndarray, spin: np.ndarray,
+               sleeper_v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """On deflections, rotations and sleepers."""
         strain = (w[1:] - w[:-1]) / self.h - 0.5 * (turn[1:] + turn[:-1])
         shear = self.shear_of_element * strain
@@ -81,7 +85,7 @@ class Track:
         torque[[0, -1]] = 0.0  # symmetry
         return force, torque, in_pad - self.ballast * sleeper - self.ballast_damping * sleeper_v
 
-    def dynamic_stiffness(self, omega, place):
+    def dynamic_stiffness(self, omega: float, place: float) -> complex:
         """Force over deflection at x, exp(i omega t)."""
         n = len(self.x)
         a = np.zeros((2 * n, 2 * n), dtype=complex)
@@ -108,8 +112,8 @@ class Track:
 
 
 class Wheel:
-    def __init__(self, p, folder):
-        def number(name):
+    def __init__(self, p: Mapping[str, str], folder: str):
+        def number(name: str) -> float:
             return float(p[name])
 
         self.unsprung, self.sprung = number("Wheel/Mass (kg)"), number("Vehicle/Sprung mass (kg)")
@@ -137,12 +141,12 @@ class Wheel:
         self.angle = np.max(np.diff(slopes))
 
 
-def hertz_coefficient(a, b, modulus):
+def hertz_coefficient(a: float, b: float, modulus: float) -> float:
     """K of F = K approach^1.5 for the gap a x^2 + b y^2 (Hertz 1882; Johnson 1985, eqs. 4.25 to 4.28)."""
     a, b = min(a, b), max(a, b)
     t = (np.arange(4000) + 0.5) / 4000 * np.pi / 2
 
-    def integrals(m):
+    def integrals(m: float) -> tuple[float, float, float]:
         root = np.sqrt(1 - m * np.sin(t)**2)
         return (np.pi / 2 * np.mean(1 / root), np.pi / 2 * np.mean(np.sin(t)**2 / root), np.pi / 2 * np.mean(np.cos(t)**2 / root))
 
@@ -157,16 +161,16 @@ def hertz_coefficient(a, b, modulus):
     return (1.5 * k / (np.pi * axis * modulus))**-1.5
 
 
-def integrate(track, wheel, end, step):
+def integrate(track: Track, wheel: Wheel, end: float, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Position of the wheel and contact force until it is at `end`."""
     start = wheel.joint - 1.5
     w, turn = np.zeros_like(track.x), np.zeros_like(track.x)
     sleeper = np.zeros(len(track.support))
     v, spin, sleeper_v = w.copy(), w.copy(), sleeper.copy()
     z = z_sprung = vz = vz_sprung = 0.0
-    approach = (wheel.load / wheel.hertz)**(2 / 3)
+    approach = approach0 = (wheel.load / wheel.hertz)**(2 / 3)
 
-    def place(x):
+    def place(x: float) -> tuple[int, float]:
         s = (x - track.x[0]) / track.h
         i = min(int(s), len(track.x) - 2)
         return i, s - i
@@ -210,7 +214,7 @@ def integrate(track, wheel, end, step):
     return np.array(positions), np.array(forces)
 
 
-def integrate_two_masses(k, m, c, wheel, end, step):
+def integrate_two_masses(k: float, m: float, c: float, wheel: Wheel, end: float, step: float) -> tuple[np.ndarray, np.ndarray]:
     """The same for a track that is one mass, spring and damper under the wheel."""
     start = wheel.joint - 1.5
     approach0 = (wheel.load / wheel.hertz)**(2 / 3)
@@ -231,7 +235,7 @@ def integrate_two_masses(k, m, c, wheel, end, step):
     return x, np.array(forces)
 
 
-def jenkins(track, wheel):
+def jenkins(track: Track, wheel: Wheel) -> tuple[float, float, float, float, float]:
     """Kt, Mt, Ct and the formula's force."""
     frequencies = np.linspace(10, 60, 11)
     for _ in range(5):
@@ -246,7 +250,7 @@ def jenkins(track, wheel):
     return k, m, c, force, frequencies[-1]
 
 
-def smoothed(x, force, width):
+def smoothed(x: np.ndarray, force: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
     """Places and mean force over `width` of the path."""
     even = np.arange(x[0], x[-1], 1e-4)
     n = round(width / 1e-4)
@@ -254,14 +258,16 @@ def smoothed(x, force, width):
     return even[:len(mean)] + 0.5 * width, mean
 
 
-def largest_behind(x, force, place):
+def largest_behind(x: np.ndarray, force: np.ndarray, place: float) -> tuple[float, float]:
     """(force, x)."""
     chosen = np.where(x > place)[0]
+    if not len(chosen):
+        raise DataError(f"the run does not reach {1e3 * place:.1f} mm, where the force is looked for behind the joint")
     best = chosen[np.argmax(force[chosen])]
     return force[best], x[best]
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("run")
     parser.add_argument("--profiles", default="prm/verification", help="folder of the profile")

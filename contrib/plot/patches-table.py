@@ -7,8 +7,11 @@
 Prints the tables of doc/kinematics.md, in four minutes on two cores. Forces act on the wheel; those of a patch in its contact axes.
 """
 
+from __future__ import annotations
+
 import os
 import tempfile
+from collections.abc import Mapping, Sequence
 
 from tread.commands import command_parser, run_command
 from tread.runs import run
@@ -19,15 +22,15 @@ BLOCKS = ((60, 120, 0.34), (60, 120, 0.24), (60, 160, 0.34), (100, 160, 0.34))
 CELLS = (1.26, 0.89, 0.63, 0.44)
 
 
-def summary_of(scene, settings, ranks=2, options=()):
+def summary_of(scene: str, settings: Mapping[str, object], ranks: int = 2, options: Sequence[str] = ()) -> dict:
     with tempfile.TemporaryDirectory() as folder:
         return run(scene, {**settings, "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), options=options).summary
 
 
-def two_patches():
+def two_patches() -> None:
     print("| | FN, kN | FX, kN | p_max, MPa | FN, kN | FX, kN | p_max, MPa | FX of both, kN | friction, W |\n|---|---|---|---|---|---|---|---|---|")
 
-    def line(name, summary):
+    def line(name: str, summary: dict) -> None:
         cells = [f"{1e-3 * patch['normal_force_N']:.2f} | {1e-3 * patch['longitudinal_force_N']:.2f} | {1e-6 * patch['max_pressure_Pa']:.0f}"
                  for patch in summary["patches"]]
         print(f"| {name} | {' | '.join(cells)} {'| | | ' * (2 - len(cells))}| {1e-3 * summary['longitudinal_force_N']:.2f} | "
@@ -41,11 +44,11 @@ def two_patches():
             "Wheel/Sector thickness (mm)": depth, "Wheel/Sector width (mm)": width, "Mesh/Finest cell (mm)": cell}))
 
 
-def conformal():
+def conformal() -> None:
     print("| | FN, kN | FX, kN | FS, kN | FY in the track, kN | p_max, MPa | area, mm2 | width, mm | friction, W | residual |\n"
           "|---|---|---|---|---|---|---|---|---|---|")
 
-    def line(name, summary, patch):
+    def line(name: str, summary: dict, patch: dict) -> None:
         print(f"| {name} | {1e-3 * patch['normal_force_N']:.2f} | {1e-3 * patch['longitudinal_force_N']:.2f} | "
               f"{1e-3 * patch['lateral_force_N']:.2f} | {1e-3 * summary['lateral_force_N']:.2f} | {1e-6 * patch['max_pressure_Pa']:.0f} | "
               f"{1e6 * patch['area_m2']:.0f} | {1e3 * patch['width_m']:.1f} | {patch['frictional_power_W']:.0f} | ", end="")
@@ -59,7 +62,7 @@ def conformal():
         line(f"cells of {cell:g} mm", summary, summary["patches"][0])
 
 
-def main():
+def main() -> None:
     command_parser(__doc__).parse_args()
     two_patches()
     print()

@@ -6,6 +6,8 @@ and both profiles as they were read, in the track.
     plot-contact-points.py FOLDER [--picture contact-points.png] [--profiles profiles.png]
 """
 
+from __future__ import annotations
+
 import os
 
 from tread import Run
@@ -14,7 +16,7 @@ from tread.pictures.contact_points import draw_contact_points, draw_profiles
 from tread.plots import save, use_style
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("folder")
     parser.add_argument("--picture", help="default: contact-points.png in the folder")

@@ -14,6 +14,8 @@ Without --at the positions are those of the largest pressure (for the shear stre
 before the defect, one over its middle and one behind it. Shear stress is that on the wheel.
 """
 
+from __future__ import annotations
+
 import json
 import os
 
@@ -23,7 +25,7 @@ from tread.pictures import save_all
 from tread.pictures.crossing import Crossing, figures_of, text_of
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("run", metavar="RUN")
     parser.add_argument("--at", type=float, nargs="+", metavar="MM", help="positions of the wheel in crossing-axis.png")

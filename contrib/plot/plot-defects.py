@@ -7,12 +7,14 @@
 Each file has columns x and z in mm; lines that start with # are passed over.
 """
 
+from __future__ import annotations
+
 from tread.commands import command_parser, run_command
 from tread.pictures.mesh import draw_defects
 from tread.plots import save, use_style
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("files", nargs="+")
     parser.add_argument("--output", default="defects.png")

@@ -24,13 +24,15 @@ Twins are those of the runs in the same order; one serves runs that share it. Wi
 is drawn.
 """
 
+from __future__ import annotations
+
 from tread.commands import command_parser, run_command
 from tread.files import DataError
 from tread.pictures import impact, save_all
 from tread.runs import PROGRAM
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("runs", metavar="RUN", nargs="+")
     parser.add_argument("--smooth-twin", metavar="TWIN", nargs="+", default=[])

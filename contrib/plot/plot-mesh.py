@@ -9,12 +9,14 @@ Needs the first volume picture of a run, volume-0000.vtu. Writes
   path.png      the rail's cells under the middle of the path, and the height of its top
 """
 
+from __future__ import annotations
+
 from tread import DataError, Run
 from tread.commands import command_parser, run_command
 from tread.pictures import mesh, save_all
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("run")
     parser.add_argument("--output")

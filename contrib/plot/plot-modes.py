@@ -8,8 +8,11 @@ The table has, for each body, the modes that move the contact most when each vib
 first. Peaks of undamped vibrations in the picture are as high as the lines of receptance.csv happen to meet them.
 """
 
+from __future__ import annotations
+
 import csv
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -18,18 +21,18 @@ from tread.files import DataError, read_table
 from tread.plots import BLUE, GREEN, RED, save, subplots, use_style
 
 
-def mark(text):
+def mark(text: str) -> tuple[float, str]:
     """(frequency, name) of HZ=NAME."""
     frequency, _, name = text.partition("=")
     return float(frequency), name
 
 
-def contact_at_one_joule(mode):
+def contact_at_one_joule(mode: Mapping[str, str]) -> float:
     """Amplitude in m."""
     return abs(float(mode["contact_amplitude_per_sqrt_kg"])) * np.sqrt(2.) / (2. * np.pi * float(mode["frequency_Hz"]))
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("folder")
     parser.add_argument("--picture", help="where to draw; default: none")

@@ -7,13 +7,15 @@
 Lines and filled marks: layers of cells, and the surface by extrapolation. Open marks: the surface from stretch and tractions.
 """
 
+from __future__ import annotations
+
 from tread import Run
 from tread.commands import command_parser, run_command
 from tread.pictures.peaks import draw_peaks
 from tread.plots import save, use_style
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("runs", metavar="RUN", nargs="+")
     parser.add_argument("--names", nargs="*", default=[], help="of the runs, for the legend")

@@ -9,12 +9,14 @@ Both runs need 'Output/Table depth (mm)' above 0. Writes pictures and prints the
   plastic-material.png  settlement, plastic strain by depth, von Mises at 0.7 mm depth
 """
 
+from __future__ import annotations
+
 from tread.commands import command_parser, run_command
 from tread.pictures import save_all
 from tread.pictures.plastic import Tables, figures_of, table_lines
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("plastic")
     parser.add_argument("elastic")

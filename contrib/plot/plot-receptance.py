@@ -8,6 +8,8 @@
 Columns of the file: frequency_Hz, then PLACE_FORCE_MODEL_nm_N; the models are cells, beam and beam_and_foot.
 """
 
+from __future__ import annotations
+
 import re
 
 import numpy as np
@@ -22,7 +24,7 @@ MODELS = {"cells": "cells", "beam": "Timoshenko beam", "beam_and_foot": "beam, f
 STYLES = {"cells": dict(color=BLUE), "beam": dict(color=RED, ls="--"), "beam_and_foot": dict(color=GREEN, ls=":")}
 
 
-def extremes(frequency, amplitude):
+def extremes(frequency: np.ndarray, amplitude: np.ndarray) -> list[tuple[float, float, bool]]:
     """[(frequency in Hz, amplitude, is a peak)] by parabolas through three values of the logarithm."""
     value = np.log(amplitude)
     found = []
@@ -34,7 +36,7 @@ def extremes(frequency, amplitude):
     return found
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("file")
     parser.add_argument("--picture", help="where to draw; default: none")

@@ -16,11 +16,13 @@ Lines and borders of reference_patch.csv, the half-space answer at the same forc
 defects. Over a defect the approach is cut to a fifth of the picture; history.csv has all of it.
 """
 
+from __future__ import annotations
+
 from tread import Run
 from tread.commands import command_parser, run_command
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("run", metavar="RUN_DIR")
     parser.add_argument("--contact", metavar="FILE", help="surface file of CONTACT (.csv or .csv.gz) to compare with")

@@ -7,6 +7,8 @@
 Drawn is the section along the sleeper through the middle of the rail seat.
 """
 
+from __future__ import annotations
+
 import json
 import os
 
@@ -17,7 +19,7 @@ from tread.files import DataError
 from tread.plots import save, subplots, use_style
 
 
-def section(path):
+def section(path: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Points y, z (mm, from the middle of the seat), triangles and von Mises stress (MPa) of the plane x = 0. @raises DataError"""
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
@@ -40,7 +42,7 @@ def section(path):
     return points[:, 1], points[:, 2], cells, vtk_to_numpy(cut.GetPointData().GetArray("von_mises_MPa"))
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("folders", metavar="FOLDER", nargs="+")
     parser.add_argument("--names", nargs="*", default=[], help="of the folders, for the headings")

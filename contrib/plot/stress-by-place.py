@@ -10,7 +10,10 @@ its place and the depth of its centre, the same for the cells at the surface, an
 the end of the run with its place and depth, in all cells and in those of the first layer in the fine part of the mesh. Write the option with =, as the first number may be negative.
 """
 
+from __future__ import annotations
+
 import os
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -22,7 +25,7 @@ from tread.tables import markdown
 STRAIN = "equivalent_plastic_strain_percent"
 
 
-def parts_of(text):
+def parts_of(text: str) -> list[tuple[float, ...]]:
     try:
         parts = [tuple(map(float, part.split(":"))) for part in text.split(",")]
     except ValueError:
@@ -32,7 +35,7 @@ def parts_of(text):
     return parts
 
 
-def rows_of(run, parts):
+def rows_of(run: Run, parts: Sequence[tuple[float, ...]]) -> Iterator[list[str]]:
     begin = float(run.parameters["Defect/Position (mm)"])
     strip = run.table("strip.csv", ("x_mm", "von_mises_MPa", "depth_mm", "surface_von_mises_MPa"))
     cells = run.table("rail_cells.csv", ("x_mm", "z_mm", STRAIN)) if run.has("rail_cells.csv") else None
@@ -48,21 +51,21 @@ def rows_of(run, parts):
         most, top = part["von_mises_MPa"].argmax(), part["surface_von_mises_MPa"].argmax()
         row += [f"{part['von_mises_MPa'][most]:.0f} at {part['x_mm'][most] - begin:.1f}, {part['depth_mm'][most]:.2f} deep",
                 f"{part['surface_von_mises_MPa'][top]:.0f} at {part['x_mm'][top] - begin:.1f}"]
-        in_part = cells is not None and (cells["x_mm"] >= begin + first) & (cells["x_mm"] < begin + last)
-        yield row + [strain_of(cells, part_of_cells, begin) for part_of_cells in
-                     ((in_part, in_part & (-cells["z_mm"] < first_layer)) if cells is not None else (None, None))]
+        if cells is None:
+            yield row + ["-"] * 2
+            continue
+        in_part = (cells["x_mm"] >= begin + first) & (cells["x_mm"] < begin + last)
+        yield row + [strain_of(cells, chosen, begin) for chosen in (in_part, in_part & (-cells["z_mm"] < first_layer))]
 
 
-def strain_of(cells, chosen, begin):
+def strain_of(cells: dict[str, np.ndarray], chosen: np.ndarray, begin: float) -> str:
     """The largest plastic strain of the chosen cells, with its place and depth in the undeformed rail."""
-    if cells is None:
-        return "-"
     values = np.where(chosen, cells[STRAIN], 0.0)
     i = values.argmax()
     return f"{values[i]:.3f} at {cells['x_mm'][i] - begin:.1f}, {-cells['z_mm'][i]:.2f} deep" if values[i] > 0.0 else "0"
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("runs", nargs="+", metavar="RUN")
     parser.add_argument("--parts", required=True, help="sections of the path, mm from the beginning of the defect")

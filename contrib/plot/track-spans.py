@@ -9,6 +9,8 @@ of forces over the position of the wheel from --from on (the beginning of the de
 value and its root mean square; the range of the reference stands in the first row.
 """
 
+from __future__ import annotations
+
 import glob
 import os
 
@@ -21,7 +23,7 @@ from tread.runs import Run
 COLUMNS = {"normal_force_N": "contact", "support_1_pad_N": "pad", "support_1_ballast_N": "ballast"}
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("study")
     parser.add_argument("--from", dest="begin", type=float, default=0.0, help="position of the wheel, mm")

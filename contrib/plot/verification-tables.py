@@ -7,13 +7,16 @@ prm/thesis/3.1-*.prm; results go to RESULTS/<name of the parameter file>). Table
 text; --tables chooses some.
 """
 
+from __future__ import annotations
+
 import glob
 import math
 import os
+from collections.abc import Sequence
 
 from tread.comparison import compare
 from tread.commands import command_parser, run_command
-from tread.measured_runs import contact_measures, run_scene
+from tread.measured_runs import contact_measures, run_scene, shipped_scenes
 from tread.patches import read_patch
 from tread.files import is_complete, read_summary, reference_value
 from tread.runs import ROOT
@@ -62,7 +65,7 @@ STRAIN_SCALES = (1., 1.5, 2.5, 4.347826)
 BLOCKS = {f"{name} (mm)": value for name, value in
           (("Wheel/Sector thickness", 160), ("Wheel/Sector width", 320), ("Wheel/Sector margin", 160),
            ("Rail/Block width", 320), ("Rail/Block height", 160), ("Rail/Margin", 160))}
-SENSITIVITY = (("hourglass coefficient 0.5", {"Solid/Hourglass coefficient": 0.5}),
+SENSITIVITY: tuple[tuple[str, dict], ...] = (("hourglass coefficient 0.5", {"Solid/Hourglass coefficient": 0.5}),
                ("hourglass coefficient 2", {"Solid/Hourglass coefficient": 2}),
                ("element: fully integrated", {"Solid/Element": "fully-integrated"}),
                ("grading: two cells per level", {"Mesh/Level depth (semi-axes)": 0}),
@@ -82,7 +85,7 @@ SENSITIVITY = (("hourglass coefficient 0.5", {"Solid/Hourglass coefficient": 0.5
                 {"Start/Tractions": "none", "Motion/Rolled distance (mm)": 80}))
 
 
-def difference(summary, key, source):
+def difference(summary: dict, key: str, source: str) -> float | None:
     """Of a measure from its reference, %; points of an adhesion share."""
     value, reference = summary.get(key), reference_value(summary, key, source)
     if value is None or reference is None:
@@ -90,18 +93,18 @@ def difference(summary, key, source):
     return 100 * (value - reference) if key == "adhesion_share" else 100 * (value / reference - 1)
 
 
-def signed(value):
+def signed(value: float | None) -> str:
     return "-" if value is None else f"{value:+.3f}" if abs(value) < 0.1 else f"{value:+.2f}"
 
 
-def order(coarse, fine, ratio):
+def order(coarse: float | None, fine: float | None, ratio: float) -> str:
     """With which power of the cell size an error falls; none where it is as small as what decides the last digits."""
     if coarse is None or fine is None or abs(coarse) < 0.05 or fine == 0.:
         return "-"
     return f"{math.log(abs(coarse / fine)) / math.log(ratio):.1f}"
 
 
-def low_strain_table(results):
+def low_strain_table(results: str) -> str | None:
     found = {}
     for size in LOW_STRAIN:
         run = os.path.join(results, f"low-strain-{size:g}")
@@ -130,13 +133,13 @@ def low_strain_table(results):
                     + [f"order, {coarse:g} to {fine:g} mm"], rows)
 
 
-def strain_run(scale):
+def strain_run(scale: float) -> tuple[str, dict[str, float]]:
     load = 127100. / scale
     return f"strain-{scale:g}", {"Wheel/Radius (mm)": 460 * scale, "Rail/Crown radius (mm)": 300 * scale,
                                  "Vehicle/Sprung mass (kg)": load / 9.81 - 900}
 
 
-def strain_table(results):
+def strain_table(results: str) -> str | None:
     rows, points = [], []
     for scale in STRAIN_SCALES:
         run = os.path.join(results, strain_run(scale)[0])
@@ -165,7 +168,7 @@ def strain_table(results):
                        for label, key, _ in SUMMARY_MEASURES[:5]], rows)
 
 
-def sensitivity_table(results):
+def sensitivity_table(results: str) -> str | None:
     base = os.path.join(results, "half-space-0.63-mu0.30")
     if not is_complete(base):
         print(f"note: no results in {base}")
@@ -190,11 +193,11 @@ CREEPAGE_SPIN = (("driven, to the side, with spin", {}),
 CREEPAGE_SPIN_CELLS = (1.3, 0.63, 0.33)
 
 
-def creepage_spin_run(case, size):
+def creepage_spin_run(case: int, size: float) -> str:
     return f"creepage-spin-{case}-{size:g}"
 
 
-def creepage_spin_table(results):
+def creepage_spin_table(results: str) -> str | None:
     rows = []
     for case, (name, _) in enumerate(CREEPAGE_SPIN):
         reference = os.path.join(results, creepage_spin_run(case, 0))
@@ -208,7 +211,7 @@ def creepage_spin_table(results):
                 continue
             summary, fields = read_summary(run), compare(run)
 
-            def of_normal(key):
+            def of_normal(key: str) -> str:
                 own, wanted = (s[key] / s["normal_force_N"] for s in (summary, half_space))
                 return signed(100 * (own / wanted - 1)) if abs(wanted) > 1e-3 else signed(100 * own) + " of the load"
             rows.append([name, f"{size:g}", of_normal("longitudinal_force_N"), of_normal("lateral_force_N"),
@@ -224,11 +227,11 @@ def creepage_spin_table(results):
 LOCOMOTIVE_CREEPAGES = (0.002, 0.004, 0.01, 0.02, 0.04, 0.075)
 
 
-def locomotive_run(creepage, what):
+def locomotive_run(creepage: float, what: str) -> str:
     return f"locomotive-{creepage:g}-{what}"
 
 
-def locomotive_table(results):
+def locomotive_table(results: str) -> str | None:
     rows = []
     for creepage in LOCOMOTIVE_CREEPAGES:
         runs = [os.path.join(results, locomotive_run(creepage, what)) for what in ("half-space", "0.63")]
@@ -246,7 +249,7 @@ def locomotive_table(results):
                      "ripple of the tangential force [% of Fn]", "chatter of the slip [%]", "energy residual [% of the dissipated]"], rows)
 
 
-def run_missing(results, tables):
+def run_missing(results: str, tables: Sequence[str]) -> None:
     if "locomotive" in tables:
         for creepage in LOCOMOTIVE_CREEPAGES:
             scene, settings = "verification/locomotive-0.63.prm", {"Motion/Creepage": creepage}
@@ -267,21 +270,21 @@ def run_missing(results, tables):
             name, settings = strain_run(scale)
             run_scene("verification/low-strain-0.63.prm", os.path.join(results, name), settings)
     if "sensitivity" in tables:
-        for number_of, (_, settings) in enumerate(SENSITIVITY):
+        for number_of, (_, changes) in enumerate(SENSITIVITY):
             run_scene("verification/half-space-0.63-mu0.30.prm",
-                      os.path.join(results, f"sensitivity-{number_of + 1}"), settings)
+                      os.path.join(results, f"sensitivity-{number_of + 1}"), changes)
     if not {"half-space", "published", "sensitivity"} & set(tables):
         return
     for pattern in ("verification/half-space-*.prm", "thesis/3.1-*.prm"):
-        for scene in sorted(glob.glob(pattern, root_dir=os.path.join(ROOT, "prm"))):
+        for scene in shipped_scenes(pattern):
             run_scene(scene, os.path.join(results, os.path.basename(scene)[:-len(".prm")]))
-    for size in ("0.63", "0.33"):
-        name = f"half-space-{size}-mu0.30"
+    for cells in ("0.63", "0.33"):
+        name = f"half-space-{cells}-mu0.30"
         run_scene(f"verification/{name}.prm", os.path.join(results, name + FROM_NONE),
                   {"Start/Tractions": "none", "Motion/Rolled distance (mm)": 80})
 
 
-def half_space_table(results):
+def half_space_table(results: str) -> str | None:
     columns = []
     for size, traction, start in (("0.63", "0.15", ""), ("0.63", "0.30", ""), ("0.63", "0.30", FROM_NONE),
                                   ("0.33", "0.30", ""), ("0.33", "0.30", FROM_NONE)):
@@ -308,7 +311,7 @@ def half_space_table(results):
                     + [label for _, label, *_ in columns], rows)
 
 
-def published_table(results):
+def published_table(results: str) -> str | None:
     runs, lower = {}, {}
     for run in sorted(glob.glob(os.path.join(results, "3.1-*"))):
         if run.endswith("torque") or not os.path.exists(os.path.join(run, "summary.json")):
@@ -347,7 +350,7 @@ TABLES = {"half-space": half_space_table, "low-strain": low_strain_table, "strai
           "locomotive": locomotive_table, "published": published_table}
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results"))
     parser.add_argument("--run", action="store_true", help="run the scenes that have no results yet")

@@ -24,7 +24,7 @@ from unittest import mock
 import numpy as np
 
 import tread
-from tread import files, limits, measured_runs, studies, tables
+from tread import files, limits, measured_runs, schema, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch, read_patches
 from tread.files import read_table
@@ -295,6 +295,31 @@ class ModesTable(InFolder):
         self.assertEqual([(row[3], row[5]) for row in rows], [("high", f"{0.2e6 * 2**0.5 / (2000 * np.pi):.1f}"), ("low", f"{0.01e6 * 2**0.5 / (200 * np.pi):.1f}")])
 
 
+class EnergyTable(InFolder):
+    def row(self):
+        result = subprocess.run([os.path.join(ROOT, "contrib", "plot", "energy-table.py"), "results", "--scenes", "smooth-rolling.prm", "--print"],
+                                capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = [row.strip("| ").split(" | ") for row in result.stdout.splitlines() if row.startswith("| smooth-rolling |")]
+        self.assertEqual(len(rows), 1)
+        return rows[0]
+
+    def test_what_is_beyond_the_limits_of_the_run_is_bold(self):
+        known = {name: schema.parameters()[f"Watchdogs/{name}"]["default"] for name in ("Energy residual", "Contact loss", "Numerical damping", "Hourglass energy",
+                                                                                       "Slip chatter", "Unconverged steps")}
+        keys = ("energy_residual_of_dissipated", "contact_loss_of_dissipated", "damping_of_friction_and_plasticity", "hourglass_of_internal_energy",
+                "slip_chatter_share", "contact_unconverged_share")
+        bold = lambda: [cell.startswith("**") for cell in self.row()[3:9]]
+        for share, expected in ((-1.01, True), (0.99, False)):
+            summary = {"rolled_m": 0.03, "dissipated_work_J": 1., "warnings": [], "version": "0 (abc)",
+                       **{key: share * limit for key, limit in zip(keys, known.values())}}
+            write(self.path("results", "smooth-rolling", "summary.json"), json.dumps(summary))
+            self.assertEqual(bold(), [expected] * 6)
+        # The run has other limits of its own.
+        write(self.path("results", "smooth-rolling", "parameters.prm"), "subsection Watchdogs\n  set Contact loss = 0.001\n  set Slip chatter = 0.001\nend\n")
+        self.assertEqual(bold(), [False, True, False, False, True, False])
+
+
 class Runs(InFolder):
     def test_command_line(self):
         shipped = os.path.join(ROOT, "prm", "smooth-rolling.prm")
@@ -402,6 +427,25 @@ class Studies(InFolder):
             self.assertEqual((result.returncode, what in result.stderr), (code, True), result.stderr)
         with self.assertRaisesRegex(tread.DataError, "is included by files that it includes"):
             files.texts_of(write(self.path("self.prm"), "include self.prm\n"))
+
+    def test_a_parameter_that_there_is_not_is_refused_before_the_first_run(self):
+        text = "set Scene = {}\nset Settings = {}=1\nset Smooth twin = {}=none\nsubsection Vary\n  set {} & {} = 0.001 & 1 | 0.002 & 2\nend\n"
+        right = [f"{ROOT}/prm/smooth-rolling.prm", "Contact/Friction coefficient", "Defect/Shape", "Motion/Creepage", "Defect/Length (mm)"]
+        for wrong, entry, meant in (("Contact/Friction coeficient", "Settings", "Contact/Friction coefficient"), ("Defect/Shap", "Smooth twin", "Defect/Shape"),
+                                    ("Motion/Crepage", "Vary", "Motion/Creepage"), ("Motion/Length (mm)", "Vary", "Rail/Length (mm)")):
+            with self.subTest(wrong):
+                names = [wrong if name == meant or (name, wrong) == ("Defect/Length (mm)", "Motion/Length (mm)") else name for name in right]
+                study = write(self.path("wrong.study"), text.format(*names))
+                for more in ((), ("--dry-run",)):
+                    result = self.perform(study, *more)
+                    self.assertEqual((result.returncode, result.stdout, result.stderr),
+                                     (1, "", f"study.py: {study}: '{entry}': no parameter '{wrong}'; did you mean '{meant}'?\n"))
+        self.assertFalse(os.path.exists("results"))
+        # A newer program knows more than this package.
+        newer = write(self.path("newer"), f"#!/bin/sh\n[ $1 = --print-parameters ] && printf 'subsection Motion\\n  set Crepage = 1\\nend\\n' && exit\n"
+                      f"exec {self.program} \"$@\"\n", 0o755)
+        self.assertEqual(self.perform(write(self.path("new.study"), text.format(*[name.replace("Creepage", "Crepage") for name in right])), "--dry-run",
+                                      "--program", newer).returncode, 0)
 
     def test_where_a_figure_reaches_a_limit(self):
         self.assertEqual(limits.crossing([4, 6, 8], [700, 800, 1000], 900), (8, 6, 7))
@@ -566,7 +610,7 @@ class Studies(InFolder):
         self.assertEqual((result.returncode, [row[-1] for row in rows]), (0, ["complete"] * 2), result.stdout)
         write(self.path("results", "twin", "length-4", "dynamic.json"), '{"forces": {"normal_force_N": {"peak_N": 5}}}')
         self.assertEqual([row[1] for row in perform("dynamic(normal_force_N)", "never")[1]], ["5", ""])
-        self.assertEqual([row[1] for row in perform("dynamic(normal_force_N)", "", "set Settings = A/B=1")[1]], ["", ""])
+        self.assertEqual([row[1] for row in perform("dynamic(normal_force_N)", "", "set Settings = Motion/Speed (km per h)=70")[1]], ["", ""])
 
     def interrupt(self, study, *more, ready):
         """Ctrl-C as soon as a file is there. @returns exit code, {what: said of it}"""
@@ -600,16 +644,17 @@ except KeyboardInterrupt:
         leave("summary.json", '{{"completed": true, "normal_force_N": 5}}')
     sys.exit("tread: no checkpoint, disk full" if what == "4" else 1)
 """, 0o755)
-        entries = "set Ranks = 2\nset Processes = 4\nset Figures = normal_force_N\nset Limit = normal_force_N = 3 over A/B\n"
-        study = write(self.path("four.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\n{entries}subsection Vary\n  set A/B = 2 | 1 | 3 | 4\nend\n")
+        entries = "set Ranks = 2\nset Processes = 4\nset Figures = normal_force_N\nset Limit = normal_force_N = 3 over Motion/Passages\n"
+        study = write(self.path("four.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\n{entries}subsection Vary\n  set Motion/Passages = 2 | 1 | 3 | 4\nend\n")
         with mock.patch.dict(os.environ, {"PATH": f"{self.folder}:{os.environ['PATH']}"}):
             arguments = (study, "--program", self.program)
             one = write(self.path("one.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\nset Ranks = 2\nset Directory = results/four\nset Figures = normal_force_N\n"
-                        "subsection Vary\n  set A/B = 2\nend\n")
-            self.assertIn("b-2: failed: no space left", self.perform(one).stdout)
+                        "subsection Vary\n  set Motion/Passages = 2\nend\n")
+            self.assertIn("passages-2: failed: no space left", self.perform(one).stdout)
             write(self.path("results", "four", "limit.csv"), "of other settings\n")
-            code, states = self.interrupt(*arguments, ready=self.path("results", "four", "b-4", "all-ready"))
-        self.assertEqual((code, states), (130, {"b-1": "interrupted", "b-2": "interrupted", "b-3": "complete", "b-4": "failed: no checkpoint, disk full",
+            code, states = self.interrupt(*arguments, ready=self.path("results", "four", "passages-4", "all-ready"))
+        self.assertEqual((code, states), (130, {"passages-1": "interrupted", "passages-2": "interrupted", "passages-3": "complete",
+                                                "passages-4": "failed: no checkpoint, disk full",
                                                 "INTERRUPTED": "the same command goes on"}))
         with open(self.path("results", "four", "study.csv"), encoding="utf-8") as stream:
             self.assertEqual([row[:2] for row in csv.reader(stream)][1:], [["2", ""], ["1", ""], ["3", "5"], ["4", ""]])
@@ -665,13 +710,13 @@ class StudiesFromPython(InFolder):
 
     def test_parameters_that_vary_together(self):
         with mock.patch.dict(sys.modules, {"pandas": None}):
-            rows = tread.study("smooth-rolling.prm", {("A/B (mm)", "A/C"): [(1, "x"), (2, "y")], "A/D": [True]}, combination="product", output="out",
+            rows = tread.study("smooth-rolling.prm", {("Defect/Length (mm)", "Defect/Shape"): [(1, "x"), (2, "y")], "Output/Write volume": [True]}, combination="product", output="out",
                                program=self.program, figures=["normal_force_N"])
             self.assertEqual([list(row.values())[:3] for row in rows], [[1, "x", True], [2, "y", True]])
-            rows = tread.study("smooth-rolling.prm", {"A/B": [1, 2], "A/C": [3, 4]}, combination="zip", output="zip", program=self.program,
+            rows = tread.study("smooth-rolling.prm", {"Defect/Length (mm)": [1, 2], "Defect/Depth (mm)": [3, 4]}, combination="zip", output="zip", program=self.program,
                                figures=["normal_force_N"])
         self.assertEqual([list(row.values())[:3] for row in rows], [[1, 3, 140e3], [2, 4, 140e3]])
-        self.assertEqual(sorted(os.listdir("out")), ["b-1_c-x_d-true", "b-2_c-y_d-true", "study.csv"])
+        self.assertEqual(sorted(os.listdir("out")), ["length-1_shape-x_write-volume-true", "length-2_shape-y_write-volume-true", "study.csv"])
 
     def test_a_figure_that_is_not_there(self):
         with mock.patch.dict(sys.modules, {"pandas": None}), self.assertWarnsRegex(UserWarning, "summary.json has no figure 'none'"):
@@ -683,7 +728,8 @@ class StudiesFromPython(InFolder):
                                   ({("A/B", "A/C"): [(1,)]}, {}, "must be 2 values"), ({"A/B": [1, 1.0]}, {}, "two runs have the same values"),
                                   ({"A/B": [1], "A/C": [1, 2]}, {"combination": "zip"}, "zip needs as many"), ({"A/B": [1]}, {"combination": "sum"}, "'sum'"),
                                   ({"A/B": [1]}, {"processes": 0}, "'Processes' cannot be '0'"), ({"A/B": [1]}, {"figures": ["mean(x)"]}, "no 'mean(...)'"),
-                                  ({"A/B": [1]}, {"program": "none"}, "none: no such program")):
+                                  ({"A/B": [1]}, {"program": "none"}, "none: no such program"), ({"A/B": [1]}, {}, "'Vary': no parameter 'A/B'"),
+                                  ({"Motion/Creepage": [1]}, {"settings": {"Motion/Sped": 1}}, "'Settings': no parameter 'Motion/Sped'; did you mean 'Motion/Speed (km per h)'?")):
             with self.assertRaisesRegex(tread.DataError, re.escape(words)):
                 tread.study("smooth-rolling.prm", vary, **{"program": self.program, "output": "out", **more})
         with self.assertRaisesRegex(tread.DataError, "none.prm: no such scene"):
@@ -693,7 +739,7 @@ class StudiesFromPython(InFolder):
     def test_ctrl_c_ends_the_runs_with_a_checkpoint(self):
         program = write(self.path("slow"), "#!/usr/bin/python3\nimport sys, time\nopen('begun', 'w').close()\ntry:\n  time.sleep(60)\n"
                         "except KeyboardInterrupt:\n  sys.exit(130)\n", 0o755)
-        call = f"import tread\ntry:\n  tread.study('smooth-rolling.prm', {{'A/B': [1]}}, output='out', program={program!r})\nexcept KeyboardInterrupt:\n  print('stopped')"
+        call = f"import tread\ntry:\n  tread.study('smooth-rolling.prm', {{'Motion/Passages': [1]}}, output='out', program={program!r})\nexcept KeyboardInterrupt:\n  print('stopped')"
         with subprocess.Popen([sys.executable, "-c", call], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "contrib/python")},
                               stdout=subprocess.PIPE, text=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler)) as process:
             while not os.path.exists("begun") and process.poll() is None:

@@ -137,6 +137,12 @@ class TheProgram(unittest.TestCase):
             self.assertFalse(schema.fits(schema.value_of(value, entry), entry), name)
             self.assertIn(f"'{name}' cannot be '{value}'", execute(["-s", f"{name}={value}", "--print-parameters"], program=PROGRAM).stderr)
 
+    def test_the_program_means_the_same(self):
+        for name in ("Motion/Sped", "Motion/Crepage", "Motion/Length (mm)", "Contact/Finest cell (mm)", "Defect/Shap", "Creepage", "wheel/mass (kg)", "Foo/Bar",
+                     "Mesh/Finest cell", "Motion/Speed (m/s)", "Track/Pad damping (kN)"):
+            said = execute(["-s", f"{name}=1", "--print-parameters"], program=PROGRAM).stderr
+            self.assertIn(schema.not_among(name, schema.parameters()), said, name)
+
     def test_a_scene_as_the_program_prints_it_is_accepted(self):
         printed = execute(["--print-parameters"], program=PROGRAM).stdout
         for name, text in parameters_in(printed.splitlines()).items():

@@ -145,6 +145,10 @@ with tempfile.TemporaryDirectory() as folder:
         refused(f"the same value twice, as 0.001 and {value}", write(path("bad.study"), {"Motion/Creepage": ["0.001", value]}),
                 ["same values", f"Motion/Creepage={value}"])
     refused("values whose folders have one name", write(path("bad.study"), {"Scene/Title": ["a b", "a-b"]}), ["same name of a folder", "Scene/Title=a b"])
+    refused("a misspelt parameter", write(path("bad.study"), {"Motion/Crepage": ["0.001", "0.002"]}, Directory=path("bad")),
+            ["'Vary': no parameter 'Motion/Crepage'", "did you mean 'Motion/Creepage'?"])
+    refused("a misspelt setting", write(path("bad.study"), vary, ["Contact/Finest cell (mm)=1.3"], Directory=path("bad")), ["'Settings'", "did you mean 'Mesh/Finest cell (mm)'?"])
+    check.that("nothing has begun where a study is refused", not os.path.exists(path("bad")))
     refused("an empty value", write(path("bad.study"), {"Motion/Creepage": ["0.001", "", "0.003"]}), ["Motion/Creepage", "empty"])
     refused("folders of runs", write(path("bad.study"), {"Output/Directory": ["a", "b"]}), ["Output/Directory", "folder of its own"])
     refused("no number of processes", write(path("bad.study"), vary, Processes="many"), ["Processes", "many"])

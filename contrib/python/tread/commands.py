@@ -8,6 +8,7 @@ import importlib.util
 import os
 import sys
 from collections.abc import Callable
+from types import TracebackType
 
 from .files import Error
 
@@ -17,7 +18,7 @@ if importlib.util.find_spec("numpy") is None:
     sys.exit(f"{NAME}: {sys.executable} has no numpy; /usr/bin/python3 has it (contrib/install-debian.sh)")
 
 
-def one_line(kind, error, trace) -> None:
+def one_line(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     """What goes wrong before run_command(), such as at the import of pictures without matplotlib."""
     if issubclass(kind, Error):
         print(f"{NAME}: {error}", file=sys.stderr)

@@ -11,15 +11,18 @@ contact (at most 8) and all of them slip. --scale takes CONTACT's answer to bodi
 patch: with radii 1/S as large and a load S as large its pressure, shear stress, slip and creepage are S as large.
 """
 
+from __future__ import annotations
+
 import os
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .patches import read_contact, read_patch
 from .files import read_summary, read_table, reference_value
+from .patches import Patch, read_contact, read_patch
 
 
-def neighbours_in_contact(patch):
+def neighbours_in_contact(patch: Patch) -> list[list[int]]:
     """For each node the indices of its neighbours."""
     columns = np.round((patch.x - patch.x.min()) / patch.size_x).astype(int)
     rows = np.round((patch.y - patch.y.min()) / patch.size_y).astype(int)
@@ -28,7 +31,7 @@ def neighbours_in_contact(patch):
     return [[at[c + i, r + j] for i, j in around if (c + i, r + j) in at] for c, r in zip(columns, rows)]
 
 
-def isolated_adhesion(patch):
+def isolated_adhesion(patch: Patch) -> int:
     return sum(1 for i, near in enumerate(neighbours_in_contact(patch))
                if patch.adhesion[i] and near and not patch.adhesion[near].any())
 
@@ -36,7 +39,7 @@ def isolated_adhesion(patch):
 class Shifted:
     """CONTACT's answer at the nodes of a run."""
 
-    def __init__(self, contact, patch, shift):
+    def __init__(self, contact: Patch, patch: Patch, shift: Sequence[float]):
         # Also the nodes around the patch: there the run has zero, CONTACT perhaps not.
         gx, gy, inside = patch.grid(np.ones_like(patch.x))
         self.x, self.y = (values.ravel() for values in np.meshgrid(gx, gy))
@@ -46,19 +49,19 @@ class Shifted:
                           for field in contact.fields}
         self.counted = self.in_run | (self.reference["pressure"] > 0)
 
-    def rms(self, fields, where):
+    def rms(self, fields: Sequence[str], where: np.ndarray) -> float:
         square = sum((self.own[field] - self.reference[field]) ** 2 for field in fields)
         return float(np.sqrt(square[where].mean()))
 
 
-def hertz_axes(summary, contact):
+def hertz_axes(summary: Mapping, contact: Patch) -> list[float]:
     axes = [reference_value(summary, key, "Hertz") for key in ("semi_axis_x_m", "semi_axis_y_m")]
     if None not in axes:
         return [1e3 * axis for axis in axes]
     return [0.5 * np.ptp(contact.x), 0.5 * np.ptp(contact.y)]
 
 
-def compare(run, contact_file=None, scale=1.0):
+def compare(run: str, contact_file: str | None = None, scale: float = 1.0) -> dict:
     summary = read_summary(run)
     patch = read_patch(os.path.join(run, "patch.csv"))
     contact = read_contact(contact_file) if contact_file else read_patch(os.path.join(run, "reference_patch.csv"))
@@ -73,7 +76,7 @@ def compare(run, contact_file=None, scale=1.0):
     slip_at_nodes = Shifted(contact, slips, slip_shift)
     a, b = hertz_axes(summary, contact)
 
-    def inside(nodes, offset):
+    def inside(nodes: Shifted, offset: Sequence[float]) -> np.ndarray:
         return ((nodes.x - offset[0]) / a) ** 2 + ((nodes.y - offset[1]) / b) ** 2 < 0.9 ** 2
 
     slip_fields, shear_fields = ("slip_x", "slip_y"), ("shear_x", "shear_y")
@@ -110,7 +113,7 @@ def compare(run, contact_file=None, scale=1.0):
     return {key: value.item() if isinstance(value, np.generic) else value for key, value in result.items()}
 
 
-def compare_forces(summary, contact_file, scale):
+def compare_forces(summary: Mapping, contact_file: str, scale: float) -> dict[str, float]:
     """Force and creepage against contact_summary.csv beside the surface file, if it lists that file."""
     table_file = os.path.join(os.path.dirname(contact_file), "contact_summary.csv")
     if not os.path.exists(table_file):
@@ -133,7 +136,7 @@ def compare_forces(summary, contact_file, scale):
         if "creepage" in summary and abs(traction) < friction:
             # The creepage CONTACT would have at the traction of the run, by the shape of
             # Vermeulen & Johnson's creep curve; exact enough for a few per cent of difference.
-            def shape(value):
+            def shape(value: float) -> float:
                 return 1 - (1 - value / friction) ** (1 / 3)
 
             expected = reference["creepage"] * shape(traction) / shape(reference["traction_coefficient"])
@@ -142,7 +145,7 @@ def compare_forces(summary, contact_file, scale):
     return result
 
 
-def steadiness(run):
+def steadiness(run: str) -> dict[str, float]:
     """Ripple of the last millimetres in history.csv: largest deviation from the mean over the mean."""
     history_file = os.path.join(run, "history.csv")
     if not os.path.exists(history_file):

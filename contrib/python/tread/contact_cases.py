@@ -365,7 +365,7 @@ class Reader:
         if not (case.gap < EXCLUDED).any():
             raise self.words.refuse("the planform excludes all elements")
 
-    def hertzian(self) -> tuple[float, float, float, float]:
+    def hertzian(self) -> tuple[float, ...]:
         """Semi-axes a, b (m) and curvatures A, B (1/m) of a case that gives some of them."""
         kind, (_, _, one, other, _) = self.planned
         case = self.case

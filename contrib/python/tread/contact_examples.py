@@ -2,15 +2,19 @@
 """CONTACT's examples, solved on their own elements by half-space theory and set beside its figures: contrib/contact-data/examples.inp and the
 Manchester benchmark."""
 
+from __future__ import annotations
+
 import csv
 import os
 import tempfile
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from .contact_cases import Case
 from .contact_inp import read_cases, solve_case
 from .contact_rolled import roll_track_case, roll_upright, upright_wheel
-from .contact_track import solve_track_case
+from .contact_track import TrackCase, solve_track_case
 from .files import read_table
 from .manchester import positions, solve
 from .runs import PROGRAM, ROOT
@@ -35,7 +39,7 @@ OF_PATCHES = {"normal_force_N": ("normal force, N", 1.), "longitudinal_force_N":
               "max_pressure_Pa": ("largest pressure, MPa", 1e-6)}
 
 
-def elements_beside(result, given):
+def elements_beside(result: Mapping, given: Mapping[str, np.ndarray]) -> dict[str, tuple[float, float]]:
     """{name of OF_ELEMENTS: (given, computed)} of a given table of elements, where the difference is largest, in its units."""
     column = np.rint((1e-3 * given["x_mm"] - result["x"][0]) / (result["x"][1] - result["x"][0])).astype(int)
     row = np.abs(1e-3 * given["y_mm"][:, None] - result["y"]).argmin(axis=1)
@@ -50,12 +54,12 @@ def elements_beside(result, given):
     return pairs
 
 
-def of_inputs():
+def of_inputs() -> Iterator[tuple[str, str, str, float, float]]:
     """Yields (folder, case, quantity, given, computed) of examples.inp."""
-    results = {case.number: solve_case(case) for case in read_cases(os.path.join(DATA, "examples.inp"))}
+    results = {case.number: solve_case(case) for case in read_cases(os.path.join(DATA, "examples.inp")) if isinstance(case, Case)}
     elements = read_table(os.path.join(DATA, "example_elements.csv"))
     with open(os.path.join(DATA, "examples.csv"), encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
+        rows: list[dict] = list(csv.DictReader(stream))
     for row, following in zip(rows, [*rows[1:], {}]):
         number = int(row["case"])
         yield row["folder"], row["name"], QUANTITIES[row["quantity"]], float(row["value"]), float(results[number][row["quantity"]])
@@ -65,7 +69,7 @@ def of_inputs():
                 yield row["folder"], row["name"], OF_ELEMENTS[name], *pair
 
 
-def of_profiles(program=PROGRAM):
+def of_profiles(program: str = PROGRAM) -> Iterator[tuple[str, str, str, float, float]]:
     """Yields the same of the Manchester benchmark, in tread's signs."""
     for side, shift, settings, given in positions():
         patch, = solve(side, settings, program)["patches"]
@@ -73,10 +77,11 @@ def of_profiles(program=PROGRAM):
             yield "manchester", f"A-2.2, {side} wheel, {shift:g} mm", quantity, unit * given[name], unit * patch[name]
 
 
-def of_finite_elements(program=PROGRAM, ranks=1):
+def of_finite_elements(program: str = PROGRAM, ranks: int = 1) -> Iterator[tuple[str, str, float, float]]:
     """Yields (name with the size of the cells, quantity, half-space's answer, finite elements') of Hertzian examples."""
     for file, number, name in ROLLED:
         case = read_cases(os.path.join(DATA, f"{file}.inp"))[number - 1]
+        assert isinstance(case, Case)
         result = solve_case(case)
         scene = upright_wheel(case, result, None)
         with tempfile.TemporaryDirectory() as folder:
@@ -87,11 +92,12 @@ def of_finite_elements(program=PROGRAM, ranks=1):
                 yield f"{name}; cells of {scene['Mesh/Finest cell (mm)']:g} mm", quantity, float(result[key]), float(rolled[key])
 
 
-def of_rolled_profiles(program=PROGRAM, ranks=1):
+def of_rolled_profiles(program: str = PROGRAM, ranks: int = 1) -> Iterator[tuple[str, float, float, dict[str, float], dict[str, float]]]:
     """Yields (side, shift of the wheelset to the right in mm, finest cell in mm, half-space's patch, finite elements' patch) of the
     Manchester benchmark's positions but those on the flange, whose narrow patches take long; patches are {name: value} with the names of
     contact_track.PATCH."""
     for case in read_cases(os.path.join(DATA, "manchester.inp")):
+        assert isinstance(case, TrackCase)
         with tempfile.TemporaryDirectory() as folder:
             run, (half_space,) = solve_track_case(case, os.path.join(folder, "half-space"), program=program)
             if run.summary["patches"][0]["width_m"] < NARROWEST:

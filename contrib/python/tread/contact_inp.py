@@ -21,7 +21,7 @@ import csv
 import dataclasses
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -201,7 +201,7 @@ def solve_case(case: Case) -> dict:
         "reaches_border": bool(border), "x": area.x, "y": area.y, **fields}
 
 
-def _write_csv(path: str, header: tuple[str, ...], rows) -> None:
+def _write_csv(path: str, header: tuple[str, ...], rows: Iterable[Iterable]) -> None:
     with open(path + ".part", "w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(header)
@@ -242,7 +242,7 @@ class Job:
         os.makedirs(self.folder, exist_ok=True)
         own = os.path.join(self.folder, f"case-{case.number}")
         title = f"{os.path.basename(self.input)}, case {case.number}"
-        yield from (self.solve_track if isinstance(case, TrackCase) else self.solve_basic)(case, own, title)
+        yield from self.solve_track(case, own, title) if isinstance(case, TrackCase) else self.solve_basic(case, own, title)
 
     def solve_track(self, case: TrackCase, own: str, title: str) -> Iterator[tuple[str, str]]:
         """A case of module 1."""
@@ -292,7 +292,7 @@ class Job:
             yield FINITE_ELEMENTS, f"warning: {warning}"
 
 
-def main():
+def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("input", metavar="CASE.inp")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="of the results; it is made if it is not there")
@@ -320,7 +320,7 @@ def main():
             raise DataError(f"{arguments.input}, line {case.line}: case {case.number}: {error}") from None
 
 
-def command_line():
+def command_line() -> None:
     """What contrib/contact-inp.py and tread-contact-inp do."""
     run_command(main)
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
+from typing import TextIO
 
 import numpy as np
 
@@ -126,7 +127,7 @@ def write_mat(path: str, area: Area, fields: Fields, conditions: Conditions, pla
     os.replace(path + ".part", path)
 
 
-def _write_row(stream, names: str, values: tuple[float, ...] | None) -> None:
+def _write_row(stream: TextIO, names: str, values: tuple[float, ...] | None) -> None:
     print("%", names, file=stream)
     if values:
         print(*(f"{value + 0.:.12g}" for value in values), file=stream)

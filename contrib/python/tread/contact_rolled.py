@@ -9,6 +9,7 @@ proportional to the speed is converted to that of the file.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,7 @@ def _rolled_distance(length: float) -> float:
     return math.ceil(LENGTHS * 1e3 * length + AVERAGED)
 
 
-def _roll(settings: dict[str, float | str], output: str, title: str, ranks: int, program: str) -> Run:
+def _roll(settings: dict[str, Any], output: str, title: str, ranks: int, program: str) -> Run:
     """Write a scene beside a folder and roll it there. @raises ProgramError"""
     with open(output + ".prm", "w", encoding="utf-8") as stream:
         stream.write(scene_text(settings, title))
@@ -69,7 +70,7 @@ def roll_track_case(case: TrackCase, half_space: Run, output: str, cell: float |
     return answer, patch_rows(case.side, answer.summary["patches"])
 
 
-def upright_wheel(case: Case, result: dict, cell: float | None) -> dict[str, float | str]:
+def upright_wheel(case: Case, result: dict, cell: float | None) -> dict[str, Any]:
     """{"Section/Name": value} of a scene with the gap, the constants, the force and the creepages of a case of module 3 that has been
     solved. @raises DataError, which names what keeps it from being a wheel on a rail"""
     if case.curvatures is None:
@@ -119,7 +120,7 @@ def upright_wheel(case: Case, result: dict, cell: float | None) -> dict[str, flo
         "Mesh/Finest cell (mm)": cell or cell_of(2. * a, 2. * b)}
 
 
-def roll_upright(case: Case, result: dict, settings: dict[str, float | str], output: str, title: str = "", ranks: int = 1,
+def roll_upright(case: Case, result: dict, settings: dict[str, Any], output: str, title: str = "", ranks: int = 1,
                  program: str = PROGRAM) -> tuple[Run, dict]:
     """Roll the scene of upright_wheel().
 

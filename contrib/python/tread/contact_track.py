@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+from typing import Any
 
 from . import contact_cases
 from .runs import PROGRAM, Run, run
@@ -16,7 +17,7 @@ from .runs import PROGRAM, Run, run
 GRAVITY = 9.81  # m/s2, tread's default
 MASS = 900.  # kg, tread's default; it must be less than the load
 
-REFUSED = {
+REFUSED: dict[str, dict[int, str]] = {
     **contact_cases.REFUSED,
     "CONFIG": {4: "a wheel on a roller", 5: "a wheel on a roller"},
     "T": {0: "the normal problem alone with module 1", **contact_cases.REFUSED["T"]},
@@ -48,7 +49,7 @@ class TrackCase:
     line: int
     solved: bool
     side: str  # "left" or "right"
-    settings: dict[str, float | str]  # {"Section/Name": value}
+    settings: dict[str, Any]  # {"Section/Name": value}
 
 
 class TrackReader(contact_cases.Reader):
@@ -58,7 +59,7 @@ class TrackReader(contact_cases.Reader):
 
     def __init__(self, words: contact_cases.Words):
         super().__init__(words)
-        self.settings: dict[str, float | str] = {"Wheelset/Slip over the patch": "plane"}
+        self.settings: dict[str, Any] = {"Wheelset/Slip over the patch": "plane"}
 
     def one_case(self, number_of_case: int) -> bool:
         """Read a case into self.case. @returns whether the next one follows without a module number"""
@@ -84,7 +85,7 @@ class TrackReader(contact_cases.Reader):
         self.case_of_track = TrackCase(number_of_case, case.line, case.solved, side, dict(self.settings))
         return third["R"] in (0, 2)
 
-    def result(self) -> TrackCase:
+    def result(self) -> TrackCase:  # type: ignore[override]
         return self.case_of_track
 
     def zero(self, names: str, values: list[float]) -> None:
@@ -137,7 +138,7 @@ class TrackReader(contact_cases.Reader):
             self.settings.update({"Motion/Speed (km per h)": 3.6e-3 * speed, "Motion/Angular velocity (rad per s)": -turning})
 
 
-def scene_text(settings: dict[str, float | str], title: str) -> str:
+def scene_text(settings: dict[str, Any], title: str) -> str:
     """A parameter file with the settings {"Section/Name": value} of a case."""
     sections: dict[str, list[str]] = {"Scene": [f"  set Title = {title}"]}
     for name, value in settings.items():

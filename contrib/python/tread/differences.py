@@ -16,9 +16,13 @@ from __future__ import annotations
 import csv
 import filecmp
 import os
+from typing import TYPE_CHECKING
 
 from .files import frame_or_rows
 from .runs import Run
+
+if TYPE_CHECKING:
+    import pandas
 
 COLUMNS = ("name", "a", "b", "difference", "relative_difference")
 OF_THE_MACHINE = ("wall_s", "element_updates_per_s", "cells_and_nodes_bytes", "ranks", "reference")
@@ -43,12 +47,12 @@ def other_bits(run_a: Run, run_b: Run) -> list[str]:
         + sorted(name for name in {**figures_a, **figures_b} if figures_a.get(name) != figures_b.get(name))
 
 
-def row(name: str, a: float, b: float, difference: float | None = None) -> dict[str, object]:
+def row(name: str, a: float, b: float, difference: float | None = None) -> dict:
     difference = b - a if difference is None else difference
     return dict(zip(COLUMNS, (name, a, b, difference, difference / abs(a) if a else None)))
 
 
-def compared_rows(run_a: Run, run_b: Run) -> list[dict[str, object]]:
+def compared_rows(run_a: Run, run_b: Run) -> list[dict]:
     a, b = figures_of(run_a.summary), figures_of(run_b.summary)
     rows = [row(name, a[name], b[name]) for name in a if name in b]
     if "patches" not in run_a.summary and "patches" not in run_b.summary and run_a.has("patch.csv") and run_b.has("patch.csv"):
@@ -56,19 +60,19 @@ def compared_rows(run_a: Run, run_b: Run) -> list[dict[str, object]]:
 
         nodes = Shifted(run_b.patch, run_a.patch, (0.0, 0.0))
         for field in run_a.patch.fields:
-            mean = [float((values[field][nodes.counted] ** 2).mean() ** 0.5) for values in (nodes.own, nodes.reference)]
+            a_mean, b_mean = [float((values[field][nodes.counted] ** 2).mean() ** 0.5) for values in (nodes.own, nodes.reference)]
             unit = run_a.patch.units[field].replace("/", "_per_")
-            rows.append(row(f"patch_{field}_rms_{unit}", *mean, nodes.rms((field,), nodes.counted)))
+            rows.append(row(f"patch_{field}_rms_{unit}", a_mean, b_mean, nodes.rms((field,), nodes.counted)))
     return rows
 
 
-def compare(run_a: Run | str | os.PathLike, run_b: Run | str | os.PathLike):
+def compare(run_a: Run | str | os.PathLike, run_b: Run | str | os.PathLike) -> pandas.DataFrame | list[dict]:
     """What differs between two runs, runs or their folders: name, a, b, difference, relative_difference; see the beginning of the
     module. A pandas DataFrame, or a list of dicts where pandas is not installed. @raises DataError"""
     return frame_or_rows(compared_rows(*(run if isinstance(run, Run) else Run(run) for run in (run_a, run_b))), list(COLUMNS))
 
 
-def text_of_rows(rows: list[dict[str, object]], above: float | None = None) -> str:
+def text_of_rows(rows: list[dict], above: float | None = None) -> str:
     """A table for the screen, with those rows alone whose relative difference is above so many per cent."""
     shown = [one for one in rows if above is None or abs(one["relative_difference"] or (one["difference"] and float("inf"))) > 1e-2 * above]
     width = max((len(one["name"]) for one in shown), default=4)

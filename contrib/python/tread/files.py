@@ -4,28 +4,35 @@
 numpy is imported where columns are read: without it commands can say in one line that it is missing.
 """
 
+from __future__ import annotations
+
 import csv
 import gzip
 import hashlib
 import json
 import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pandas
 
 
 class Error(Exception):
     """What went wrong, in one line for the user."""
 
-
 class DataError(Error):
     """A file is missing or cannot be understood."""
 
 
-def read_table(path, required=(), text=("state",)):
+def read_table(path: str, required: Iterable[str] = (), text: Iterable[str] = ("state",)) -> dict[str, np.ndarray]:
     """A CSV file (also .gz; lines that start with # are comments) as {column: (rows,) array}, of numbers but for the columns
     `text`; other columns that are not numbers are left out, or refused if they are required. @raises DataError"""
     import numpy as np
 
     try:
-        opener = gzip.open if path.endswith(".gz") else open
+        opener: Any = gzip.open if path.endswith(".gz") else open
         with opener(path, "rt", encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(line for line in stream if line.strip() and not line.startswith("#")))
     except (OSError, EOFError, UnicodeDecodeError) as error:
@@ -53,7 +60,7 @@ def read_table(path, required=(), text=("state",)):
     return table
 
 
-def frame_or_rows(rows, columns=None):
+def frame_or_rows(rows: list[dict], columns: Sequence[str] | None = None) -> pandas.DataFrame | list[dict]:
     """A pandas DataFrame of [{column: value}], or the rows themselves where pandas is not installed. @param columns if there may be no row"""
     try:
         import pandas
@@ -62,7 +69,7 @@ def frame_or_rows(rows, columns=None):
     return pandas.DataFrame(rows, columns=columns)
 
 
-def read_summary(folder):
+def read_summary(folder: str | os.PathLike) -> dict:
     """summary.json of a run, read anew. @raises DataError"""
     path = os.path.join(folder, "summary.json")
     try:
@@ -77,7 +84,25 @@ def read_summary(folder):
     return summary
 
 
-def is_complete(folder):
+def read_toml(path: str) -> dict:
+    """A TOML file. Pythons before 3.11 need tomli for it. @raises DataError"""
+    try:
+        import tomllib as toml
+    except ImportError:
+        try:
+            import tomli as toml
+        except ImportError:
+            raise Error(f"{path}: reading TOML needs Python 3.11, or tomli: apt install python3-tomli, or pip install tomli") from None
+    try:
+        with open(path, "rb") as stream:
+            return toml.load(stream)
+    except OSError as error:
+        raise DataError(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise DataError(f"{path}: {error}") from None
+
+
+def is_complete(folder: str | os.PathLike) -> bool:
     """Whether a folder has the results of a run that came to its end."""
     try:
         return read_summary(folder).get("completed") is True
@@ -85,7 +110,7 @@ def is_complete(folder):
         return False
 
 
-def parameter_lines(lines):
+def parameter_lines(lines: Iterable[str]) -> Iterator[tuple[int, str | None, str, str]]:
     """(number, kind, name, text) of each line of a parameter file that is not empty; one that ends with a backslash goes on in the next. kind is "set", with name "Section/Name" and the value as
     text; "include" and "subsection", with the name; "end"; or None for a line that is none of these, or an end without a beginning, as
     text."""
@@ -113,12 +138,12 @@ def parameter_lines(lines):
             yield number, None, "", line
 
 
-def parameters_in(lines):
+def parameters_in(lines: Iterable[str]) -> dict[str, str]:
     """{"Section/Name": text} of the lines of a parameter file."""
     return {name: text for _, kind, name, text in parameter_lines(lines) if kind == "set"}
 
 
-def texts_of(scene, depth=0):
+def texts_of(scene: str, depth: int = 0) -> list[str]:
     """[text] of a parameter file and of those that it includes, one after the other. @raises DataError"""
     if depth > 20:
         raise DataError(f"{scene}: is included by files that it includes")
@@ -131,12 +156,12 @@ def texts_of(scene, depth=0):
     return [text] + [own for name in included for own in texts_of(os.path.join(os.path.dirname(scene), name), depth + 1)]
 
 
-def own_parameters(scene):
+def own_parameters(scene: str) -> dict[str, str]:
     """{"Section/Name": text} of what a parameter file sets, with the files that it includes. @raises DataError"""
     return {name: value for text in reversed(texts_of(scene)) for name, value in parameters_in(text.splitlines()).items()}
 
 
-def input_of(scene, settings):
+def input_of(scene: str, settings: Mapping[str, object]) -> dict:
     """What decides about a run's results: its settings, {"Section/Name": value}, the texts of the scene, and what the files contain that
     parameters name, such as profiles: as the program takes them, from the present folder or else from that of the scene. @raises DataError"""
     texts = texts_of(scene)
@@ -150,7 +175,7 @@ def input_of(scene, settings):
     return {"settings": {name: str(value) for name, value in settings.items()}, "scene": texts, "files": files}
 
 
-def read_parameters(path):
+def read_parameters(path: str) -> dict[str, str]:
     """{"Section/Name": text} of a parameter file, empty if there is none."""
     if not os.path.exists(path):
         return {}
@@ -158,7 +183,7 @@ def read_parameters(path):
         return parameters_in(stream)
 
 
-def reference_value(summary, key, source=""):
+def reference_value(summary: Mapping, key: str, source: str = "") -> float | None:
     """The number that the summary compares `key` with, or None; `source` picks one of several."""
     entries = summary.get("reference", {}).get(key)
     if isinstance(entries, dict) and "value" not in entries:

@@ -11,16 +11,23 @@
 Axes, signs and units are those of include/tread/half_space.h: forces act on the wheel, a driving wheel has a negative creepage.
 """
 
+from __future__ import annotations
+
 import ctypes
 import ctypes.util
 import functools
 import os
 import shutil
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .files import Error
 from .runs import ROOT
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 VERSION = 1  # TREAD_HALF_SPACE_VERSION
 
@@ -37,7 +44,7 @@ _GRID = np.dtype([("n_x", np.uintc), ("n_y", np.uintc)] + [(name, float) for nam
 FIELDS = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")
 
 
-def library_path():
+def library_path() -> str:
     """Of $TREAD_HALF_SPACE_LIBRARY, of the source tree's build, beside the program, or where the system looks. @raises Error"""
     name = "libtread_half_space.so"
     program = shutil.which("tread")
@@ -50,7 +57,7 @@ def library_path():
 
 
 @functools.lru_cache(maxsize=None)
-def _library():
+def _library() -> ctypes.CDLL:
     path = library_path()
     try:
         library = ctypes.CDLL(path)
@@ -72,7 +79,7 @@ def _library():
     return library
 
 
-def _cases(settings, slip_order, contact_sixth):
+def _cases(settings: Mapping[str, ArrayLike], slip_order: ArrayLike, contact_sixth: bool) -> tuple[np.ndarray, tuple[int, ...]]:
     """(cases, their shape): numbers and arrays that broadcast become structs."""
     unknown = sorted(set(settings) - set(_NUMBERS))
     if unknown:
@@ -91,7 +98,8 @@ class HalfSpaceError(Error):
     """A case that was not solved, with the library's reason."""
 
 
-def solve(*, slip_order=2, contact_sixth=False, threads=0, on_failure="raise", **settings):
+def solve(*, slip_order: ArrayLike = 2, contact_sixth: bool = False, threads: int = 0, on_failure: str = "raise",
+          **settings: ArrayLike) -> dict[str, np.ndarray]:
     """Solve cases of Hertzian contacts on all cores.
 
     curvature_x, curvature_y  A, B of the gap A x^2 + B y^2, 1/m
@@ -121,22 +129,23 @@ def solve(*, slip_order=2, contact_sixth=False, threads=0, on_failure="raise", *
 
 
 class _Solver:
-    def __enter__(self):
+    def __enter__(self) -> _Solver:
         self.library = _library()
         self.handle = self.library.tread_half_space_create()
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.library.tread_half_space_destroy(self.handle)
 
-    def solve(self, case, what=""):
+    def solve(self, case: np.ndarray, what: str = "") -> np.ndarray:
         answer = np.zeros(1, _ANSWER)
         if self.library.tread_half_space_solve(self.handle, case.ctypes.data, answer.ctypes.data):
             raise HalfSpaceError(what + self.library.tread_half_space_message(self.handle).decode())
         return answer
 
 
-def solve_patch(*, gap=None, x_first=0., y_first=0., slip_order=2, contact_sixth=False, **settings):
+def solve_patch(*, gap: ArrayLike | None = None, x_first: float = 0., y_first: float = 0., slip_order: int = 2, contact_sixth: bool = False,
+                **settings: float) -> dict:
     """Solve one case, of any gap, with its fields.
 
     gap    (n_y, n_x) array of the undeformed gap, m, on elements element_x by element_y whose first centre is (x_first, y_first);
@@ -157,12 +166,12 @@ def solve_patch(*, gap=None, x_first=0., y_first=0., slip_order=2, contact_sixth
         answer = solver.solve(case)
         grid = np.zeros(1, _GRID)
         solver.library.tread_half_space_get_grid(solver.handle, grid.ctypes.data)
-        grid = grid[0]
+        of = grid[0]
         result = {name: answer[name][0] for name in _ANSWER.names}
-        result["x"] = grid["x_first"] + grid["element_x"] * np.arange(grid["n_x"])
-        result["y"] = grid["y_first"] + grid["element_y"] * np.arange(grid["n_y"])
+        result["x"] = of["x_first"] + of["element_x"] * np.arange(of["n_x"])
+        result["y"] = of["y_first"] + of["element_y"] * np.arange(of["n_y"])
         for number, name in enumerate(FIELDS):
-            values = np.empty((grid["n_y"], grid["n_x"]))
+            values = np.empty((of["n_y"], of["n_x"]))
             solver.library.tread_half_space_get_field(solver.handle, number, values.ctypes.data)
             result[name] = values
     return result

@@ -1,13 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """At which value of a parameter a figure of a study reaches a limit: the size from which a defect grows, for example."""
 
+from __future__ import annotations
+
 import math
 import re
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Dict, Optional, Tuple
 
 from .files import DataError
 
+if TYPE_CHECKING:
+    from .studies import Study
 
-def crossing(sizes, figures, limit):
+# Of a run: the values that are varied; a figure, and that of its smooth twin, or None.
+Figures = Tuple[Dict[str, str], Optional[float], Optional[float]]
+
+
+def crossing(sizes: Iterable[float], figures: Iterable[float | None], limit: float) -> tuple[float | None, float | None, float | None]:
     """Where the straight lines between the points reach the limit first, from below: (smallest size above, or None; largest size
     below it among those smaller, or None; the crossing, or None unless both are known and no point between them is without a
     figure)."""
@@ -32,7 +42,7 @@ class Answer:
     """What the runs of one mesh tell: the size at which the limit is reached (None if there is none), the sizes around it, whether
     the figure falls to it, and the same in a few words and in a sentence."""
 
-    def __init__(self, points, limit):
+    def __init__(self, points: Iterable[tuple[float, float | None, float | None]], limit: float):
         """@param points (size, figure or None, figure of the smooth twin or None) of each run"""
         points = sorted(points, key=lambda point: point[0])
         # 0 is what a figure has that nothing was recorded of.
@@ -76,11 +86,11 @@ class Answer:
 class Limit:
     """A limit of a figure, and the varied parameter over which it is looked for."""
 
-    def __init__(self, figure, value, parameter, mesh):
+    def __init__(self, figure: str, value: float, parameter: str, mesh: str):
         self.figure, self.value, self.parameter, self.mesh = figure, value, parameter, mesh
 
     @classmethod
-    def read(cls, path, text, mesh, study):
+    def read(cls, path: str, text: str, mesh: str, study: Study) -> Limit:
         """@param text FIGURE = VALUE over PARAMETER; @raises DataError"""
         found = re.fullmatch(r"(\S+)\s*=\s*(\S+)\s+over\s+(.+)", text)
         try:
@@ -103,7 +113,7 @@ class Limit:
             raise DataError(f"{path}: 'Limit': '{limit.parameter}' is the 'Mesh'; a limit is looked for over another parameter")
         return limit
 
-    def rows(self, answers):
+    def rows(self, answers: Sequence[Figures]) -> list[list]:
         """The rows of limit.csv, heading first; and the same in words, printed.
         @param answers (values, figure, figure of the smooth twin or None) of each run"""
         groups = {}
@@ -139,7 +149,7 @@ class Limit:
         print("\n".join("  " + line for line in lines))
         return [names + ["smooth", "largest_below", "smallest_above", self.parameter, "uncertainty"]] + rows
 
-    def follows(self, name, answers):
+    def follows(self, name: str, answers: Sequence[Figures]) -> bool:
         """Whether a parameter has one value for each value of the limit's parameter, and several of them."""
         by_size = {}
         for values, _, _ in answers:

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Case A-2.2 of the Manchester contact benchmark: its positions as settings of tread, with CONTACT's figures in tread's signs."""
 
+from __future__ import annotations
+
 import csv
 import os
 import tempfile
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from .contact_rolled import SPEED_KM_H
 from .contact_track import signs
@@ -12,7 +16,7 @@ from .runs import PROGRAM, ROOT, run
 DATA = os.path.join(ROOT, "contrib", "contact-data", "manchester_a22.csv")
 
 
-def positions():
+def positions() -> Iterator[tuple[str, float, dict[str, float], dict[str, float]]]:
     """Yields side, shift in the benchmark's sign (mm), settings, and CONTACT's figures by their names in tread's summary."""
     with open(DATA, encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
@@ -34,7 +38,7 @@ def positions():
 BENCHMARK_KM_H = 7.2
 
 
-def roll(settings, cell_mm, output=None, ranks=2, program=PROGRAM):
+def roll(settings: Mapping[str, Any], cell_mm: float, output: str | None = None, ranks: int = 2, program: str = PROGRAM) -> dict:
     """The summary of a position with finite elements of a size under the patch."""
     settings = {**settings, "Motion/Speed (km per h)": SPEED_KM_H, "Mesh/Finest cell (mm)": cell_mm, "Output/Write volume": False,
                 "Motion/Angular velocity (rad per s)": settings["Motion/Angular velocity (rad per s)"] * SPEED_KM_H / BENCHMARK_KM_H}
@@ -44,7 +48,7 @@ def roll(settings, cell_mm, output=None, ranks=2, program=PROGRAM):
         return run("curves/flange-root.prm", settings, output=output or os.path.join(folder, "run"), ranks=ranks, program=program).summary
 
 
-def solve(side, settings, program=PROGRAM):
+def solve(side: str, settings: Mapping[str, object], program: str = PROGRAM) -> dict:
     """The summary of a position."""
     with tempfile.TemporaryDirectory() as folder:
         return run(f"curves/manchester-a22-{side}.prm", settings, output=os.path.join(folder, "run"),

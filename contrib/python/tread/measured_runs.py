@@ -1,27 +1,40 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of shipped scenes whose results and costs are kept: what the tables of doc/ are made of."""
 
+from __future__ import annotations
+
+import glob
 import json
 import os
 import re
 import subprocess
 import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
 
 from .comparison import compare
 from .files import input_of, is_complete, read_summary
 from .runs import ROOT, ProgramError, arguments_of, command, environment, execute, must_end_well, own_line
 
+Name = TypeVar("Name")
 
-def shipped(scene):
+
+def shipped(scene: str) -> str:
     """The path of a scene of prm/."""
     return os.path.join(ROOT, "prm", scene)
 
 
-def available_ranks():
+def shipped_scenes(pattern: str = "**/*.prm") -> list[str]:
+    """The scenes of prm/ whose paths, seen from there, are like a pattern; ** stands for any folders."""
+    folder = os.path.join(ROOT, "prm")
+    return sorted(os.path.relpath(path, folder) for path in glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))
+
+
+def available_ranks() -> int:
     return min(2, os.cpu_count() or 1)
 
 
-def run_scene(scene, folder, settings=None, ranks=None, more=()):
+def run_scene(scene: str, folder: str, settings: Mapping[str, object] | None = None, ranks: int | None = None, more: Sequence[str] = ()) -> dict:
     """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command and
     the same input.
 
@@ -54,19 +67,20 @@ def run_scene(scene, folder, settings=None, ranks=None, more=()):
     return dict(read_summary(folder), **cost)
 
 
-def in_turn(turns, runs, time_of=lambda summary: summary["seconds"]):
+def in_turn(turns: int, runs: Mapping[Name, Callable[[int], dict]],
+            time_of: Callable[[dict], float] = lambda summary: summary["seconds"]) -> dict[Name, dict]:
     """The fastest summary of each run(turn) of a dictionary, all runs made one after the other so many times: where
     other programs take their part of a machine, the least time is the nearest to the run's own."""
     summaries = [{name: run(turn) for name, run in runs.items()} for turn in range(turns)]
     return {name: min((of_turn[name] for of_turn in summaries), key=time_of) for name in runs}
 
 
-def steps_seconds(summary):
+def steps_seconds(summary: Mapping[str, float]) -> float:
     """Of all time steps, without start, end and output."""
     return sum(summary[f"wall_s_{part}"] for part in ("internal_forces", "contact", "communication", "nodes"))
 
 
-def dry_run(scene, settings, ranks=1):
+def dry_run(scene: str, settings: Mapping[str, object], ranks: int = 1) -> dict[str, float]:
     """What --dry-run says: {what: number}."""
     result = must_end_well(execute([*arguments_of(shipped(scene), settings), "--dry-run"], ranks))
     found = {what.strip(): float(value) for what, value in
@@ -76,7 +90,7 @@ def dry_run(scene, settings, ranks=1):
     return found
 
 
-def contact_measures(run, traction, scale=1.0):
+def contact_measures(run: str, traction: float, scale: float = 1.0) -> dict:
     """The measures of comparison.py against CONTACT at a traction coefficient, as doc/ states them; scale: of
     CONTACT's load."""
     contact = os.path.join(ROOT, f"contrib/contact-data/contact_F127_mu{round(100 * traction):03d}_dx010.csv.gz")

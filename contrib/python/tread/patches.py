@@ -19,6 +19,11 @@ class Patch:
     units = {"x": "mm", "y": "mm", "pressure": "MPa", "shear_x": "MPa", "shear_y": "MPa", "slip_x": "m/s", "slip_y": "m/s", "area": "mm2",
              "shear": "MPa", "slip": "m/s"}
     fields = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y")
+    pressure: np.ndarray
+    shear_x: np.ndarray
+    shear_y: np.ndarray
+    slip_x: np.ndarray
+    slip_y: np.ndarray
 
     def __init__(self, path: str, table: dict[str, np.ndarray], names: tuple[str, ...]):
         self.path = path

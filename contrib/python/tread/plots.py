@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import AbstractContextManager
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from .files import Error
 
 try:
     import matplotlib
+    from matplotlib.axes import Axes
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 except ImportError:
@@ -34,12 +37,12 @@ def use_style(more: Mapping[str, object] | None = None) -> None:
     matplotlib.rcParams.update({**STYLE, **(more or {})})
 
 
-def style():
+def style() -> AbstractContextManager[None]:
     """The style of all pictures inside a `with`, behind which the user's own is back."""
     return matplotlib.rc_context(STYLE)
 
 
-def subplots(rows: int = 1, columns: int = 1, *, figsize: tuple[float, float], **options) -> tuple:
+def subplots(rows: int = 1, columns: int = 1, *, figsize: tuple[float, float], **options: Any) -> tuple[Figure, Any]:
     """(figure, axes) as matplotlib.pyplot.subplots() has them, but without a window. Labels, titles and legends beside the axes
     find their places by themselves."""
     figure = Figure(figsize=figsize, layout="constrained")
@@ -54,20 +57,20 @@ def save(figure: Figure, path: str) -> str:
     return path
 
 
-def legend_beside(axis, **options) -> None:
+def legend_beside(axis: Axes, **options: Any) -> None:
     """A legend on the right of the axes, where it covers no line; none if nothing is named."""
     if axis.get_legend_handles_labels()[0]:
         axis.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), **options)
 
 
-def rolling_arrow(axis, y: float = 1.04) -> None:
+def rolling_arrow(axis: Axes, y: float = 1.04) -> None:
     """Above the axes, at the right."""
     axis.annotate("", xy=(1.0, y), xytext=(0.88, y), xycoords="axes fraction",
                   arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.2, "mutation_scale": 12})
     axis.text(0.87, y, "rolling direction", transform=axis.transAxes, ha="right", va="center", fontsize=9)
 
 
-def name_sides(axis, y: float = 0.02) -> None:
+def name_sides(axis: Axes, y: float = 0.02) -> None:
     """In axes whose abscissa is the lateral coordinate: where the flange runs, and where not."""
     for x, side, text in ((0.02, "left", "$\\leftarrow$ gauge side (flange)"), (0.98, "right", "field side $\\rightarrow$")):
         axis.text(x, y, text, transform=axis.transAxes, ha=side, va="bottom", fontsize=8.5, color=GREY)
@@ -79,14 +82,14 @@ def passages(position: np.ndarray) -> list[slice]:
     return [slice(begin, end) for begin, end in zip(bounds, bounds[1:])]
 
 
-def plot_passages(axis, position: np.ndarray, x: np.ndarray, values: np.ndarray, label: str | None = None, **style) -> None:
+def plot_passages(axis: Axes, position: np.ndarray, x: np.ndarray, values: np.ndarray, label: str | None = None, **style: Any) -> None:
     """A line for each passage, the earlier the paler; only the last one has the label."""
     parts = passages(position)
     for number, rows in enumerate(parts, 1):
         axis.plot(x[rows], values[rows], alpha=number / len(parts), label=label if number == len(parts) else None, **style)
 
 
-def shade_defects(axis, parameters: Mapping[str, str], named: bool = True) -> None:
+def shade_defects(axis: Axes, parameters: Mapping[str, str], named: bool = True) -> None:
     """The extent of each defect of a run over the position in mm; a line where its end is not known. @param named for the legend"""
     for number, (begin, end) in enumerate(extents_of_defects(parameters)):
         label = "defect" if named and number == 0 else None
@@ -96,7 +99,7 @@ def shade_defects(axis, parameters: Mapping[str, str], named: bool = True) -> No
             axis.axvspan(begin, end, color="black", alpha=0.10, lw=0, zorder=0, label=label)
 
 
-def span_at_least(axis, values: np.ndarray, share: float, least: float) -> None:
+def span_at_least(axis: Axes, values: np.ndarray, share: float, least: float) -> None:
     """Let the ordinate span the values and so large a share of the last one to both sides, so that round-off is not drawn as an event."""
     reach = max(share * abs(values[-1]), least)
     low, high = min(values.min(), values[-1] - reach), max(values.max(), values[-1] + reach)

@@ -20,12 +20,13 @@ import shutil
 import signal
 import subprocess
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .files import Error, frame_or_rows, parameters_in, read_parameters, read_summary, read_table
 
 if TYPE_CHECKING:
     import numpy as np
+    import pandas
 
     from .patches import Instant, Patch
 
@@ -94,9 +95,10 @@ def arguments_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequ
     return arguments + (["--output", output] if output else [])
 
 
-def execute(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM, **options) -> subprocess.CompletedProcess:
+def execute(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM, **options: Any) -> subprocess.CompletedProcess:
     """The ended process (subprocess.CompletedProcess), whatever its exit code, with what it wrote as text."""
-    return subprocess.run(command(arguments, ranks, program), **{"env": environment(), "capture_output": True, "text": True, **options})
+    options = {"env": environment(), "capture_output": True, "text": True, **options}
+    return subprocess.run(command(arguments, ranks, program), **options)
 
 
 def processes_below(launcher: int) -> list[int]:
@@ -178,7 +180,7 @@ class Run:
         """{column: (rows,) array} of a CSV file in the folder; names of columns state their units."""
         return read_table(self.path(name), required, text)
 
-    def frame(self, name: str = "history.csv"):
+    def frame(self, name: str = "history.csv") -> pandas.DataFrame | list[dict]:
         """A table of the folder as a pandas DataFrame with the columns of table(), or where pandas is not installed as a list of
         dicts, one for each row."""
         table = self.table(name)

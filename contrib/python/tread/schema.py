@@ -9,13 +9,12 @@ no program.
 from __future__ import annotations
 
 import concurrent.futures
-import difflib
 import functools
 import json
 import math
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from .files import DataError, Error, parameter_lines
 from .runs import PROGRAM, execute, must_end_well, own_line
@@ -116,8 +115,12 @@ def make_schema(program: str = PROGRAM, processes: int = 2) -> dict:
     """The schema of a program, which is asked once or twice for each parameter; some minutes."""
     found = listing(program)
     asked = [(f"{section}/{name}", default, meaning) for section, entries in found for name, default, meaning in entries]
+
+    def ask(one: tuple[str, str, str]) -> dict:
+        return parameter_schema(*one, program)
+
     with concurrent.futures.ThreadPoolExecutor(processes) as pool:
-        answers = dict(zip((path for path, _, _ in asked), pool.map(lambda one: parameter_schema(*one, program), asked)))
+        answers = dict(zip((path for path, _, _ in asked), pool.map(ask, asked)))
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Parameters of tread", "type": "object",
             "additionalProperties": False,
             "properties": {section: {"type": "object", "additionalProperties": False,
@@ -140,7 +143,7 @@ def parameters(schema: dict | None = None) -> dict[str, dict]:
             for name, entry in group["properties"].items()}
 
 
-def value_of(text: str, schema: dict):
+def value_of(text: str, schema: dict) -> object:
     """The text of a parameter file as the schema has it. What is not of its type is left as text."""
     if "anyOf" in schema:
         return next((value for value in (value_of(text, part) for part in schema["anyOf"]) if not isinstance(value, str)), text)
@@ -179,7 +182,7 @@ def allowed(schema: dict) -> str:
     return f"{word}, {low} to {high}" if None not in (low, high) else f"{word}, {low} or more" if high is None else f"{word}, at most {high}"
 
 
-def fits(value, schema: dict) -> bool:
+def fits(value: object, schema: dict) -> bool:
     """Whether a value is one that the schema allows: type, enum, const, anyOf, minimum, maximum, items, minItems, maxItems, pattern."""
     if "anyOf" in schema:
         return any(fits(value, part) for part in schema["anyOf"])
@@ -222,19 +225,37 @@ def scene_errors(path: str, schema: dict | None = None, depth: int = 0) -> Itera
         elif kind == "end":
             opened.pop()
         elif name not in known:
-            close = nearest(name, known)
-            yield path, number, f"no parameter '{name}'" + (f"; did you mean '{close}'?" if close else "")
+            yield path, number, not_among(name, known)
         elif not fits(value_of(text, known[name]), known[name]):
             yield path, number, f"'{name}' cannot be '{text}'; allowed: {allowed(known[name])}"
     if opened:
         yield path, last, f"the subsection of line {opened[-1]} has no end"
 
 
-def nearest(name: str, known: dict[str, dict]) -> str | None:
-    """The parameter that was most likely meant, the right name in another section before all."""
-    own = name.split("/", 1)[-1]
-    elsewhere = [path for path in known if path.split("/", 1)[1] == own]
-    return next(iter(elsewhere or difflib.get_close_matches(name, known, 1)), None)
+def not_among(name: str, known: Iterable[str]) -> str:
+    """What is said of a parameter that there is not, with the one that was most likely meant, as the program finds it: source/scene/input.cc."""
+    own, bare = name_in_section(name), name.partition(" (")[0]
+    # The right name in another section is the likeliest slip.
+    close = min(known, key=lambda path: min(edit_distance(name, path), edit_distance(bare, path.partition(" (")[0]) + 1,
+                                            edit_distance(own, name_in_section(path)) + 1))
+    return f"no parameter '{name}'; did you mean '{close}'?"
+
+
+def name_in_section(path: str) -> str:
+    """A unit may have a / too."""
+    name, bracket, unit = path.partition("(")
+    return name.rpartition("/")[2] + bracket + unit
+
+
+def edit_distance(a: str, b: str) -> int:
+    """How many letters are put in, left out or exchanged (Levenshtein), large ones being small ones."""
+    a, b = a.lower(), b.lower()
+    row = list(range(len(b) + 1))
+    for i, letter in enumerate(a, 1):
+        diagonal, row[0] = row[0], i
+        for j, other in enumerate(b, 1):
+            diagonal, row[j] = row[j], min(row[j - 1] + 1, row[j] + 1, diagonal + (letter != other))
+    return row[-1]
 
 
 def check_scenes() -> int:

@@ -23,6 +23,8 @@ A study is a text file in the format of the scenes:
       set Defect/Length (mm) & Defect/Depth (mm) = 5 & 0.03 | 10 & 0.06     # vary together
     end
 
+Parameters that there are not are refused before the first run. Values that cannot be are left to the run that has them.
+
 Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv, or of another
 table, as in max(strip.csv:von_mises_MPa); at(strip.csv:von_mises_MPa:x_mm), which is x_mm in the row where von_mises_MPa is
 largest; and, with a smooth twin, dynamic(...) and frequency(...) of a force: the peak of what the defect adds, and its
@@ -41,6 +43,8 @@ ends the runs with a checkpoint. The table is study.csv in the study's folder, a
 Exit code 0: all complete; 1: something failed; 130: interrupted.
 """
 
+from __future__ import annotations
+
 import argparse
 import contextlib
 import csv
@@ -53,10 +57,16 @@ import signal
 import subprocess
 import time
 import warnings
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, List, Optional, Tuple
 
-from .files import DataError, frame_or_rows, input_of, is_complete, own_parameters
+from .files import DataError, Error, frame_or_rows, input_of, is_complete, own_parameters
 from .limits import Limit
 from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line, scene_path, text_of, version_of
+from .schema import listing, not_among, parameters
+
+if TYPE_CHECKING:
+    import pandas
 
 DEFAULTS = {"Scene": None, "Settings": "", "Combination": "product",
             "Figures": "normal_force_N | traction_coefficient | max_pressure_Pa", "Smooth twin": "", "Directory": "",
@@ -69,11 +79,15 @@ class Interruption(Exception):
     pass
 
 
-def values_of(text):
-    return [value.strip() for value in text.split("|") if value.strip()]
+def values_of(text: str, none_empty: str = "") -> list[str]:
+    """What | separates. Empty values are left out, or refused if it is said what must have none. @raises DataError"""
+    values = [value.strip() for value in text.split("|")] if text.strip() else []
+    if none_empty and "" in values:
+        raise DataError(f"{none_empty} has an empty value")
+    return [value for value in values if value]
 
 
-def settings_of(text, where):
+def settings_of(text: str, where: str) -> dict[str, str]:
     """{"Section/Name": value} of "Section/Name=value | ..."."""
     result = {}
     for setting in values_of(text):
@@ -87,10 +101,10 @@ def settings_of(text, where):
 class Study:
     """What a file, or a call of study(), asks for."""
 
-    def __init__(self, path, entries, vary):
+    def __init__(self, path: str, entries: Mapping[str, str], vary: Mapping[str, str]):
         """@param path of the file, or what names the call in messages @param entries {entry: text}, those of DEFAULTS
         @param vary {"Section/Name", or several with & between them: values separated by |}"""
-        self.vary = vary
+        self.path, self.vary = path, vary
         self.scene = os.path.join(os.path.dirname(os.path.abspath(path)), entries["Scene"])
         self.settings = settings_of(entries["Settings"], f"{path}: 'Settings'")
         self.without_defect = settings_of(entries["Smooth twin"], f"{path}: 'Smooth twin'")
@@ -106,13 +120,11 @@ class Study:
         self.directory = entries["Directory"] or os.path.join(
             "results", os.path.splitext(os.path.basename(path))[0])
         self.processes, self.ranks = (self.count(path, entries, name) for name in ("Processes", "Ranks"))
-        lists = [[split_together(value) for value in values_of(text)] for text in self.vary.values()]
+        lists = [[split_together(value) for value in values_of(text, f"{path}: 'Vary/{name}'")] for name, text in self.vary.items()]
         names = [split_together(name) for name in self.vary]
-        for together, (name, text), values in zip(names, self.vary.items(), lists):
+        for together, name, values in zip(names, self.vary, lists):
             if not values:
                 raise DataError(f"{path}: 'Vary/{name}' has no value")
-            if "" in (value.strip() for value in text.split("|")):
-                raise DataError(f"{path}: 'Vary/{name}' has an empty value")
             if "Output/Directory" in together:
                 raise DataError(f"{path}: 'Vary/Output/Directory': each run of a study has a folder of its own, below 'Directory'")
             for value in values:
@@ -138,11 +150,11 @@ class Study:
                     raise DataError(f"{path}: two runs have {what}: {' and '.join(texts)}")
 
     @classmethod
-    def of_file(cls, path):
+    def of_file(cls, path: str) -> Study:
         return cls(path, *cls.read(path))
 
     @staticmethod
-    def read(path):
+    def read(path: str) -> tuple[dict[str, str], dict[str, str]]:
         """(entries, vary) of a file."""
         try:
             with open(path, encoding="utf-8") as stream:
@@ -180,26 +192,40 @@ class Study:
             raise DataError(f"{path}: 'subsection Vary' names no parameter")
         return entries, vary
 
+    def must_name_parameters(self, program: str) -> None:
+        """@raises DataError naming a parameter that there is not: every run would fail of it. A program may be newer than this package: it
+        is asked for its own before one is refused."""
+        known: Collection[str] = parameters()
+        given = [(entry, name) for entry, names in (("Vary", self.members[0]), ("Settings", self.settings), ("Smooth twin", self.without_defect))
+                 for name in names]
+        if all(name in known for _, name in given):
+            return
+        with contextlib.suppress(Error, OSError):
+            known = [*known, *(f"{section}/{name}" for section, entries in listing(program) for name, _, _ in entries)]
+        for entry, name in given:
+            if name not in known:
+                raise DataError(f"{self.path}: '{entry}': {not_among(name, known)}")
+
     @staticmethod
-    def count(path, entries, name):
+    def count(path: str, entries: Mapping[str, str], name: str) -> int:
         if not re.fullmatch(r"[1-9]\d*", entries[name]):
             raise DataError(f"{path}: '{name}' cannot be '{entries[name]}'; allowed: 1, 2, ...")
         return int(entries[name])
 
 
-def natural(text):
+def natural(text: str) -> int:
     """1, 2, ... of the command line."""
     if not re.fullmatch(r"[1-9]\d*", text):
         raise argparse.ArgumentTypeError(f"'{text}' must be 1, 2, ...")
     return int(text)
 
 
-def split_together(text):
+def split_together(text: str) -> tuple[str, ...]:
     """Names, or values, that & holds together."""
     return tuple(part.strip() for part in text.split("&"))
 
 
-def number_or_text(value):
+def number_or_text(value: str) -> float | str:
     """1 and 1.0 are the same."""
     try:
         return float(value)
@@ -207,7 +233,7 @@ def number_or_text(value):
         return value
 
 
-def folder_name(values):
+def folder_name(values: Mapping[str, str]) -> str:
     """Of the values alone, so that a study that grows finds what it has: speed-100_depth-0.2."""
     last = [name.rpartition("/")[2] for name in values]
     parts = []
@@ -220,9 +246,10 @@ def folder_name(values):
 class Member(Run):
     """One run of a study."""
 
-    def __init__(self, study, root, name, settings, program, options=()):
+    def __init__(self, study: Study, root: str, name: str, settings: Mapping[str, str], program: str, options: Sequence[str] = ()):
         super().__init__(os.path.join(root, name))
-        self.name, self.state, self.process = name, "", None
+        self.name, self.state = name, ""
+        self.process: subprocess.Popen | None = None
         self.kept = False  # complete before this study began
         self.without_force = ""  # why there is no dynamic.json
         self.line = [*arguments_of(study.scene, settings, self.folder), *options]
@@ -231,21 +258,21 @@ class Member(Run):
         if options:
             self.input["options"] = list(options)
 
-    def same_input(self):
+    def same_input(self) -> bool:
         try:
             with open(self.path("input.json"), encoding="utf-8") as stream:
                 return json.load(stream) == self.input
         except (OSError, ValueError):
             return False
 
-    def keep(self):
+    def keep(self) -> bool:
         """Take its results if they are complete. @returns whether they are"""
         self.kept = self.same_input() and is_complete(self.folder)
         if self.kept:
             self.state = COMPLETE
         return self.kept
 
-    def begin(self):
+    def begin(self) -> None:
         """Start it, or let it go on from its checkpoint."""
         known = self.same_input()
         resume = known and self.has("checkpoint.last")
@@ -262,7 +289,7 @@ class Member(Run):
             # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
             self.process = subprocess.Popen(line, env=environment(), stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
 
-    def interrupt(self):
+    def interrupt(self) -> None:
         """Ctrl-C for the ranks themselves: mpirun kills them a second after it has told them, too soon for a large checkpoint."""
         pids = [self.process.pid]
         if self.ranks > 1:
@@ -272,7 +299,7 @@ class Member(Run):
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGINT)
 
-    def ended(self, stopped=False):
+    def ended(self, stopped: bool = False) -> bool:
         """Whether it has ended; then its state says how. @param stopped by Ctrl-C, after which mpirun may end with 1"""
         if self.process is None:
             return True
@@ -293,7 +320,11 @@ class Member(Run):
         return True
 
 
-def run_all(runs, processes):
+# Each run with its smooth twin, if it has one.
+Members = List[Tuple[Member, Optional[Member]]]
+
+
+def run_all(runs: Sequence[Member], processes: int) -> None:
     """Every run that is not complete, so many at a time. @raises Interruption when all have ended with a checkpoint."""
     waiting, active = [run for run in runs if not run.keep()], []
     try:
@@ -319,7 +350,7 @@ def run_all(runs, processes):
         raise Interruption from None
 
 
-def add_dynamic_force(member, twin, stopped):
+def add_dynamic_force(member: Member, twin: Member, stopped: bool) -> None:
     """dynamic.json of a member, unless it is newer than both runs. @param stopped by Ctrl-C: nothing more is computed"""
     if twin.state != COMPLETE:
         member.without_force = f"its smooth twin {twin.name} {twin.state or 'not begun'}"
@@ -337,7 +368,7 @@ def add_dynamic_force(member, twin, stopped):
         member.without_force = str(error)
 
 
-def figure_of(run, figure):
+def figure_of(run: Member, figure: str) -> float:
     """A number. @raises DataError"""
     kind = re.fullmatch(r"(\w+)\((.+)\)", figure)
     if kind is None:
@@ -349,8 +380,9 @@ def figure_of(run, figure):
         table = names.pop(0) if len(names) > 1 else "history.csv"
         columns = run.table(table, names)
         column = columns[names[0]]
-        return float({"max": column.max, "min": column.min, "last": lambda: column[-1],
-                      "at": lambda: columns[names[1]][column.argmax()]}[kind[1]]())
+        of_kind: dict[str, Callable[[], float]] = {"max": column.max, "min": column.min, "last": lambda: column[-1],
+                                                   "at": lambda: columns[names[1]][column.argmax()]}
+        return float(of_kind[kind[1]]())
     if run.without_force:
         raise DataError(f"{run.name}: no '{figure}': {run.without_force}")
     with open(run.path("dynamic.json"), encoding="utf-8") as stream:
@@ -362,7 +394,7 @@ def figure_of(run, figure):
     return force["oscillations"][0]["frequency_Hz"] if force["oscillations"] else float("nan")
 
 
-def figure_or_none(run, figure):
+def figure_or_none(run: Member, figure: str) -> float | None:
     """Of a run that may not be complete."""
     try:
         return figure_of(run, figure) if run.state == COMPLETE else None
@@ -370,11 +402,11 @@ def figure_or_none(run, figure):
         return None
 
 
-def report_limits(study, root, members):
+def report_limits(study: Study, root: str, members: Members) -> None:
     """limit.csv, and the same on the terminal."""
     table = []
     for limit in study.limits:
-        heading, *rows = limit.rows([(values, figure_or_none(run, limit.figure), twin and figure_or_none(twin, limit.figure))
+        heading, *rows = limit.rows([(values, figure_or_none(run, limit.figure), figure_or_none(twin, limit.figure) if twin else None)
                                      for values, (run, twin) in zip(study.members, members)])
         table += rows if table and table[0] == heading else [heading] + rows
     with open(os.path.join(root, "limit.csv"), "w", encoding="utf-8", newline="") as stream:
@@ -382,7 +414,7 @@ def report_limits(study, root, members):
     print(f"Table in {os.path.join(root, 'limit.csv')}")
 
 
-def report_versions(runs, program):
+def report_versions(runs: Sequence[Member], program: str) -> None:
     """A line about the results that another version of the program has left."""
     kept = [run for run in runs if run.kept]
     present = version_of(program) if kept else None
@@ -392,7 +424,7 @@ def report_versions(runs, program):
               + ", ".join(others))
 
 
-def tabulate(study, root, members):
+def tabulate(study: Study, root: str, members: Members) -> bool:
     """study.csv, and the same on the terminal. @returns whether every run is complete and every figure was found."""
     rows, missing = [], []
     for values, (run, _) in zip(study.members, members):
@@ -424,7 +456,7 @@ def tabulate(study, root, members):
     return not missing and all(run.state == COMPLETE for run, _ in members)
 
 
-def members_of(study, root, program, options=()):
+def members_of(study: Study, root: str, program: str, options: Sequence[str] = ()) -> Members:
     """[(run, its smooth twin or None)] of a study in a folder."""
     members, twins = [], {}
     no_defect = study.without_defect.get("Defect/Shape") == "none"
@@ -443,16 +475,16 @@ def members_of(study, root, program, options=()):
     return members
 
 
-def runs_of(members):
+def runs_of(members: Members) -> list[Member]:
     """Every run once, smooth twins first: all others of a study are in vain if these cannot be."""
     return twins_of(members) + [run for run, _ in members]
 
 
-def twins_of(members):
+def twins_of(members: Members) -> list[Member]:
     return list(dict.fromkeys(twin for _, twin in members if twin is not None))
 
 
-def perform(study, root, members):
+def perform(study: Study, root: str, members: Members) -> bool:
     """Every run, and the tables. @returns whether every run is complete and every figure was found @raises Interruption"""
     os.makedirs(root, exist_ok=True)
     interruption = None
@@ -472,8 +504,10 @@ def perform(study, root, members):
     return good
 
 
-def study(scene, vary, *, figures=(), settings=None, combination="product", smooth_twin=None, output=None, processes=1, ranks=1,
-          options=(), program=PROGRAM, show=False):
+def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (), settings: Mapping[str, object] | None = None,
+          combination: str = "product", smooth_twin: Mapping[str, object] | None = None, output: str | os.PathLike | None = None,
+          processes: int = 1, ranks: int = 1, options: Sequence[str] = (), program: str = PROGRAM,
+          show: bool = False) -> pandas.DataFrame | list[dict]:
     """Run a parameter variation of a scene, as contrib/study.py does from a file.
 
     scene        path of a parameter file, from the current folder or from prm/ of the source tree
@@ -512,6 +546,7 @@ def study(scene, vary, *, figures=(), settings=None, combination="product", smoo
     for path, what in ((scene, "scene"), (program, "program; build it or name it with program=")):
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
+    asked.must_name_parameters(program)
     root = os.fspath(output or os.path.join("results", os.path.splitext(os.path.basename(scene))[0]))
     members = members_of(asked, root, program, options)
     try:
@@ -536,7 +571,7 @@ def study(scene, vary, *, figures=(), settings=None, combination="product", smoo
     return frame_or_rows(rows)
 
 
-def main():
+def main() -> int:
     from .commands import command_parser  # which wants numpy
 
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
@@ -553,6 +588,7 @@ def main():
     for path, what in ((asked.scene, "scene"), (arguments.program, "program; build it or name it with --program")):
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
+    asked.must_name_parameters(arguments.program)
     asked.processes, asked.ranks = arguments.processes or asked.processes, arguments.ranks or asked.ranks
     root = arguments.output or asked.directory
     members = members_of(asked, root, arguments.program)
@@ -567,7 +603,7 @@ def main():
         return 130
 
 
-def command_line():
+def command_line() -> None:
     """What contrib/study.py and tread-study do."""
     from .commands import run_command  # which wants numpy
 

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables of the pages in doc/, between their marks."""
 
+from __future__ import annotations
+
 import os
 import re
 import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from .commands import command_parser
 from .files import DataError
 from .runs import PROGRAM, ROOT
 
 
-def machine():
+def machine() -> str:
     """Processor, its cores and widest vectors."""
     with open("/proc/cpuinfo", encoding="utf-8") as stream:
         text = stream.read()
@@ -20,29 +23,29 @@ def machine():
     return f"{model[1] if model else 'unknown processor'}, {cores} core{'s' if cores != 1 else ''}, {vectors}"
 
 
-def provenance(script, summaries):
+def provenance(script: str, summaries: Iterable[Mapping]) -> str:
     """The line under a table: machine, version, command."""
     versions = ", ".join(sorted({summary["version"] for summary in summaries}))
     return f"{machine()}; tread {versions}; `{script}`."
 
 
-def markdown(header, rows):
+def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def number(value):
+def number(value: float | None) -> str:
     if value is None:
         return "-"
     return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
-def marked(name):
+def marked(name: str) -> re.Pattern[str]:
     """Pattern of a table's text between its marks."""
     return re.compile(rf"(<!-- begin table {name} -->\n)(.*?)(<!-- end table {name} -->)", re.DOTALL)
 
 
-def rows_of(page, name):
+def rows_of(page: str, name: str) -> list[list[str]]:
     """[[cell]] of a table on a page of doc/ as it is, without its heading."""
     with open(os.path.join(ROOT, "doc", page), encoding="utf-8") as stream:
         found = marked(name).search(stream.read())
@@ -50,7 +53,7 @@ def rows_of(page, name):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[1:]]
 
 
-def first_difference(kept, current):
+def first_difference(kept: str, current: str) -> int | None:
     """Number of the first line in which two texts differ; None: they are the same."""
     if kept == current:
         return None
@@ -58,7 +61,7 @@ def first_difference(kept, current):
     return 1 + next((i for i, pair in enumerate(zip(old, new)) if pair[0] != pair[1]), min(len(old), len(new)))
 
 
-def page_command(description, page, text_of):
+def page_command(description: str, page: str, text_of: Callable[[str], str]) -> None:
     """What a command does that writes a page of doc/ as the program says it, or with --check only compares it. @param page its name; @param
     text_of a function of the program's path"""
     parser = command_parser(description)
@@ -77,7 +80,7 @@ def page_command(description, page, text_of):
         sys.exit(f"doc/{page} is not current from line {line} on: run contrib/{parser.prog}")
 
 
-def fill(page, name, table):
+def fill(page: str, name: str, table: str) -> None:
     """Put a table between its marks on a page of doc/."""
     path = os.path.join(ROOT, "doc", page)
     with open(path, encoding="utf-8") as stream:

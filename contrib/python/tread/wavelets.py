@@ -6,6 +6,8 @@ Morlet's wavelet of six oscillations. It is evaluated in the frequency domain (t
 every scale is known exactly. (Debian 12's PyWavelets samples a table of the wavelet instead: doc/tried.md.)
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 OSCILLATIONS = 6.0
@@ -16,13 +18,13 @@ SCALE_TIMES_FREQUENCY = (OSCILLATIONS + np.sqrt(2 + OSCILLATIONS**2)) / (4 * np.
 NOISE_95 = -np.log(0.05)
 
 
-def evenly_spaced(time, *columns):
+def evenly_spaced(time: np.ndarray, *columns: np.ndarray) -> tuple[np.ndarray, ...]:
     """The columns on equally spaced times, as many as there are: (times, column, ...)."""
     even = np.linspace(time[0], time[-1], len(time))
     return even, *(np.interp(even, time, column) for column in columns)
 
 
-def band_pass(values, step, low, high, order=4):
+def band_pass(values: np.ndarray, step: float, low: float, high: float, order: int = 4) -> np.ndarray:
     """A Butterworth band-pass of this order for each edge, forwards and backwards: no phase is shifted. @param step s
     @param low, high edges, Hz, where half of the amplitude is left"""
     n = len(values)
@@ -47,7 +49,7 @@ class Scalogram:
     edge       (times,) Hz: the cone lies below this frequency
     """
 
-    def __init__(self, values, step, low, high, per_octave=24):
+    def __init__(self, values: np.ndarray, step: float, low: float, high: float, per_octave: int = 24):
         values = np.asarray(values, float) - np.mean(values)
         n, self.step = len(values), step
         if not 0 < low < high <= 0.5 / step:
@@ -71,13 +73,13 @@ class Scalogram:
             self.edge = np.sqrt(2) * SCALE_TIMES_FREQUENCY / from_end
         self.reliable = self.frequency[:, None] > self.edge
 
-    def global_spectrum(self):
+    def global_spectrum(self) -> np.ndarray:
         """Mean power over the reliable times of each frequency; nan where there are none."""
         count = self.reliable.sum(axis=1)
         with np.errstate(invalid="ignore"):
             return np.where(count > 0, (self.power * self.reliable).sum(axis=1) / count, np.nan)
 
-    def maxima(self, most=5, least=NOISE_95):
+    def maxima(self, most: int = 5, least: float = NOISE_95) -> list[tuple[float, int, float, float]]:
         """[(frequency in Hz, index of the time, power, amplitude)] of the largest maxima of power over time and frequency, one
         for each spot: two that lie within what one wavelet covers are one."""
         power = np.where(self.reliable, self.power, 0)

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -102,7 +104,7 @@ class Crossing:
         return sorted({instant.position_mm: instant for instant in chosen}.items())
 
     def figures(self) -> dict:
-        result = {"run": os.path.basename(os.path.normpath(self.run.folder)), "edges_mm": self.edges}
+        result: dict = {"run": os.path.basename(os.path.normpath(self.run.folder)), "edges_mm": self.edges}
         before = self.smooth(True)
         for quantity in ("pressure", "shear"):
             name = f"{quantity}_MPa"
@@ -135,7 +137,7 @@ def draw_axis(crossing: Crossing, positions: Sequence[float] | None = None) -> F
     return figure
 
 
-def outline(axis, crossing: Crossing, **style) -> None:
+def outline(axis: Axes, crossing: Crossing, **style: Any) -> None:
     begin, end = crossing.edges.values()
     axis.add_patch(Ellipse((0.5 * (begin + end), crossing.middle_y), end - begin, crossing.width, fill=False, **style))
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from xml.etree import ElementTree
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -183,7 +184,7 @@ def draw_strip(run: Impact) -> Figure | None:
     return figure
 
 
-def over_the_rail(axes: Sequence, run: Run, what: str = "position on the rail") -> None:
+def over_the_rail(axes: Sequence[Axes], run: Run, what: str = "position on the rail") -> None:
     """The abscissa that panels share, with the defects."""
     for axis in axes:
         shade_defects(axis, run.parameters)
@@ -229,7 +230,7 @@ def draw_residual(run: Impact) -> Figure | None:
     return figure
 
 
-def draw_lines(axis, run: Impact, columns: Sequence[str], labels: Sequence[str], colour: str | None = None) -> None:
+def draw_lines(axis: Axes, run: Impact, columns: Sequence[str], labels: Sequence[str], colour: str | None = None) -> None:
     x = 1e3 * run.dynamic["position_m"]
     rows = shown_rows(x, run.parameters)
     for i, (column, label) in enumerate(zip(columns, labels)):
@@ -237,7 +238,8 @@ def draw_lines(axis, run: Impact, columns: Sequence[str], labels: Sequence[str],
     axis.set(xlabel="position of the wheel [mm], it rolls to the right", ylabel="dynamic force [kN], + more load")
 
 
-def draw_spectra(axis, run: Impact, columns: Sequence[str], labels: Sequence[str | None], colour: str | None = None, highest: float = 2500) -> None:
+def draw_spectra(axis: Axes, run: Impact, columns: Sequence[str], labels: Sequence[str | None], colour: str | None = None,
+                 highest: float = 2500) -> None:
     rows = run.spectrum["frequency_Hz"] <= highest
     for i, (column, label) in enumerate(zip(columns, labels)):
         axis.plot(run.spectrum["frequency_Hz"][rows], 1e-3 * run.spectrum[column][rows], color=colour or COLOURS[i % len(COLOURS)], label=label)
@@ -331,9 +333,9 @@ def zimmermann(run: Impact) -> list[tuple[float, dict[int, tuple[float, float]]]
     for phase in (0.5, 0.875):
         at = origin + 1e3 * spacing * (round((middle - origin) / (1e3 * spacing) - phase) + phase)
         at = float(np.clip(at, run.x[0], run.x[-1]))
-        contact = np.interp(at, run.x, run.force(CONTACT))
-        own = {n: np.interp(at, run.x, run.force(f"support_{n}_pad_N")) / contact for n in run.supports("pad")}
-        most = sorted(sorted(own, key=own.get)[-5:])
+        contact = float(np.interp(at, run.x, run.force(CONTACT)))
+        own = {n: float(np.interp(at, run.x, run.force(f"support_{n}_pad_N"))) / contact for n in run.supports("pad")}
+        most = sorted(sorted(own, key=lambda n: own[n])[-5:])
         instants.append((at, {n: (own[n], zimmermann_share(1e-3 * (origin - at) + spacing * n, spacing, length)) for n in most}))
     return instants
 

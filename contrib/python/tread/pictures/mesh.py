@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
@@ -44,7 +45,7 @@ def along_middle(cells: np.ndarray) -> np.ndarray:
     return sides[abs(cells[:, (0, 4), 1]).max(1) < 0.12 * np.maximum(1., abs(cells[:, (0, 4), 2]).max(1))][:, :, (0, 2)]
 
 
-def draw_cells(axis, polygons: np.ndarray, colour: str, name: str | None = None) -> None:
+def draw_cells(axis: Axes, polygons: np.ndarray, colour: str, name: str | None = None) -> None:
     """Cells, and the name of their body in the middle of those that are shown."""
     axis.add_collection(PolyCollection(polygons, facecolors=colour, edgecolors="black", linewidths=0.3))
     (left, right), (low, high) = axis.get_xlim(), axis.get_ylim()

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -107,7 +109,7 @@ def draw_axis(run: Pictured) -> Figure:
     return figure
 
 
-def patch_axes(axis, run: Pictured, patch: Patch) -> None:
+def patch_axes(axis: Axes, run: Pictured, patch: Patch) -> None:
     """Axes around a patch of the run and Hertz's ellipse."""
     a, b = run.hertz[:2] if run.hertz else (0, 0)
     if run.hertz:
@@ -122,7 +124,7 @@ def patch_axes(axis, run: Pictured, patch: Patch) -> None:
     axis.set_ylabel("y, + to the field side [mm]")
 
 
-def adhesion_border(axis, patch: Patch, **style) -> None:
+def adhesion_border(axis: Axes, patch: Patch, **style: Any) -> None:
     """The line on which adhesion gives way to slip; the barely loaded rim of the patch is left out."""
     loaded = patch.pressure > 0.2 * patch.pressure.max()
     x, y, adhesion = patch.grid(np.where(loaded, patch.adhesion.astype(float), np.nan))
@@ -130,7 +132,7 @@ def adhesion_border(axis, patch: Patch, **style) -> None:
         axis.contour(x, y, np.ma.masked_invalid(adhesion), levels=[0.5], **style)
 
 
-def patch_border(axis, patch: Patch, **style) -> None:
+def patch_border(axis: Axes, patch: Patch, **style: Any) -> None:
     """The outline of the contact."""
     x, y, inside = patch.grid(np.ones_like(patch.x))
     axis.contour(x, y, np.nan_to_num(inside), levels=[0.5], **style)

@@ -68,15 +68,15 @@ class Tables(Run):
 
 def table_lines(plastic: Tables, elastic: Tables, behind: float) -> Iterator[str]:
     """Lines of a Markdown table."""
-    def outline(run):
+    def outline(run: Tables) -> tuple[float, float, float, float]:
         p = run.patch
         return p.x.min(), p.x.max(), p.y.max() - p.y.min(), p.area.sum()
 
-    def slip_on_axis(run):
+    def slip_on_axis(run: Tables) -> tuple[float, float]:
         x, adhesion = run.along(run.patch.adhesion.astype(float))
         return (x[0], x[adhesion > 0.5].min()) if (adhesion > 0.5).any() else (x[0], x[-1])
 
-    def largest(run, field, level=DEPTH_MM):
+    def largest(run: Tables, field: str, level: float = DEPTH_MM) -> tuple[float, float]:
         x, value = run.level(level, field)
         i = np.argmax(np.where(abs(x) < 12, value, 0))
         return value[i], x[i]
