@@ -117,6 +117,14 @@ namespace tread
   }
 
 
+  void RunFolder::remove_summary() const
+  {
+    std::error_code ignored;
+    if (writes_tables)
+      std::filesystem::remove(path("summary.json"), ignored);
+  }
+
+
   void RunFolder::write_through(const std::string                              &name,
                                 const std::function<void(const std::string &)> &write) const
   {

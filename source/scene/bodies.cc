@@ -35,7 +35,7 @@ namespace tread
       FineZone on_rail;
       on_rail.finest_cell_size = scene.mesh.finest_cell;
       on_rail.x_begin          = scene.path_begin(wheel) - beyond_path(scene, ellipse);
-      on_rail.x_end            = scene.path_end(wheel) + beyond_path(scene, ellipse);
+      on_rail.x_end            = scene.meshed_end(wheel) + beyond_path(scene, ellipse);
       on_rail.half_width       = scene.fine_half_width();
       on_rail.depth            = scene.mesh.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.mesh.cells_per_level;
@@ -79,7 +79,7 @@ namespace tread
       on_wheel.cubes_begin -= scene.path_begin(wheel);
       on_wheel.cubes_end -= scene.path_begin(wheel);
       on_wheel.x_begin = -beyond_path(scene, ellipse);
-      on_wheel.x_end   = scene.motion.rolled_distance + beyond_path(scene, ellipse);
+      on_wheel.x_end   = scene.motion.meshed_distance() + beyond_path(scene, ellipse);
       return on_wheel;
     }
 
@@ -130,7 +130,7 @@ namespace tread
           sector.thickness          = scene.wheel.sector_thickness;
           sector.width              = scene.wheel.sector_width;
           sector.arc_begin          = -scene.wheel.sector_margin;
-          sector.arc_end            = scene.motion.rolled_distance + scene.wheel.sector_margin;
+          sector.arc_end            = scene.motion.meshed_distance() + scene.wheel.sector_margin;
           sector.coarsest_cell_size = scene.mesh.coarsest_cell;
           try
             {

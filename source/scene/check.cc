@@ -143,7 +143,7 @@ namespace tread
 
   void Scene::check_surfaces() const
   {
-    const double from = path_begin(last_wheel()) - rail.margin, to = path_end() + rail.margin;
+    const double from = path_begin(last_wheel()) - rail.margin, to = meshed_end() + rail.margin;
     require(rail_begin() <= from + round_off && rail_end() >= to - round_off,
             "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(rail_begin()) + " to " +
               text_in_mm(rail_end()) + " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " +
@@ -321,7 +321,7 @@ namespace tread
   void Scene::check_sector() const
   {
     const double longest_arc = 0.95 * 2. * dealii::numbers::PI * wheel.radius;
-    require(wheel.is_full() || motion.rolled_distance + 2. * wheel.sector_margin <= longest_arc,
+    require(wheel.is_full() || motion.meshed_distance() + 2. * wheel.sector_margin <= longest_arc,
             "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
             "wheel's circumference, " +
               text_in_mm(longest_arc));
@@ -363,7 +363,7 @@ namespace tread
     if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
       {
         const double clear =
-          std::min(path_begin(last_wheel()) - ends.begin, ends.end - path_end()) - track.sleeper_spacing;
+          std::min(path_begin(last_wheel()) - ends.begin, ends.end - meshed_end()) - track.sleeper_spacing;
         require(ends.length <= clear + round_off,
                 "'Rail/Absorbing length (m)' " + text_of(ends.length) +
                   " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
@@ -415,7 +415,7 @@ namespace tread
         material.check(section, of_wheel
                                   ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside,
                                                             -wheel.sector_margin,
-                                                            motion.rolled_distance + wheel.sector_margin}
+                                                            motion.meshed_distance() + wheel.sector_margin}
                                   : MaterialSection::Meshed{rail.thickness(), rail.half_width() - beside,
                                                             rail_begin(), rail_end()});
       }

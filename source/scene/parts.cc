@@ -48,7 +48,7 @@ namespace tread
   std::vector<PlasticZone> plastic_zones(const Scene &scene)
   {
     std::vector<PlasticZone> zones;
-    const double             rolled = scene.motion.rolled_distance, radius = scene.wheel.radius;
+    const double             rolled = scene.motion.meshed_distance(), radius = scene.wheel.radius;
     // Cells yield this far, in semi-axes, ahead of and behind the path, and as far again as they do below it.
     constexpr double beyond_path = 1.4;
     const double     patch       = beyond_path * hertz(scene, scene.static_load()).semi_axis_x;
@@ -91,7 +91,7 @@ namespace tread
               add(-beyond, rolled + beyond, depth, material.yield_stress, material.tangent_modulus);
             else
               for (unsigned int k = 0; k < scene.n_wheels(); ++k)
-                add(scene.path_begin(k) - beyond, scene.path_end(k) + beyond, depth, material.yield_stress,
+                add(scene.path_begin(k) - beyond, scene.meshed_end(k) + beyond, depth, material.yield_stress,
                     material.tangent_modulus);
           }
         for (const MaterialSection::Zone &zone : material.zones())
@@ -108,7 +108,7 @@ namespace tread
     // Number of steps from the travel time of waves through the smallest cells; the factor accounts for
     // damping and Courant number.
     constexpr double steps_over_travel_time = 1.2;
-    const double     steps = steps_over_travel_time * scene.motion.rolled_distance / scene.motion.speed *
+    const double     steps = steps_over_travel_time * scene.motion.meshed_distance() / scene.motion.speed *
                          wave_speed / scene.mesh.finest_cell;
     const SolidParameters parameters = solid_parameters(scene);
     return
@@ -128,7 +128,7 @@ namespace tread
   {
     const double patch = hertz(scene, scene.static_load()).semi_axis_x;
     return {scene.path_begin() - patch,
-            scene.path_end() + patch,
+            scene.meshed_end() + patch,
             scene.is_positioned() ? scene.placed_wheel().origin(scene.placed_wheel().main_patch())[1]
                                   : scene.first_contact().y,
             scene.output.strip_half_width,

@@ -285,7 +285,7 @@ namespace tread
       if (scene.guidance.kind != Guidance::file)
         return all;
       constexpr unsigned int n_instants = 40;
-      const double           duration   = scene.motion.rolled_distance / scene.motion.speed,
+      const double           duration   = scene.motion.meshed_distance() / scene.motion.speed,
                    shift                = scene.wheelset.position().shift;
       std::optional<WheelOnRail::OutlinePoint> first;
       for (unsigned int i = 0; i <= n_instants; ++i)
@@ -337,7 +337,7 @@ namespace tread
       FineZone zone;
       zone.finest_cell_size = scene.mesh.finest_cell;
       zone.x_begin          = x - beyond_path(scene, r) + wanders.x[0];
-      zone.x_end            = x + scene.motion.rolled_distance + beyond_path(scene, r) + wanders.x[1];
+      zone.x_end            = x + scene.motion.meshed_distance() + beyond_path(scene, r) + wanders.x[1];
       zone.y_middle         = 0.5 * (begin + end + wanders.s[0] + wanders.s[1]) - s_middle;
       zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell +
                                                                0.5 * (wanders.s[1] - wanders.s[0]));
@@ -481,7 +481,7 @@ namespace tread
       }
     require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
     const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
-    return make_profile_block(section, begin - margin, end + scene.motion.rolled_distance + margin,
+    return make_profile_block(section, begin - margin, end + scene.motion.meshed_distance() + margin,
                               scene.mesh.coarsest_cell, zones, !side.is_mirrored,
                               [in_mesh = from_track(side.is_mirrored), surfaces = surfaces,
                                position = side.contact.position, radius,

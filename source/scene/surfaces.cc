@@ -54,10 +54,10 @@ namespace tread
   std::shared_ptr<Scene::Shapes> Scene::make_path() const
   {
     auto         made   = std::make_shared<Shapes>();
-    const double begin  = motion.start.value_or(-motion.rolled_distance),
+    const double begin  = motion.start.value_or(-motion.meshed_distance()),
                  behind = distance_behind(last_wheel()),
                  margin =
-                   rail.length > 0. ? 0.5 * (rail.length - motion.rolled_distance - behind) : rail.margin;
+                   rail.length > 0. ? 0.5 * (rail.length - motion.meshed_distance() - behind) : rail.margin;
     made->path_begin = begin;
     made->path_end   = begin + motion.rolled_distance;
     made->rail_begin = rail.begin.value_or(begin - behind - margin);
@@ -338,7 +338,7 @@ namespace tread
 
   double Scene::rail_end() const
   {
-    return rail.length > 0. ? rail_begin() + rail.length : path_end() + rail.margin;
+    return rail.length > 0. ? rail_begin() + rail.length : meshed_end() + rail.margin;
   }
 
 

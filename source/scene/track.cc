@@ -43,7 +43,7 @@ namespace tread
                                                                         track.sleeper_spacing)),
                       last =
                         std::min<int>(first_support() + size - 1,
-                                      std::ceil((path_end(k) - track.support_0) / track.sleeper_spacing));
+                                      std::ceil((meshed_end(k) - track.support_0) / track.sleeper_spacing));
             for (int i = first; i <= last; ++i)
               beside_paths.insert(i);
           }

@@ -71,10 +71,10 @@ namespace tread
     if (!wheelset_motion)
       return;
     const double cell     = 2. * mesh.finest_cell; // half a one and the last group of steps
-    const double duration = (motion.rolled_distance + cell) / motion.speed;
+    const double duration = (motion.meshed_distance() + cell) / motion.speed;
     require(wheelset_motion->end() >= duration - cell / motion.speed,
             "'Guidance/File' ends at " + text_of(wheelset_motion->end()) + " s; the run takes " +
-              text_of(motion.rolled_distance / motion.speed) + " s");
+              text_of(motion.meshed_distance() / motion.speed) + " s");
     constexpr unsigned int n_instants = 200;
     constexpr double       largest    = 0.2; // as of the creepages of 'Motion'
     double                 before     = across(0.).y;

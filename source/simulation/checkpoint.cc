@@ -11,10 +11,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -24,7 +26,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-20";
+    constexpr const char *layout = "tread-checkpoint-21";
 
     /// A text with its size before it.
     std::string with_size(const std::string &text)
@@ -44,6 +46,23 @@ namespace tread
       require(content.size() - place >= size, damaged);
       place += size;
       return content.substr(place - size, size);
+    }
+    /// Values by Section/Name, all but those of the output.
+    std::map<std::string, std::string> settings_in(std::istream &&text)
+    {
+      std::map<std::string, std::string> settings;
+      std::string                        section;
+      for (std::string line; std::getline(text, line);)
+        {
+          line                     = dealii::Utilities::trim(line.substr(0, line.find('#')));
+          const std::size_t equals = line.find('=');
+          if (line.compare(0, 11, "subsection ") == 0)
+            section = line.substr(11);
+          else if (line.compare(0, 4, "set ") == 0 && equals != line.npos && section != "Output")
+            settings[section + "/" + dealii::Utilities::trim(line.substr(4, equals - 4))] =
+              dealii::Utilities::trim(line.substr(equals + 1));
+        }
+      return settings;
     }
   } // namespace
 
@@ -73,9 +92,13 @@ namespace tread
     for (const auto &[name, path] : scene.files())
       contents +=
         "contents of '" + name + "' with the checksum " + std::to_string(checksum(text_of_file(path))) + "\n";
-    return all.substr(0, section("Output").first) + section("Peak stress").second +
-           "\nset Supports = " + supports + "\nset Cells = " + scene.output.cells +
-           "\nset Pictures = " + name_of(scene.output.pictures) +
+    std::string before_output = all.substr(0, section("Output").first);
+    // It may grow up to the longest one, which stays.
+    if (scene.motion.longest_distance > 0.)
+      before_output =
+        std::regex_replace(before_output, std::regex("\n *set Rolled distance \\(mm\\) [^\n]*"), "");
+    return before_output + section("Peak stress").second + "\nset Supports = " + supports +
+           "\nset Cells = " + scene.output.cells + "\nset Pictures = " + name_of(scene.output.pictures) +
            "\nset Strip half width (mm) = " + std::to_string(1e3 * scene.output.strip_half_width) + "\n" +
            contents;
   }
@@ -147,29 +170,17 @@ namespace tread
     const auto trimmed = [](const std::string &line) {
       return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
     };
+    const bool of_distance = trimmed(new_line).rfind("set Rolled distance", 0) == 0;
     throw InputError("--resume: the checkpoint was made with other parameters: '" + trimmed(old_line) +
-                     "', now '" + trimmed(new_line) + "'");
+                     "', now '" + trimmed(new_line) + "'" +
+                     (of_distance ? "; a run can be made longer if it began with a 'Motion/Longest distance "
+                                    "(mm)', for which its rail is meshed"
+                                  : ""));
   }
 
 
   void Checkpoint::require_parameters_of_run() const
   {
-    // All but those of the output.
-    const auto settings_in = [](std::istream &&text) {
-      std::map<std::string, std::string> settings;
-      std::string                        section;
-      for (std::string line; std::getline(text, line);)
-        {
-          line                     = dealii::Utilities::trim(line.substr(0, line.find('#')));
-          const std::size_t equals = line.find('=');
-          if (line.compare(0, 11, "subsection ") == 0)
-            section = line.substr(11);
-          else if (line.compare(0, 4, "set ") == 0 && equals != line.npos && section != "Output")
-            settings[section + "/" + dealii::Utilities::trim(line.substr(4, equals - 4))] =
-              dealii::Utilities::trim(line.substr(equals + 1));
-        }
-      return settings;
-    };
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
@@ -182,6 +193,21 @@ namespace tread
     problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
     if (!problem.empty())
       throw InputError(problem);
+  }
+
+
+  bool Checkpoint::run_may_go_on() const
+  {
+    bool is_longer = false;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0 && scene.motion.longest_distance > 0.)
+      {
+        const auto   of_run = settings_in(std::ifstream(folder.path("parameters.prm")));
+        const auto   rolled = of_run.find("Motion/Rolled distance (mm)");
+        const double tiny   = 1e-9; // m
+        is_longer           = rolled != of_run.end() &&
+                    1e-3 * std::strtod(rolled->second.c_str(), nullptr) + tiny < scene.motion.rolled_distance;
+      }
+    return dealii::Utilities::MPI::broadcast(comm, is_longer, 0);
   }
 
 

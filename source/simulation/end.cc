@@ -555,7 +555,7 @@ namespace tread
     folder.write_hdf5(summary.text(), parameters);
     // Last but for the pictures, which are there: it says that the run is complete.
     folder.write("summary.json", summary.text());
-    if (completed)
+    if (completed && !scene.motion.may_go_on()) // pictures that may follow have files of their own
       folder.join_pictures();
 
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)

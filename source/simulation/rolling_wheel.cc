@@ -35,6 +35,12 @@ namespace tread
         hub.place(start + Vector3{0., 0., scene.axle_height(), 0.});
         hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
       }
+    forget_records(scene);
+  }
+
+
+  void RollingWheel::forget_records(const Scene &scene)
+  {
     average = PatchAverage();
     averages_of_patches.assign(scene.is_positioned() ? scene.placed_wheel().patches().size() : 0,
                                PatchAverage());

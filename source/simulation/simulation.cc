@@ -142,6 +142,23 @@ namespace tread
     archive.same(torque_released, solution_taken, starts_with_tractions, passages, next_wheel_due,
                  interval_steps, interval_start_time, last_steps);
     archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
+    double end = end_position;
+    archive.same(end);
+    if (end != end_position) // resumed for a longer way
+      forget_solution();
+  }
+
+
+  void Simulation::forget_solution()
+  {
+    solution_taken = false;
+    ripple         = ForceRipple();
+    last_steps     = 0;
+    placement_at_solution.reset();
+    placed_at_solution.reset();
+    no_half_space.clear();
+    for (RollingWheel &wheel : wheels)
+      wheel.forget_records(scene);
   }
 
 
@@ -343,7 +360,7 @@ namespace tread
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 
-    if (resume && folder.is_complete())
+    if (resume && folder.is_complete() && !checkpoint.run_may_go_on())
       {
         checkpoint.require_parameters_of_run();
         progress.say("the run in '" + path +
@@ -351,7 +368,15 @@ namespace tread
         return true;
       }
     if (resume)
-      checkpoint.read(*this);
+      {
+        checkpoint.read(*this);
+        require(position() <= scene.path_end(), "--resume: the wheel has rolled " +
+                                                  text_in_mm(position() - scene.path_begin()) +
+                                                  " mm already; 'Motion/Rolled distance (mm)' " +
+                                                  text_in_mm(scene.motion.rolled_distance) + " is shorter");
+        if (folder.is_complete())
+          folder.remove_summary();
+      }
     seconds_before = wall_seconds;
 
     announce(progress);
@@ -394,6 +419,8 @@ namespace tread
               end_interval(folder);
             if (scene.motion.passages > 1 && end == End::complete)
               end_passage(folder);
+            if (end == End::complete && scene.motion.may_go_on())
+              checkpoint.write(*this);
           }
       }
     catch (const WentWrong &wrong)

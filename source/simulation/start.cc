@@ -206,10 +206,9 @@ namespace tread
     if (rail_base)
       rail_base->place();
     contact.scale_impulses(0.);
-    torque_released = solution_taken = false;
-    ripple                           = ForceRipple();
-    checked_position                 = position();
-    last_steps                       = 0;
+    forget_solution();
+    torque_released  = false;
+    checked_position = position();
     prepare_start(progress);
   }
 } // namespace tread

@@ -174,6 +174,11 @@ namespace tread
     {
       return shapes->path_end - distance_behind(number);
     }
+    /// Where the way ends for which rail and wheel are meshed: at the end of the path, or behind it.
+    double meshed_end(const unsigned int number = 0) const
+    {
+      return path_begin(number) + motion.meshed_distance();
+    }
     /// Longitudinal over normal force that the drive of a wheel aims at.
     double traction_coefficient(const unsigned int number) const;
     /// Ends of the rail, m.

@@ -36,6 +36,10 @@ namespace tread
     /// other parameters.
     void require_parameters_of_run() const;
 
+    /// Whether the complete run in the folder has rolled less than the scene asks for, on a way that was
+    /// meshed for more. Collective.
+    bool run_may_go_on() const;
+
   private:
     /// Of the slot that checkpoint.last names: what follows the first line, on all ranks.
     std::string content_of(const std::string &name) const;

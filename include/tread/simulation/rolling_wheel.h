@@ -25,6 +25,8 @@ namespace tread
     /// Put the wheel where its path begins, at rest but for its nominal angular velocity, and forget what was
     /// recorded.
     void place(const Scene &scene);
+    /// Forget what was recorded about the solution instant.
+    void forget_records(const Scene &scene);
 
     /// Angular velocity x rolling radius over speed, - 1, counted from free rolling.
     double creepage(const Scene &scene) const;

@@ -105,6 +105,8 @@ namespace tread
     /// Solve for placement_at_solution.
     void place_at_solution();
     void take_solution(RunFolder &folder);
+    /// Forget what was recorded about the solution instant, which is yet to come.
+    void forget_solution();
     void write_volume(RunFolder &folder) const;
     void end_passage(RunFolder &folder);
     void next_passage(Progress &progress);

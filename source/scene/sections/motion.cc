@@ -40,6 +40,12 @@ namespace tread
       "patch is averaged. The tangential solution needs one and a half to two patch lengths to become "
       "steady, and three to four if 'Start/Tractions' is none.",
       Double(tiny, 10000.));
+    section.add(
+      "Longest distance (mm)", longest_distance,
+      "The rail and the wheel are meshed for so much way, so that --resume may go on from the end of "
+      "a run with a longer rolled distance; an automatic start is minus this distance then. 0: for "
+      "the rolled distance alone.",
+      Double(0., 10000.));
     section.choose("Drive", drive);
     section.add("Traction coefficient", traction_coefficient,
                 "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
@@ -80,6 +86,11 @@ namespace tread
 
   void MotionSection::check() const
   {
+    require(longest_distance == 0. || longest_distance >= rolled_distance,
+            "'Motion/Longest distance (mm)' " + text_in_mm(longest_distance) +
+              " must be at least 'Motion/Rolled distance (mm)' " + text_in_mm(rolled_distance) + ", or 0");
+    require(longest_distance == 0. || passages == 1,
+            "'Motion/Longest distance (mm)' is for one passage; each of 'Motion/Passages' has the same way");
     require(speed >= 0.1 / 3.6,
             "'Motion/Speed (km per h)' must be at least 0.1: a wheel that stands does not roll" +
               std::string(drive == Drive::torque ? ", and a torque would only spin it" : ""));

@@ -5,6 +5,8 @@
 #include <tread/scene/section.h>
 #include <tread/track/wheel_hub.h>
 
+#include <algorithm>
+
 namespace tread
 {
   template <>
@@ -16,6 +18,7 @@ namespace tread
     double                speed = 140. / 3.6;
     std::optional<double> start; ///< x of the wheel; none: automatic
     double                rolled_distance      = 0.06;
+    double                longest_distance     = 0.; ///< 0: as rolled
     Drive                 drive                = Drive::creepage;
     double                traction_coefficient = 0.3;
     std::optional<double> creepage;                 ///< none: predicted by half-space theory
@@ -28,6 +31,17 @@ namespace tread
     void declare(dealii::ParameterHandler &handler);
     /// @throws InputError
     void check() const;
+
+    /// Way for which rail and wheel are meshed, m.
+    double meshed_distance() const
+    {
+      return std::max(rolled_distance, longest_distance);
+    }
+    /// Whether a run that has ended may be resumed for a longer way.
+    bool may_go_on() const
+    {
+      return longest_distance > rolled_distance;
+    }
   };
 } // namespace tread
 
