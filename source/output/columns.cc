@@ -40,8 +40,8 @@ namespace tread
       using R = WheelRecord;
       static const Columns<R> columns{
         {"normal_force", "N",
-         "Force on the wheel at right angles to the rail, mean over the interval; of a wheelset in a "
-         "position vertical, of all its patches",
+         "Vertical force on the wheel, mean over the interval; of a wheelset in a position of all its "
+         "patches",
          [](const R &r) {
            return r.force[2];
          }},
