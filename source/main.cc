@@ -54,9 +54,9 @@ namespace
     app.add_option("--output", line.output, "folder of the results; of --batch, their table");
     app.add_flag("--print-parameters{prm}", line.print_parameters,
                  "print all parameters with units, ranges and meaning, and stop; =json: as JSON");
-    CLI::Option *columns =
-      app.add_flag("--print-columns", line.print_columns,
-                   "print the columns of all tables with units and meaning as JSON, and stop");
+    CLI::Option *columns = app.add_flag("--print-columns", line.print_columns,
+                                        "print the columns of all tables and the keys of summary.json with "
+                                        "units and meaning as JSON, and stop");
     app.add_flag("--quiet", line.quiet, "print errors only; summary.json has the warnings");
     CLI::Option_group *how = app.add_option_group("How to run the scene");
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");

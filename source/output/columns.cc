@@ -21,8 +21,10 @@ namespace tread
   std::string unit_of_heading(const std::string &heading)
   {
     // Longer ones before those that they end with.
-    for (const std::string unit : {"m_per_s2", "m_per_s", "N_per_m", "m_per_N", "percent", "degrees", "MPa",
-                                   "Pa", "Hz", "mm2", "mm", "um", "m2", "rad", "m", "N", "J", "W", "s"})
+    for (const std::string unit :
+         {"rad_per_s", "m_per_s2", "m_per_s", "N_per_m", "m_per_N", "per_m", "per_s", "percent",
+          "degrees",   "bytes",    "MPa",     "Pa",      "Hz",      "mm2",   "mm",    "um",
+          "m2",        "rad",      "Nm",      "m",       "N",       "J",     "W",     "s"})
       if (heading.size() > unit.size() + 1 &&
           heading.compare(heading.size() - unit.size() - 1, std::string::npos, "_" + unit) == 0)
         return unit;
@@ -38,8 +40,8 @@ namespace tread
       using R = WheelRecord;
       static const Columns<R> columns{
         {"normal_force", "N",
-         "Force on the wheel at right angles to the rail, mean over the interval; of a wheelset in a "
-         "position vertical, of all its patches",
+         "Vertical force on the wheel, mean over the interval; of a wheelset in a position of all its "
+         "patches",
          [](const R &r) {
            return r.force[2];
          }},
@@ -626,15 +628,15 @@ namespace tread
 
   std::string about_column(const std::string &file, const std::string &heading)
   {
-    const auto like = [](std::string text, const char *numbered, const char *instead) {
-      return std::regex_replace(text, std::regex(numbered), instead);
-    };
     // patch_averaged.csv, patch_wheel_2.csv, reference_patch.csv, peak_stress_wheel.csv
-    const std::string table =
-      like(like(file, "^(reference_patch|patch_.*)[.]", "patch."), "^peak_stress_wheel", "peak_stress");
+    static const std::regex patch("^(reference_patch|patch_.*)[.]"), peaks("^peak_stress_wheel"),
+      support("^support_-?[0-9]+_"), wheel("^wheel_[0-9]+_"), cell("^cell_[0-9]+_");
+    const auto like = [](const std::string &text, const std::regex &numbered, const char *instead) {
+      return std::regex_replace(text, numbered, instead);
+    };
+    const std::string table = like(like(file, patch, "patch."), peaks, "peak_stress");
     const std::string name =
-      like(like(like(heading, "^support_-?[0-9]+_", "support_0_"), "^wheel_[0-9]+_", "wheel_2_"),
-           "^cell_[0-9]+_", "cell_1_");
+      like(like(like(heading, support, "support_0_"), wheel, "wheel_2_"), cell, "cell_1_");
     static const std::vector<TableDescription> tables = tables_of_a_run();
     for (const TableDescription &candidate : tables)
       if (candidate.file == table)

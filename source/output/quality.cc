@@ -4,34 +4,107 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace tread
 {
+  const Columns<Quality> &quality_columns()
+  {
+    using Q = Quality;
+    static const Columns<Q> columns{
+      {"energy_residual_share", "", "Energy that is not accounted for over the gross work, with its sign",
+       [](const Q &q) {
+         return q.energy.residual_share();
+       }},
+      {"external_work", "J",
+       "Work of drive, guidance, suspension, weight and imposed sliding since the start (of the last "
+       "passage)",
+       [](const Q &q) {
+         return q.energy.external_work;
+       }},
+      {"gross_work", "J", "The same with all parts counted as positive",
+       [](const Q &q) {
+         return q.energy.gross_work;
+       }},
+      {"frictional_work", "J", "Work of friction since then",
+       [](const Q &q) {
+         return q.energy.friction;
+       }},
+      {"damping_work", "J",
+       "Work lost to stiffness and mass damping, bulk viscosity and the dampers of a track since then",
+       [](const Q &q) {
+         return q.energy.damping;
+       }},
+      {"plastic_work", "J", "Work on plastic strain since then",
+       [](const Q &q) {
+         return q.energy.plastic;
+       }},
+      {"contact_loss", "J",
+       "Energy that the contact took other than by sliding since then; negative: it gave",
+       [](const Q &q) {
+         return q.energy.contact;
+       }},
+      {"energy_residual", "J",
+       "Energy that is not accounted for: external work less what has been stored and lost since then",
+       [](const Q &q) {
+         return q.energy.residual();
+       }},
+      {"contact_work_on_nodes", "J",
+       "Work that the contact forces took from the nodes, and that imposed sliding put in: it must equal the "
+       "sum of frictional work and contact loss",
+       [](const Q &q) {
+         return q.energy.contact_on_nodes;
+       }},
+      {"dissipated_work", "J",
+       "Work of friction, plastic strain and damping, and the size of the contact loss",
+       [](const Q &q) {
+         return q.energy.dissipated();
+       }},
+      {"energy_residual_of_dissipated", "",
+       "Energy that is not accounted for over the dissipated work, with its sign",
+       [](const Q &q) {
+         return q.energy.of_dissipated(q.energy.residual());
+       }},
+      {"contact_loss_of_dissipated", "", "Contact loss over the dissipated work",
+       [](const Q &q) {
+         return q.energy.of_dissipated(q.energy.contact);
+       }},
+      {"contact_loss_of_friction_and_plasticity", "",
+       "Contact loss over the work of friction and plastic strain",
+       [](const Q &q) {
+         return q.energy.of_friction_and_plasticity(q.energy.contact);
+       }},
+      {"damping_of_friction_and_plasticity", "", "Damping work over the work of friction and plastic strain",
+       [](const Q &q) {
+         return q.energy.of_friction_and_plasticity(q.energy.damping);
+       }},
+      {"hourglass_of_internal_energy", "",
+       "Energy of hourglass modes over all energy that the cells hold at the end",
+       [](const Q &q) {
+         return q.energy.hourglass_of_internal();
+       }},
+      {"contact_unconverged_share", "",
+       "Share of the steps in which the iteration of the contact ended before 'Contact/Tolerance' was "
+       "reached",
+       [](const Q &q) {
+         return q.contact_unconverged;
+       }},
+      {"slip_chatter_share", "",
+       "Deviation of the micro-slip in single steps from the straight line over the position in the patch "
+       "that fits it best, "
+       "RMS over nodes and steps in contact, over the largest mean slip, while the wheel rolls over one cell "
+       "around the end of the path; null if nothing was averaged",
+       [](const Q &q) {
+         return q.slip_chatter.value_or(std::numeric_limits<double>::quiet_NaN());
+       }}};
+    return columns;
+  }
+
+
   void Quality::add_to(Summary &summary) const
   {
-    const EnergyLedger &e = energy;
-    summary.set("energy_residual_share", e.residual_share());
-    for (const auto &[name, value] : std::vector<std::pair<const char *, double>>{
-           {"external_work_J", e.external_work},
-           {"gross_work_J", e.gross_work},
-           {"frictional_work_J", e.friction},
-           {"damping_work_J", e.damping},
-           {"plastic_work_J", e.plastic},
-           {"contact_loss_J", e.contact},
-           {"energy_residual_J", e.residual()},
-           {"contact_work_on_nodes_J", e.contact_on_nodes},
-           {"dissipated_work_J", e.dissipated()},
-           {"energy_residual_of_dissipated", e.of_dissipated(e.residual())},
-           {"contact_loss_of_dissipated", e.of_dissipated(e.contact)},
-           {"contact_loss_of_friction_and_plasticity", e.of_friction_and_plasticity(e.contact)},
-           {"damping_of_friction_and_plasticity", e.of_friction_and_plasticity(e.damping)},
-           {"hourglass_of_internal_energy", e.hourglass_of_internal()},
-           {"contact_unconverged_share", contact_unconverged}})
-      summary.set(name, value);
-    if (slip_chatter)
-      summary.set("slip_chatter_share", *slip_chatter);
-    else
-      summary.set("slip_chatter_share", nullptr);
+    for (const Column<Quality> &column : quality_columns())
+      summary.set(heading(column), column.value(*this)); // NaN is written as null
   }
 
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/output/summary.h>
+#include <tread/output/summary_keys.h>
+
+#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,6 +12,15 @@
 
 namespace tread
 {
+  void Summary::require_meaning(const std::string &name)
+  {
+    Assert(!about_summary_key(name).empty(),
+           dealii::ExcMessage("source/output/summary_keys.cc does not say what '" + name +
+                              "' of summary.json means"));
+    (void)name;
+  }
+
+
   void Summary::compare(const std::string          &name,
                         const std::string          &label,
                         const double                scale,
@@ -18,6 +30,7 @@ namespace tread
                         const double                negligible,
                         const std::optional<double> uncertainty)
   {
+    require_meaning(name);
     std::optional<double> difference;
     if (std::abs(reference_value) > negligible)
       difference = value / reference_value - 1.;

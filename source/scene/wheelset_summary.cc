@@ -11,10 +11,11 @@ namespace tread
 {
   namespace
   {
-    /// A figure of a patch: its key in summary.json, and its line on the screen where it has one.
+    /// A figure of a patch: its key in summary.json with what it means, and its line on the screen where it
+    /// has one.
     struct Figure
     {
-      const char                               *key, *label;
+      const char                               *key, *about, *label;
       double                                    scale; ///< from SI to the unit of the label
       std::function<double(const WheelPatch &)> value;
     };
@@ -23,121 +24,142 @@ namespace tread
     std::vector<Figure> figures_of_patch(const double rail_y)
     {
       using P = WheelPatch;
-      return {{"normal_force_N", "normal force, kN", 1e-3,
-               [](const P &p) {
-                 return p.solution.normal_force;
-               }},
-              {"longitudinal_force_N", "longitudinal force, kN", 1e-3,
-               [](const P &p) {
-                 return p.solution.longitudinal_force;
-               }},
-              {"lateral_force_N", "lateral force, kN", 1e-3,
-               [](const P &p) {
-                 return p.solution.lateral_force;
-               }},
-              {"spin_moment_Nm", "spin moment, N m", 1.,
-               [](const P &p) {
-                 return p.solution.spin_moment;
-               }},
-              {"x_m", "x from the axle, mm", 1e3,
-               [](const P &p) {
-                 return p.region.reference[0];
-               }},
-              {"y_m", "y in the track, mm", 1e3,
-               [](const P &p) {
-                 return p.region.reference[1];
-               }},
-              {"y_rail_m", "y from the rail's middle, mm", 1e3,
-               [rail_y](const P &p) {
-                 return (p.is_of_other_wheel ? -1. : 1.) * p.region.reference[1] - rail_y;
-               }},
-              {"z_m", "", 1e3,
-               [](const P &p) {
-                 return p.region.reference[2];
-               }},
-              {"angle_rad", "contact angle, degrees", 180. / dealii::numbers::PI,
-               [](const P &p) {
-                 return p.angle();
-               }},
-              {"rolling_radius_m", "rolling radius, mm", 1e3,
-               [](const P &p) {
-                 return p.rolling_radius;
-               }},
-              {"rolling_speed_m_per_s", "", 1.,
-               [](const P &p) {
-                 return p.rolling_speed;
-               }},
-              {"creepage", "creepage, 1e-3", 1e3,
-               [](const P &p) {
-                 return 0. - p.creepage;
-               }},
-              {"lateral_creepage", "lateral creepage, 1e-3", 1e3,
-               [](const P &p) {
-                 return p.lateral_creepage;
-               }},
-              {"spin_per_m", "spin, 1/m", 1.,
-               [](const P &p) {
-                 return p.spin;
-               }},
-              {"max_pressure_Pa", "maximum pressure, MPa", 1e-6,
-               [](const P &p) {
-                 return p.solution.max_pressure;
-               }},
-              {"area_m2", "area, mm2", 1e6,
-               [](const P &p) {
-                 return p.solution.area;
-               }},
-              {"length_m", "length along x, mm", 1e3,
-               [](const P &p) {
-                 return p.solution.x_end - p.solution.x_begin;
-               }},
-              {"width_m", "width across, mm", 1e3,
-               [](const P &p) {
-                 return p.solution.y_end - p.solution.y_begin;
-               }},
-              {"adhesion_share", "adhesion share, %", 1e2,
-               [](const P &p) {
-                 return p.solution.adhesion_share;
-               }},
-              {"max_shear_Pa", "maximum shear stress, MPa", 1e-6,
-               [](const P &p) {
-                 return p.solution.max_shear;
-               }},
-              {"max_slip_m_per_s", "maximum micro-slip, m/s", 1.,
-               [](const P &p) {
-                 return p.solution.max_slip;
-               }},
-              {"frictional_power_W", "frictional power, W", 1.,
-               [](const P &p) {
-                 return p.solution.frictional_power;
-               }},
-              {"overlap_m", "undeformed overlap, um", 1e6,
-               [](const P &p) {
-                 return p.region.overlap;
-               }},
-              {"sink_by_others_m", "sinks under other patches, um", 1e6,
-               [](const P &p) {
-                 return p.sink_by_others;
-               }},
-              {"normal_turns_rad", "the normal turns by, degrees", 180. / dealii::numbers::PI,
-               [](const P &p) {
-                 return p.turn;
-               }},
-              {"wheel_profile_radius_m", "", 1e3,
-               [](const P &p) {
-                 return p.wheel_radius;
-               }},
-              {"rail_profile_radius_m", "", 1e3,
-               [](const P &p) {
-                 return p.rail_radius;
-               }},
-              {"element_x_m", "", 1e3,
-               [](const P &p) {
-                 return p.solution.grid.dx;
-               }},
-              {"element_y_m", "", 1e3, [](const P &p) {
-                 return p.solution.grid.dy;
-               }}};
+      return {
+        {"normal_force_N", "Resultant of the pressure on the wheel", "normal force, kN", 1e-3,
+         [](const P &p) {
+           return p.solution.normal_force;
+         }},
+        {"longitudinal_force_N", "Resultant of the shear stress on the wheel along x, positive forward",
+         "longitudinal force, kN", 1e-3,
+         [](const P &p) {
+           return p.solution.longitudinal_force;
+         }},
+        {"lateral_force_N", "Resultant of the shear stress on the wheel along s, positive to the field side",
+         "lateral force, kN", 1e-3,
+         [](const P &p) {
+           return p.solution.lateral_force;
+         }},
+        {"spin_moment_Nm",
+         "Moment of the shear stress on the wheel about the normal through the reference point, from x to s",
+         "spin moment, N m", 1.,
+         [](const P &p) {
+           return p.solution.spin_moment;
+         }},
+        {"x_m", "Reference point of the patch, ahead of the middle of the axle", "x from the axle, mm", 1e3,
+         [](const P &p) {
+           return p.region.reference[0];
+         }},
+        {"y_m", "The same across, from the middle of the track, positive to the own side",
+         "y in the track, mm", 1e3,
+         [](const P &p) {
+           return p.region.reference[1];
+         }},
+        {"y_rail_m", "The same across, from the middle of the rail's top, positive to the field side",
+         "y from the rail's middle, mm", 1e3,
+         [rail_y](const P &p) {
+           return (p.is_of_other_wheel ? -1. : 1.) * p.region.reference[1] - rail_y;
+         }},
+        {"z_m", "The same over the tops of the rails", "", 1e3,
+         [](const P &p) {
+           return p.region.reference[2];
+         }},
+        {"angle_rad", "Contact angle: inclination of the rail there, positive: it rises to the field side",
+         "contact angle, degrees", 180. / dealii::numbers::PI,
+         [](const P &p) {
+           return p.angle();
+         }},
+        {"rolling_radius_m", "Of the undeformed wheel at the reference point", "rolling radius, mm", 1e3,
+         [](const P &p) {
+           return p.rolling_radius;
+         }},
+        {"rolling_speed_m_per_s", "Mean of the speeds of both surfaces through the patch, as rigid bodies",
+         "", 1.,
+         [](const P &p) {
+           return p.rolling_speed;
+         }},
+        {"creepage",
+         "Slip of the rigid wheel over the rail at the reference point over the rolling speed, along x, "
+         "positive when driving",
+         "creepage, 1e-3", 1e3,
+         [](const P &p) {
+           return 0. - p.creepage;
+         }},
+        {"lateral_creepage", "The same along s, positive: the wheel slips to the field side",
+         "lateral creepage, 1e-3", 1e3,
+         [](const P &p) {
+           return p.lateral_creepage;
+         }},
+        {"spin_per_m", "Angular velocity of the wheel about the normal over the rolling speed, from x to s",
+         "spin, 1/m", 1.,
+         [](const P &p) {
+           return p.spin;
+         }},
+        {"max_pressure_Pa", "Largest pressure of a node (of an element)", "maximum pressure, MPa", 1e-6,
+         [](const P &p) {
+           return p.solution.max_pressure;
+         }},
+        {"area_m2", "Area in contact", "area, mm2", 1e6,
+         [](const P &p) {
+           return p.solution.area;
+         }},
+        {"length_m", "Extent of the patch along x", "length along x, mm", 1e3,
+         [](const P &p) {
+           return p.solution.x_end - p.solution.x_begin;
+         }},
+        {"width_m", "Extent of the patch along s", "width across, mm", 1e3,
+         [](const P &p) {
+           return p.solution.y_end - p.solution.y_begin;
+         }},
+        {"adhesion_share", "Share of the area that sticks", "adhesion share, %", 1e2,
+         [](const P &p) {
+           return p.solution.adhesion_share;
+         }},
+        {"max_shear_Pa", "Largest shear stress of a node (of an element)", "maximum shear stress, MPa", 1e-6,
+         [](const P &p) {
+           return p.solution.max_shear;
+         }},
+        {"max_slip_m_per_s", "Largest micro-slip of a node (of an element)", "maximum micro-slip, m/s", 1.,
+         [](const P &p) {
+           return p.solution.max_slip;
+         }},
+        {"frictional_power_W", "Power that friction takes in the patch", "frictional power, W", 1.,
+         [](const P &p) {
+           return p.solution.frictional_power;
+         }},
+        {"overlap_m", "Largest overlap of the undeformed bodies along the normal", "undeformed overlap, um",
+         1e6,
+         [](const P &p) {
+           return p.region.overlap;
+         }},
+        {"sink_by_others_m",
+         "How far both surfaces give way here under the pressure of the other patches, about, which "
+         "half-space solutions leave out",
+         "sinks under other patches, um", 1e6,
+         [](const P &p) {
+           return p.sink_by_others;
+         }},
+        {"normal_turns_rad", "By how much the rail's normal turns from one edge of the patch to the other",
+         "the normal turns by, degrees", 180. / dealii::numbers::PI,
+         [](const P &p) {
+           return p.turn;
+         }},
+        {"wheel_profile_radius_m",
+         "Radius of the wheel's profile at the reference point, positive where it is hollow", "", 1e3,
+         [](const P &p) {
+           return p.wheel_radius;
+         }},
+        {"rail_profile_radius_m",
+         "Radius of the rail's profile at the reference point, positive where it is a crown", "", 1e3,
+         [](const P &p) {
+           return p.rail_radius;
+         }},
+        {"element_x_m", "Edge of the half-space's elements along x", "", 1e3,
+         [](const P &p) {
+           return p.solution.grid.dx;
+         }},
+        {"element_y_m", "The same along s", "", 1e3, [](const P &p) {
+           return p.solution.grid.dy;
+         }}};
     }
   } // namespace
 
@@ -187,6 +209,15 @@ namespace tread
         list.push_back(entry);
       }
     return list;
+  }
+
+
+  std::vector<TableDescription::Line> keys_of_patch()
+  {
+    std::vector<TableDescription::Line> keys{{"wheel", "", "own or other"}};
+    for (const Figure &figure : figures_of_patch(0.))
+      keys.push_back({figure.key, unit_of_heading(figure.key), figure.about});
+    return keys;
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/output/columns.h>
+#include <tread/output/summary_keys.h>
+#include <tread/scene/wheelset_summary.h>
 #include <tread/tools/contact_points_files.h>
 #include <tread/tools/modes_files.h>
 #include <tread/tools/print_columns.h>
@@ -10,7 +11,12 @@ namespace tread
 {
   void print_columns(std::ostream &out)
   {
+    // Keys of lists have / in their names, as contrib/compare-runs.py has them.
+    TableDescription summary = keys_of_summary();
+    for (const TableDescription::Line &key : keys_of_patch())
+      summary.columns.push_back({"patches/1/" + key.heading, key.unit, key.about});
     std::vector<TableDescription> tables = tables_of_a_run();
+    tables.insert(tables.begin(), summary);
     for (const auto &more : {tables_of_modes(), tables_of_contact_points()})
       tables.insert(tables.end(), more.begin(), more.end());
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -2,6 +2,7 @@
 // Tables: what stands under each heading, in the unit of its name, as doc/results.md says. Every figure of a
 // record has a value of its own, so that an exchange is noticed, and every column of a table is compared.
 #include <tread/output/columns.h>
+#include <tread/output/summary_keys.h>
 
 #include "check.h"
 
@@ -340,11 +341,50 @@ namespace
              {"y_mm", 35.},
              {"pressure_MPa", 1.7}});
   }
+
+  /// What summary.json means: each key once, whatever number a name has, and units where they are not at the
+  /// end.
+  void check_summary_keys(tests::Check &check)
+  {
+    std::map<std::string, std::string> units;
+    bool                               all_mean_something = true;
+    const TableDescription             table              = keys_of_summary();
+    for (const TableDescription::Line &key : table.columns)
+      {
+        units[key.heading] = key.unit;
+        all_mean_something = all_mean_something && !key.about.empty();
+      }
+    check.absolute("summary.json: each key stands once", units.size(), table.columns.size(), 0.);
+    check.that("summary.json: each key has a meaning", all_mean_something);
+    for (const auto &[key, unit] :
+         std::map<std::string, std::string>{{"normal_force_N", "N"},
+                                            {"creepage", ""},
+                                            {"angular_velocity_rad_per_s", "rad_per_s"},
+                                            {"wall_s", "s"},
+                                            {"wall_s_internal_forces", "s"},
+                                            {"element_updates_per_s", "per_s"},
+                                            {"cells_and_nodes_bytes", "bytes"},
+                                            {"max_pressure_Pa_half_space_uncertainty", "Pa"},
+                                            {"reference/max_pressure_Pa/Hertz/value", "Pa"},
+                                            {"reference/max_pressure_Pa/Hertz/relative_difference", ""}})
+      check.that("summary.json: unit of " + key + " is '" + unit + "'",
+                 units.count(key) && units[key] == unit);
+    for (const auto &[key, like] : std::map<std::string, std::string>{
+           {"wheel_3_creepage", "creepage"},
+           {"cell_12_depth_m", "cell_1_depth_m"},
+           {"creepage_half_space_uncertainty", "max_pressure_Pa_half_space_uncertainty"},
+           {"reference/creepage/half-space/value", "reference/max_pressure_Pa/Hertz/value"}})
+      check.that("summary.json: " + key + " means what " + like + " does",
+                 !about_summary_key(key).empty() && about_summary_key(key) == about_summary_key(like));
+    for (const std::string key : {"made_up_N", "wheel_3_steps", "cell_x_m"})
+      check.that("summary.json: nothing is known of " + key, about_summary_key(key).empty());
+  }
 } // namespace
 
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
+  check_summary_keys(check);
   check_history(check);
   check_cells(check);
   check_patches(check);

@@ -6,6 +6,9 @@
 #include "check.h"
 
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace tread;
 
@@ -85,4 +88,35 @@ void run_test(tests::Check &check, const tests::Arguments &)
   free.slip_chatter         = 0.5;
   check.that("nothing slips: damping, chatter and a residual of 3 mJ are nothing to warn of",
              free.warnings().empty());
+
+  // summary.json has them by their keys.
+  Quality written                 = good();
+  written.energy.plastic          = 0.7;
+  written.energy.contact_on_nodes = 3.99;
+  written.contact_unconverged     = 0.013;
+  written.slip_chatter.reset();
+  Summary summary;
+  written.add_to(summary);
+  const auto   json       = nlohmann::json::parse(summary.text());
+  const double dissipated = 4. + 0.7 + 0.1 + 0.01, residual = 4.09 - (4. + 0.7 + 0.1 - 0.01);
+  for (const auto &[key, value] :
+       std::vector<std::pair<const char *, double>>{{"external_work_J", 4.09},
+                                                    {"gross_work_J", 4000.},
+                                                    {"frictional_work_J", 4.},
+                                                    {"damping_work_J", 0.1},
+                                                    {"plastic_work_J", 0.7},
+                                                    {"contact_loss_J", -0.01},
+                                                    {"energy_residual_J", residual},
+                                                    {"energy_residual_share", residual / 4000.},
+                                                    {"contact_work_on_nodes_J", 3.99},
+                                                    {"dissipated_work_J", dissipated},
+                                                    {"energy_residual_of_dissipated", residual / dissipated},
+                                                    {"contact_loss_of_dissipated", -0.01 / dissipated},
+                                                    {"contact_loss_of_friction_and_plasticity", -0.01 / 4.7},
+                                                    {"damping_of_friction_and_plasticity", 0.1 / 4.7},
+                                                    {"hourglass_of_internal_energy", 0.14 / 7.14},
+                                                    {"contact_unconverged_share", 0.013}})
+    check.relative(std::string("summary: ") + key, json.value(key, 0.), value, 1e-12);
+  check.that("summary: slip chatter is null where nothing was averaged",
+             json.contains("slip_chatter_share") && json["slip_chatter_share"].is_null());
 }

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 from tread.runs import ROOT, arguments_of, execute
-from tread_runner import Check, rows_of, run, script
+from tread_runner import Check, explained_keys, rows_of, run, script, unexplained_keys
 
 program = sys.argv[1]
 check = Check()
@@ -31,6 +31,12 @@ with tempfile.TemporaryDirectory() as folder:
 
     def reference_only(*settings, scene=SCENE, ranks=1, output=None):
         return run(program, scene, output or path(str(next(numbers))), settings, ranks, ["--reference-only"])
+
+    # run() asks of every summary of these tests that its keys are explained: of this one only some are.
+    check.that("keys without a meaning are found",
+               unexplained_keys({"wheel_3_creepage": 0., "wheel_3_made_up": 0., "cell_12_x_m": 0., "creepage_half_space_uncertainty": 0., "made_up_Pa": 0.,
+                                 "patches": [{"x_m": 0., "made_up_m": 0.}], "reference": {"creepage": {"half-space": {"value": 0., "made_up": 0.}}}},
+                                explained_keys(program)) == ["made_up_Pa", "patches/1/made_up_m", "reference/max_pressure_Pa/Hertz/made_up", "wheel_2_made_up"])
 
     # Against CONTACT, whose values are of first order: extrapolated from its elements of 0.2 and 0.1 mm. What the edge of
     # the patch on those two grids leaves in them is 0.1 or 0.2 %, more in what sits at that edge.

@@ -174,6 +174,33 @@ with tempfile.TemporaryDirectory() as folder:
         run(program, SCENE, path("bits-parts"), bits, 3, ["--resume"])
         identical("reproducible, levels, resumed on 3 ranks against never stopped on 1", "bits-parts", "levels-bits-1")
 
+    elif what == "longer":
+        # The same way in one part, and in two of which the first was a whole run.
+        longest = COARSE + ["Motion/Longest distance (mm)=14", "Output/Surface interval (mm)=0"]
+        rolled = lambda mm: longest + [f"Motion/Rolled distance (mm)={mm}"]
+        whole = run(program, SCENE, path("whole"), rolled(14))
+        first = run(program, SCENE, path("parts"), rolled(9))
+        check.that("the first part is a whole run", first["completed"] and first["steps"] < whole["steps"])
+        subprocess.run(["cp", "-r", path("parts"), path("other")], check=True)
+        subprocess.run(["cp", "-r", path("parts"), path("ranks")], check=True)
+        again = run(program, SCENE, path("parts"), rolled(14), more=["--resume"])
+        same("a longer way in two parts against one", again, whole, 1e-12)
+        for table_name in ("patch.csv", "patch_averaged.csv"):
+            texts = [open(os.path.join(path(name), table_name), encoding="utf-8").read() for name in ("parts", "whole")]
+            check.that(f"the same {table_name}", texts[0] == texts[1] and texts[0].count("\n") > 10)
+        rows = [table(os.path.join(path(name), "history.csv")) for name in ("parts", "whole")]
+        # Where the first part ended its last row is shorter than the others.
+        check.that("the history has the rows of both parts", len(rows[0]["time_s"]) in (len(rows[1]["time_s"]), len(rows[1]["time_s"]) + 1)
+                   and np.all(np.diff(rows[0]["time_s"]) > 0.))
+        check.absolute("the history ends at the same place, mm", rows[0]["position_mm"][-1], rows[1]["position_mm"][-1], 1e-9)
+        same("the same on two ranks", run(program, SCENE, path("ranks"), rolled(14), ranks=2, more=["--resume"]), whole, 3e-3, 3e-2)
+        done = execute(arguments_of(SCENE, rolled(9), path("other")) + ["--resume"], program=program)
+        check.that("as long as it was it is complete", done.returncode == 0 and "complete" in done.stdout)
+        fails("longer than its rail is meshed for", arguments_of(SCENE, rolled(15), path("other")) + ["--resume"], ["Longest distance", "14", "15"])
+        fails("other physics", arguments_of(SCENE, rolled(14), path("other")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
+              ["Friction coefficient"])
+        fails("several passages", arguments_of(SCENE, rolled(9), path("fresh")) + ["-s", "Motion/Passages=2"], ["Longest distance", "Passages"])
+
     elif what == "resume":
         # Small steps, so that there is time for an interruption; a tight tolerance, so that the sweeps of other ranks end as near;
         # one level, because other ranks begin anew with the steady shares of slow cells' forces. Levels follow below.
@@ -216,6 +243,9 @@ with tempfile.TemporaryDirectory() as folder:
         fails("other parameters are refused and named",
               arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
+        fails("a longer way is refused where the rail is not meshed for it",
+              arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Motion/Rolled distance (mm)=14"],
+              ["Rolled distance (mm)", "Longest distance (mm)"])
         fails("other columns of the history are refused",
               arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])
         for what, setting, words in (("stresses that are looked for", "Peak stress/Depth (mm)=7", ["Depth (mm)", "7"]),

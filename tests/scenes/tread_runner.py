@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What scene tests share beyond the package tread: runs that must succeed, Ctrl-C, comparisons as tests/check.h prints them."""
 
+import functools
+import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -9,15 +12,37 @@ import time
 
 import tread
 from tread.files import read_table
-from tread.runs import ROOT, arguments_of, command, environment, execute
+from tread.runs import ROOT, arguments_of, command, environment, execute, must_end_well
+
+
+@functools.lru_cache(maxsize=None)
+def explained_keys(program):
+    """The keys of summary.json whose meanings the program knows."""
+    tables = {table["file"]: table["columns"] for table in json.loads(must_end_well(execute(["--print-columns"], program=program)).stdout)}
+    return frozenset(key["name"] for key in tables["summary.json"] if key["meaning"])
+
+
+def unexplained_keys(summary, explained):
+    """Keys that a summary has and that are not explained, whatever numbers are in their names. @param explained names as explained_keys() has them"""
+    keys = {re.sub(r"^.*_half_space_uncertainty$", "max_pressure_Pa_half_space_uncertainty", re.sub(r"^cell_\d+_", "cell_1_", re.sub(r"^wheel_\d+_", "wheel_2_", key)))
+            for key in summary}
+    for patch in summary.get("patches", []) + summary.get("half_space_patches", []):
+        keys |= {f"patches/1/{key}" for key in patch}
+    for figure, sources in summary.get("reference", {}).items():
+        keys |= {figure} | {f"reference/max_pressure_Pa/Hertz/{key}" for source in sources.values() for key in source}
+    return sorted(keys - explained)
 
 
 def run(program, scene, output, settings=(), ranks=1, more=()):
-    """Run a scene to its end and return its summary; anything else ends the test."""
+    """Run a scene to its end and return its summary, all of whose keys must have a meaning; anything else ends the test."""
     try:
-        return tread.run(scene, settings, ranks=ranks, output=output, options=more, program=program).summary
+        summary = tread.run(scene, settings, ranks=ranks, output=output, options=more, program=program).summary
+        unexplained = unexplained_keys(summary, explained_keys(program))
     except tread.Error as error:
         sys.exit(f"{scene} on {ranks} rank(s): {error}")
+    if unexplained:
+        sys.exit(f"{scene} on {ranks} rank(s): --print-columns does not say what {', '.join(unexplained)} of summary.json means")
+    return summary
 
 
 def table(folder, name):

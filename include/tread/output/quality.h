@@ -3,6 +3,7 @@
 #define tread_output_quality_h
 
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/output/columns.h>
 #include <tread/output/summary.h>
 
 #include <optional>
@@ -55,6 +56,9 @@ namespace tread
     /// One line for each measure that is too large: what it means and what to do.
     std::vector<std::string> warnings() const;
   };
+
+  /// The measures by their keys in summary.json.
+  const Columns<Quality> &quality_columns();
 } // namespace tread
 
 #endif

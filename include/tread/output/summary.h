@@ -17,6 +17,7 @@ namespace tread
     template <typename T>
     void set(const std::string &name, const T &value)
     {
+      require_meaning(name);
       json[name] = value;
     }
 
@@ -52,6 +53,9 @@ namespace tread
     std::string table() const;
 
   private:
+    /// Debug builds stop at a name that about_summary_key() does not know.
+    static void require_meaning(const std::string &name);
+
     struct Line
     {
       std::string           label, source; // no source: nothing to compare with

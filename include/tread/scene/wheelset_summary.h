@@ -3,6 +3,7 @@
 #define tread_scene_wheelset_summary_h
 
 #include <tread/analysis/wheelset_contact.h>
+#include <tread/output/columns.h>
 #include <tread/output/summary.h>
 #include <tread/scene/scene.h>
 
@@ -22,6 +23,9 @@ namespace tread
 
   /// The figures of each patch by their names in summary.json.
   nlohmann::ordered_json patches_as_json(const std::vector<WheelPatch> &patches, const double rail_y);
+
+  /// These names with units and meanings.
+  std::vector<TableDescription::Line> keys_of_patch();
 
   /// Where half-space theory ends, in words and with its number.
   std::vector<std::string> limits_of_half_space(const std::vector<WheelPatch> &patches);
