@@ -11,8 +11,6 @@ fi
 export OMPI_MCA_btl_vader_single_copy_mechanism=none
 # Open MPI looks 0.2 s for network cards that one machine has no use for; memory that the ranks share is fastest.
 export OMPI_MCA_pml=ob1
-# A program on one rank starts no daemon of its own beside it: 0.1 s less.
-export OMPI_MCA_ess_singleton_isolated=1
 
 # configure_release DIRECTORY: a Release build directory, kept if it is there.
 configure_release()

@@ -94,6 +94,21 @@ namespace tread
       return lambda * trace(strain) * dealii::unit_symmetric_tensor<3>() + 2. * mu * strain;
     }
 
+    /// A matrix as the solver takes one. Its own vmult is a template, whose name clang spells unlike GCC, so
+    /// that a deal.II which GCC has built has none for clang.
+    struct Product
+    {
+      const dealii::TrilinosWrappers::SparseMatrix &matrix;
+
+      void vmult(Vector &product, const Vector &vector) const
+      {
+        const int error =
+          matrix.trilinos_matrix().Multiply(false, vector.trilinos_vector(), product.trilinos_vector());
+        if (error != 0)
+          throw std::runtime_error("Epetra's product failed with error " + std::to_string(error));
+      }
+    };
+
     class Model
     {
     public:
@@ -390,7 +405,7 @@ namespace tread
       dealii::SolverCG<Vector> solver(control);
       u = 0.;
       if (rhs.l2_norm() > 0.)
-        solver.solve(matrix, u, rhs, amg);
+        solver.solve(Product{matrix}, u, rhs, amg);
       constraints.distribute(u);
       displacement      = u;
       result.iterations = control.last_step();

@@ -176,28 +176,28 @@ with tempfile.TemporaryDirectory() as folder:
 
     elif what == "longer":
         # The same way in one part, and in two of which the first was a whole run.
-        longest = COARSE + ["Motion/Longest distance (mm)=14", "Output/Surface interval (mm)=0"]
+        longest = COARSE + ["Motion/Longest distance (mm)=20", "Output/Surface interval (mm)=0"]
         rolled = lambda mm: longest + [f"Motion/Rolled distance (mm)={mm}"]
-        whole = run(program, SCENE, path("whole"), rolled(14))
+        whole = run(program, SCENE, path("whole"), rolled(20))
         first = run(program, SCENE, path("parts"), rolled(9))
         check.that("the first part is a whole run", first["completed"] and first["steps"] < whole["steps"])
         subprocess.run(["cp", "-r", path("parts"), path("other")], check=True)
         subprocess.run(["cp", "-r", path("parts"), path("ranks")], check=True)
-        again = run(program, SCENE, path("parts"), rolled(14), more=["--resume"])
+        again = run(program, SCENE, path("parts"), rolled(20), more=["--resume"])
         same("a longer way in two parts against one", again, whole, 1e-12)
         for table_name in ("patch.csv", "patch_averaged.csv"):
             texts = [open(os.path.join(path(name), table_name), encoding="utf-8").read() for name in ("parts", "whole")]
             check.that(f"the same {table_name}", texts[0] == texts[1] and texts[0].count("\n") > 10)
-        rows = [table(os.path.join(path(name), "history.csv")) for name in ("parts", "whole")]
+        rows = [table(path(name), "history.csv") for name in ("parts", "whole")]
         # Where the first part ended its last row is shorter than the others.
         check.that("the history has the rows of both parts", len(rows[0]["time_s"]) in (len(rows[1]["time_s"]), len(rows[1]["time_s"]) + 1)
                    and np.all(np.diff(rows[0]["time_s"]) > 0.))
-        check.absolute("the history ends at the same place, mm", rows[0]["position_mm"][-1], rows[1]["position_mm"][-1], 1e-9)
-        same("the same on two ranks", run(program, SCENE, path("ranks"), rolled(14), ranks=2, more=["--resume"]), whole, 3e-3, 3e-2)
+        check.absolute("the history ends at the same place, mm", 1e3 * rows[0]["position_m"][-1], 1e3 * rows[1]["position_m"][-1], 1e-9)
+        same("the same on two ranks", run(program, SCENE, path("ranks"), rolled(20), ranks=2, more=["--resume"]), whole, 3e-3, 3e-2)
         done = execute(arguments_of(SCENE, rolled(9), path("other")) + ["--resume"], program=program)
         check.that("as long as it was it is complete", done.returncode == 0 and "complete" in done.stdout)
-        fails("longer than its rail is meshed for", arguments_of(SCENE, rolled(15), path("other")) + ["--resume"], ["Longest distance", "14", "15"])
-        fails("other physics", arguments_of(SCENE, rolled(14), path("other")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
+        fails("longer than its rail is meshed for", arguments_of(SCENE, rolled(21), path("other")) + ["--resume"], ["Longest distance", "20", "21"])
+        fails("other physics", arguments_of(SCENE, rolled(20), path("other")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
         fails("several passages", arguments_of(SCENE, rolled(9), path("fresh")) + ["-s", "Motion/Passages=2"], ["Longest distance", "Passages"])
 

@@ -57,16 +57,21 @@ def own_line(text: str) -> str | None:
 def environment(**more: str) -> dict[str, str]:
     """The variables of this process with those that runs need, as contrib/environment.sh sets and explains them, and more."""
     settings = {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                "OMPI_MCA_pml": "ob1", "OMPI_MCA_ess_singleton_isolated": "1"}
+                "OMPI_MCA_pml": "ob1"}
     if os.getuid() == 0:
         settings.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return {**os.environ, **settings, **more}
 
 
+# A program on one rank needs no daemon of Open MPI beside it, which takes 0.1 s; without one all programs that start at the same time would
+# share one folder of their session, which the first that ends removes under the others, so that one start in some hundred failed.
+ALONE = ["env", "OMPI_MCA_ess_singleton_isolated=1", "OMPI_MCA_orte_create_session_dirs=0"]
+
+
 def command(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM) -> list[str]:
     """The program on so many ranks; one rank needs no mpirun. Where there are more ranks than processors, those that wait yield: it is some
     forty times as fast."""
-    launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else []
+    launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else ALONE
     if ranks > (os.cpu_count() or 1):
         launch += ["--mca", "mpi_yield_when_idle", "1"]
     return [*launch, program, *arguments]

@@ -86,7 +86,7 @@ def schema_of(text: str | None) -> dict:
     found = re.fullmatch(r"up to (\d+) numbers from (.*), separated by commas", text)
     if found and limits_of(found[2]):
         return {"type": "array", "items": limits_of(found[2]), "maxItems": int(found[1])}
-    found = re.fullmatch(r"'(.*)' or a number from (.*)", text)
+    found = re.fullmatch(r"'(.*)' or (?:a number from )?(.*)", text)
     if found and limits_of(found[2]):
         return {"anyOf": [{"const": found[1]}, limits_of(found[2])]}
     limits = limits_of(text)
