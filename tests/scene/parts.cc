@@ -465,6 +465,51 @@ namespace
   }
 
 
+  void check_corrugation(tests::Check &check, const TemporaryFolder &folder)
+  {
+    const Settings   waves{"Defect/Shape=corrugation", "Defect/Position (mm)=-20",
+                         "Defect/Length (mm)=60",    "Defect/Wavelength (mm)=20",
+                         "Defect/Depth (mm)=0.05",   "Defect/Lateral law=uniform",
+                         "Motion/Start (mm)=-30",    "Motion/Rolled distance (mm)=80"};
+    constexpr double picometre = 1e-9; // mm
+    const auto       whole     = scene_of(waves);
+    check.absolute("corrugation: its first trough, mm", height(*whole, -10., 0.), -0.05, picometre);
+    check.absolute("corrugation: a crest, 20 mm to the side, mm", height(*whole, 20., -20.), 0., picometre);
+    check.absolute("corrugation: on its flank, mm", height(*whole, 25., 11.), -0.025, picometre);
+    check.absolute("corrugation: behind it, mm", height(*whole, 50., 0.), 0., picometre);
+    const auto narrow = scene_of(waves, {"Defect/Lateral law=parabola", "Defect/Width (mm)=20",
+                                         "Defect/Lateral position (mm)=2", "Defect/Ramp (mm)=30"});
+    check.absolute("corrugation with ramps: in its middle, mm", height(*narrow, 10., 2.), -0.05, picometre);
+    check.absolute("corrugation with ramps: half of the way to its side, mm", height(*narrow, 10., 7.),
+                   -0.0375, picometre);
+    check.absolute("corrugation with ramps: a third of the first, mm", height(*narrow, -10., 2.),
+                   -0.05 * 0.25, picometre);
+
+    const auto refused = [&](const std::string &what, const std::string &words, const Settings &more) {
+      const std::string said = tests::complaint<InputError>([&] { scene_of(waves, more); });
+      check.that(what + ": \"" + said + "\"", said.find(words) != std::string::npos);
+    };
+    refused("corrugation that ends in a step", "2.5 wavelengths", {"Defect/Length (mm)=50"});
+    refused("waves shorter than its cells carry", "is lost between cells", {"Defect/Wavelength (mm)=3"});
+    refused("a ramp longer than half of it", "'Defect/Ramp (mm)' 31", {"Defect/Ramp (mm)=31"});
+    refused("no wavelength", "'Defect/Wavelength (mm)'", {"Defect/Wavelength (mm)=0"});
+
+    // A map that ends 0.1 mm below the surface, and fades by a ramp.
+    std::string text = "x_mm,y_mm,z_mm\n";
+    for (int x = 0; x <= 40; x += 4)
+      for (int y = -8; y <= 8; y += 2)
+        text += std::to_string(x) + "," + std::to_string(y) + "," + (std::abs(y) < 8 ? "-0.1\n" : "0\n");
+    const Settings map{"Defect/Shape=map", "Defect/Profile file=" + folder.write("channel.csv", text),
+                       "Defect/Position (mm)=-20", "Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60"};
+    const auto     channel = scene_of(map, {"Defect/Ramp (mm)=10"});
+    check.absolute("map with ramps: its beginning, mm", height(*channel, -20., 0.), 0., picometre);
+    check.absolute("map with ramps: half of the ramp, mm", height(*channel, -15., 0.), -0.05, picometre);
+    check.absolute("map with ramps: its middle, mm", height(*channel, 0., 0.), -0.1, picometre);
+    const std::string step = tests::complaint<InputError>([&] { scene_of(map); });
+    check.that("the same without: \"" + step + "\"", step.find("a step") != std::string::npos);
+  }
+
+
   void check_maps(tests::Check &check, const TemporaryFolder &folder)
   {
     // Deepest towards its end on the gauge side; a shallow place on the field side.
@@ -687,6 +732,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_track(check, folder);
   check_dips(check);
   check_profiles(check, folder);
+  check_corrugation(check, folder);
   check_maps(check, folder);
   check_surfaces(check, folder);
   check_mesh(check);
