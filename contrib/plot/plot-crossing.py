@@ -4,7 +4,7 @@
 
     plot-crossing.py RUN [--at MM [MM ...]] [--y MM] [--output DIR]
 
-The run must have written patches.csv ('Output/Surface interval (mm)'). Written to RUN/pictures:
+The run must have written patches.csv ('Output/Patch interval (mm)'). Written to RUN/pictures:
   crossing-axis.png    pressure and longitudinal shear stress along the middle of the defect, for positions of the wheel
   crossing-stress.png  pressure and shear stress over the patch when each is largest at the trailing edge
   crossing-slip.png    where the patch slips and adheres, on the smooth rail, at the edges, and between them

@@ -8,7 +8,7 @@ thesis.
 
 Written to RUN/pictures (the first run's), each where its data is there:
   contact-force.png   normal force beside the static load and the twin, distances of its peaks; largest pressure, patch area
-  impact-patches.png  contact pressure at instants around the largest force (needs 'Output/Surface interval (mm)')
+  impact-patches.png  contact pressure at instants around the largest force (needs 'Output/Patch interval (mm)')
   strip.png           largest von Mises stress that the cells under the path have seen, its depth, plastic strain
   cells.png           von Mises stress and plastic strain of the chosen cells (needs 'Output/Cells')
   residual.png        residual von Mises stress and plastic strain along the rail (needs 'Output/Table depth (mm)')

@@ -403,7 +403,7 @@ namespace tread
                            scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along(),
                            scene.wheelset.has_flexible_axle()},
                           probes ? probes->centres().size() : 0);
-    if (scene.output.surface_interval > 0.)
+    if (scene.output.interval_of_patches() > 0.)
       folder.open_patches(wheels.size());
     checked_position = position();
     if (next_wheel_due && !begin_next_passage(progress))
@@ -531,8 +531,9 @@ namespace tread
     if (interval_ended(scene.output.history_interval))
       end_interval(folder);
     if (interval_ended(scene.output.surface_interval))
+      folder.write_surface(dynamics, contact, rail_body);
+    if (interval_ended(scene.output.interval_of_patches()))
       {
-        folder.write_surface(dynamics, contact, rail_body);
         const auto patches = patches_now();
         for (const RollingWheel &wheel : wheels)
           folder.append_patch(wheel.number, dynamics.time, wheel.hub.motion.x, patches[wheel.number]);

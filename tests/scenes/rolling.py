@@ -176,7 +176,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     elif what == "longer":
         # The same way in one part, and in two of which the first was a whole run.
-        longest = COARSE + ["Motion/Longest distance (mm)=20", "Output/Surface interval (mm)=0"]
+        longest = COARSE + ["Motion/Longest distance (mm)=20", "Output/Patch interval (mm)=1"]
         rolled = lambda mm: longest + [f"Motion/Rolled distance (mm)={mm}"]
         whole = run(program, SCENE, path("whole"), rolled(20))
         first = run(program, SCENE, path("parts"), rolled(9))
@@ -185,7 +185,9 @@ with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["cp", "-r", path("parts"), path("ranks")], check=True)
         again = run(program, SCENE, path("parts"), rolled(20), more=["--resume"])
         same("a longer way in two parts against one", again, whole, 1e-12)
-        for table_name in ("patch.csv", "patch_averaged.csv"):
+        check.that("a table of patches without pictures", len(set(table(path("whole"), "patches.csv")["position_mm"])) == 20
+                   and len([name for name in os.listdir(path("whole")) if re.fullmatch("surface-.*vtu", name)]) == 1)
+        for table_name in ("patch.csv", "patch_averaged.csv", "patches.csv"):
             texts = [open(os.path.join(path(name), table_name), encoding="utf-8").read() for name in ("parts", "whole")]
             check.that(f"the same {table_name}", texts[0] == texts[1] and texts[0].count("\n") > 10)
         rows = [table(path(name), "history.csv") for name in ("parts", "whole")]

@@ -212,7 +212,7 @@ class Run:
 
     @functools.cached_property
     def patches(self) -> list[Instant]:
-        """The contact patch on the way, of a scene with 'Output/Surface interval (mm)': for each instant of patches.csv (time_s,
+        """The contact patch on the way, of a scene with 'Output/Patch interval (mm)': for each instant of patches.csv (time_s,
         position_mm of the wheel, patch), x of the patch along the rail."""
         from .patches import read_patches
 

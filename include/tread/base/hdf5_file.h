@@ -122,7 +122,7 @@ namespace tread::hdf5
         const hsize_t chunk[2] = {std::min<hsize_t>(size[0], 16384), n_columns};
         check(H5Pset_chunk(how, rank, chunk));
         check(H5Pset_shuffle(how));
-        check(H5Pset_deflate(how, 4));
+        check(H5Pset_deflate(how, 1)); // higher levels take several times as long for a few per cent
       }
     const Handle dataset(
       H5Dcreate2(group, name.c_str(), type_of(Number()), space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);

@@ -43,6 +43,11 @@ namespace tread
                 "Rolled distance between pictures of the contact surface, with a table of all their patches, "
                 "patches.csv; 0: a picture of the solution instant only.",
                 Double(0.));
+    section.add(
+      "Patch interval (mm)", patch_interval,
+      "Rolled distance between the instants of patches.csv, with or without pictures: the table alone "
+      "costs next to nothing. 0: as the pictures.",
+      Double(0.));
     section.add("Volume interval (mm)", volume_interval,
                 "Rolled distance between pictures of the bodies; 0: the solution instant only.", Double(0.));
     section.add(

@@ -19,10 +19,17 @@ namespace tread
     std::string      cells;                                       ///< places of the cells of cells.csv
     double           strip_half_width = 3e-3;                     ///< 0: no strip.csv
     double           surface_interval = 0., volume_interval = 0.; ///< 0: the solution instant only
+    double           patch_interval      = 0.;                    ///< 0: that of the surface
     double           table_depth         = 0.;                    ///< 0: no tables of cells
     bool             write_volume        = true;
     PictureFormat    pictures            = PictureFormat::vtu;
     double           checkpoint_interval = 600.; ///< wall time, s; 0: only when interrupted
+
+    /// Way between two instants of patches.csv, m; 0: no table.
+    double interval_of_patches() const
+    {
+      return patch_interval > 0. ? patch_interval : surface_interval;
+    }
 
     void declare(dealii::ParameterHandler &handler);
   };
