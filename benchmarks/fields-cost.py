@@ -22,7 +22,7 @@ KINDS = {"nothing": {},
          "the table of the patch": {"Output/Patch interval (mm)": 0.5},
          "table and pictures, vtu": {"Output/Surface interval (mm)": 0.5, "Output/Pictures": "vtu"},
          "table and pictures, xdmf": {"Output/Surface interval (mm)": 0.5, "Output/Pictures": "xdmf"}}
-TURNS = 3
+TURNS = 2
 
 
 def rolling_seconds(summary: dict) -> float:
