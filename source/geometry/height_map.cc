@@ -92,39 +92,45 @@ namespace tread
         }
       catch (const std::exception &)
         {
-          throw InputError("cannot read '" + file + "' as a file of HDF5");
+          throw InputError("cannot read '" + file + "'" +
+                           (std::filesystem::is_regular_file(file) ? " as a file of HDF5" : ""));
         }
     }();
-    const auto numbers = [&](const std::string &name) {
+    const auto of_dataset = [&](const auto &read, const std::string &name) {
       try
         {
-          return hdf5::read(*opened, name);
+          return read(*opened, name);
         }
       catch (const std::exception &)
         {
-          throw InputError("'" + file + "' has no dataset of numbers '" + name + "'");
+          throw InputError("'" + file + "': the dataset of numbers '" + name +
+                           "' is not there, or cannot be read");
         }
     };
-    const hdf5::Numbers x = numbers("x_mm"), y = numbers("y_mm"), z = numbers("z_mm");
-    const auto          extents = [](const hdf5::Numbers &n) {
+    const auto x_size = of_dataset(hdf5::extents, "x_mm"), y_size = of_dataset(hdf5::extents, "y_mm"),
+               z_size   = of_dataset(hdf5::extents, "z_mm");
+    const auto in_words = [](const std::vector<hsize_t> &extents) {
       std::string text;
-      for (const hsize_t extent : n.extents)
+      for (const hsize_t extent : extents)
         text += (text.empty() ? "" : " x ") + std::to_string(extent);
       return text.empty() ? "a single number" : text;
     };
-    if (x.extents.size() != 1 || y.extents.size() != 1 ||
-        z.extents != std::vector<hsize_t>{y.extents[0], x.extents[0]})
+    if (x_size.size() != 1 || y_size.size() != 1 || z_size != std::vector<hsize_t>{y_size[0], x_size[0]} ||
+        y_size[0] < 2 || x_size[0] < 2)
       throw InputError("'" + file +
                        "': x_mm must have one dimension (n_x), y_mm one (n_y), z_mm two, (n_y, "
-                       "n_x); they are " +
-                       extents(x) + ", " + extents(y) + " and " + extents(z));
-    for (const auto &[name, values] : {std::pair("x_mm", &x), std::pair("y_mm", &y), std::pair("z_mm", &z)})
-      if (!std::all_of(values->values.begin(), values->values.end(),
-                       [](const double value) { return std::isfinite(value); }))
+                       "n_x), of two places at least; they are " +
+                       in_words(x_size) + ", " + in_words(y_size) + " and " + in_words(z_size));
+    const auto numbers = [&](const std::string &name) {
+      const std::vector<double> values = of_dataset(hdf5::read, name);
+      if (!std::all_of(values.begin(), values.end(), [](const double value) { return std::isfinite(value); }))
         throw InputError("'" + file + "': " + name + " has a value that is no finite number");
-    Rows rows{file, {}, {}, z.values};
-    for (const double place_y : y.values)
-      for (const double place_x : x.values)
+      return values;
+    };
+    const std::vector<double> x = numbers("x_mm"), y = numbers("y_mm");
+    Rows                      rows{file, {}, {}, numbers("z_mm")};
+    for (const double place_y : y)
+      for (const double place_x : x)
         {
           rows.x.push_back(place_x);
           rows.y.push_back(place_y);

@@ -12,29 +12,40 @@ namespace tread
 {
   void TimeLeft::add(const double seconds, const double measure)
   {
+    now = seconds;
     if (!(measure > 0.))
       return;
-    constexpr double anew      = 2.3; // logarithm of 10
-    const double     logarithm = std::log(measure);
-    if (!samples.empty() && logarithm > samples.back().logarithm + anew)
-      samples.clear();
-    samples.push_back({seconds, samples.empty() ? logarithm : std::min(logarithm, samples.back().logarithm)});
+    constexpr double      anew      = 2.3; // logarithm of 10
+    constexpr std::size_t swings    = 12;  // measures in which it swings at least once
+    const double          logarithm = std::log(measure);
+    if (!peaks.empty() && logarithm > peaks.back().logarithm + anew)
+      {
+        latest.clear();
+        peaks.clear();
+      }
+    latest.push_back({seconds, logarithm});
+    if (latest.size() > swings)
+      latest.erase(latest.begin());
+    peaks.push_back(*std::max_element(latest.begin(), latest.end(), [](const Sample &a, const Sample &b) {
+      return a.logarithm < b.logarithm;
+    }));
   }
 
 
   std::optional<double> TimeLeft::seconds() const
   {
     constexpr std::size_t least = 4;
-    if (samples.size() < least)
+    if (peaks.size() < least)
       return {};
-    const Sample &now   = samples.back();
-    auto          since = std::find_if(samples.rbegin(), samples.rend(),
-                                       [&](const Sample &before) { return before.logarithm >= now.logarithm + 1.; });
-    const Sample &then  = since == samples.rend() ? samples.front() : *since;
-    const double  rate  = (then.logarithm - now.logarithm) / (now.seconds - then.seconds);
+    const Sample &last  = peaks.back();
+    const auto    since = std::find_if(peaks.rbegin(), peaks.rend(), [&](const Sample &before) {
+      return before.logarithm >= last.logarithm + 1.;
+    });
+    const Sample &then  = since == peaks.rend() ? peaks.front() : *since;
+    const double  rate  = (then.logarithm - last.logarithm) / (last.seconds - then.seconds);
     if (!(rate > 0.) || !std::isfinite(rate))
       return {};
-    return std::max(0., (now.logarithm - std::log(limit)) / rate);
+    return std::max(0., last.seconds + (last.logarithm - std::log(limit)) / rate - now);
   }
 
 

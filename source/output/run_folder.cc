@@ -117,11 +117,21 @@ namespace tread
   }
 
 
-  void RunFolder::remove_summary() const
+  void RunFolder::remove_solution() const
   {
+    if (!writes_tables)
+      return;
     std::error_code ignored;
-    if (writes_tables)
-      std::filesystem::remove(path("summary.json"), ignored);
+    std::filesystem::remove(path("summary.json"), ignored);
+    static const std::regex of_solution(
+      "run\\.h5|(patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|rail_cells|"
+      "rail_surface|rail_seats|strip|peak_stress(_wheel)?)\\.csv");
+    std::vector<std::filesystem::path> old;
+    for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
+      if (std::regex_match(entry.path().filename().string(), of_solution))
+        old.push_back(entry.path());
+    for (const std::filesystem::path &path : old)
+      std::filesystem::remove(path, ignored);
   }
 
 

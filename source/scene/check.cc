@@ -153,6 +153,22 @@ namespace tread
       "wheel and rail touch at y = " + text_in_mm(first_contact().y) +
         " mm, beside the running surface: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
         "'Rail/Inclination'");
+    if (const auto &tread = surfaces().tread_offset)
+      {
+        // The flange of an upright wheel is cut off where it becomes steeper than 1:1: with the edge that is
+        // left it would touch as no wheel does.
+        constexpr double beside = 0.5e-3, steepest = 0.5; // m, tangent
+        const double     y = first_contact().y;
+        const double     slope =
+          std::max(std::abs(tread(y + beside) - tread(y)), std::abs(tread(y) - tread(y - beside))) / beside;
+        require(slope <= steepest,
+                "wheel and rail touch at y = " + text_in_mm(y) +
+                  " mm, at the root of the flange, where the tread "
+                  "is as steep as " +
+                  text_of(slope) +
+                  ": an upright wheel has no flange; change 'Wheel/Lateral "
+                  "position (mm)', or put the wheel into the track by 'Wheelset/Lateral shift (mm)'");
+      }
     if (has_narrow_head())
       require(std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
               "'Rail/Measured head' ends " + text_in_mm(surfaces().half_width) +
@@ -199,6 +215,11 @@ namespace tread
                   " lies outside the cubes of 'Mesh/Fine from (mm)' to 'Fine to (mm)', from " +
                   text_in_mm(fine.begin) + " to " + text_in_mm(fine.end) + " mm");
       }
+    constexpr double cells_of_ramp = 4.;
+    require(defect.ramp == 0. || defect.ramp >= cells_of_ramp * mesh.finest_cell,
+            "'Defect/Ramp (mm)' " + text_in_mm(defect.ramp) + " is a step between the nodes; at least " +
+              text_in_mm(cells_of_ramp * mesh.finest_cell) +
+              ", four times 'Mesh/Finest cell (mm)', or 0 for none");
     if (defect.shape == "corrugation")
       {
         // Six nodes a wave: fewer make another one of it.

@@ -450,6 +450,11 @@ namespace tread
                      1e-3 * normal_force, 1e-3 * load)
             : format("at the end nothing presses the wheel on the rail, of a load of %.2f kN: it has left it",
                      1e-3 * load));
+    if (const double averaged = position() - went_on_at; averaged < last_way)
+      warnings.push_back(
+        format("means over the last %.0f mm are those over %.2f mm, since the run went on: roll at "
+               "least %.0f mm more",
+               1e3 * last_way, 1e3 * averaged, 1e3 * last_way));
     // The patch at the end is compared as one on the finest cells.
     const double semi_axis = hertz(scene, scene.static_load()).semi_axis_x;
     if (const Scene::Range patch{scene.path_end() - semi_axis, scene.path_end() + semi_axis};

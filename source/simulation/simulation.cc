@@ -144,8 +144,12 @@ namespace tread
     archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
     double end = end_position;
     archive.same(end);
+    archive.same(went_on_at);
     if (end != end_position) // resumed for a longer way
-      forget_solution();
+      {
+        forget_solution();
+        went_on_at = position();
+      }
   }
 
 
@@ -370,12 +374,12 @@ namespace tread
     if (resume)
       {
         checkpoint.read(*this);
-        require(position() <= scene.path_end(), "--resume: the wheel has rolled " +
-                                                  text_in_mm(position() - scene.path_begin()) +
-                                                  " mm already; 'Motion/Rolled distance (mm)' " +
-                                                  text_in_mm(scene.motion.rolled_distance) + " is shorter");
-        if (folder.is_complete())
-          folder.remove_summary();
+        // The patch is averaged over a cell at the end.
+        const double last_cell = went_on_at == position() ? 0.5 * scene.mesh.finest_cell : 0.;
+        require(position() <= scene.path_end() - last_cell,
+                "--resume: the wheel has rolled " + text_in_mm(position() - scene.path_begin()) +
+                  " mm already; 'Motion/Rolled distance (mm)' " + text_in_mm(scene.motion.rolled_distance) +
+                  " is shorter, or longer by less than a cell");
       }
     seconds_before = wall_seconds;
 
@@ -398,13 +402,16 @@ namespace tread
       }
     std::ostringstream effective;
     scene.print(effective, true);
-    folder.write("parameters.prm", effective.str());
     folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
                            scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along(),
                            scene.wheelset.has_flexible_axle()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.interval_of_patches() > 0.)
       folder.open_patches(wheels.size());
+    // Nothing is refused any more.
+    if (resume && folder.is_complete())
+      folder.remove_solution();
+    folder.write("parameters.prm", effective.str());
     checked_position = position();
     if (next_wheel_due && !begin_next_passage(progress))
       return false;

@@ -262,6 +262,8 @@ namespace tread
                   1e3 * half_space.element_size, 1e-3 * half_space.normal_force, 1e6 * half_space.approach,
                   half_space.traction_coefficient);
     progress.say(text);
+    if (scene.made_defect())
+      progress.say("the defect is left out: half-space theory rolls over a smooth rail");
     progress.say(summary.table());
     if (!no_transient.empty())
       progress.say("no transient.csv, for a solver that knows one friction coefficient and like bodies: " +

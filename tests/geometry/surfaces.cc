@@ -315,7 +315,7 @@ namespace
     {
       const hdf5::Handle stream(hdf5::create(file), H5Fclose);
     }
-    refused("map of HDF5: without a dataset", "has no dataset of numbers 'x_mm'");
+    refused("map of HDF5: without a dataset", "the dataset of numbers 'x_mm' is not there");
     std::ofstream(file) << "x_mm,y_mm,z_mm\n";
     refused("map of HDF5: a text", "as a file of HDF5");
     std::remove(file.c_str());

@@ -18,6 +18,7 @@ import zlib
 from unittest import mock
 
 import matplotlib
+import h5py
 import numpy as np
 
 import tread
@@ -107,6 +108,9 @@ class Pictures(OfRuns):
         map_of = {"Defect/Shape": "map", "Defect/Position (mm)": "-5", "Defect/Length (mm)": "0", "Defect/Profile file": "map.csv"}
         self.assertEqual(extents_of_defects(map_of), [(-5, 35)])
         self.assertEqual(extents_of_defects({**map_of, "Defect/Profile file": "none", "Defect/Repeated at (mm)": "100"}), [(-5, None), (100, None)])
+        with h5py.File(self.path("map.h5"), "w") as stream:
+            stream["x_mm"] = [2., 12., 22.]
+        self.assertEqual(extents_of_defects({**map_of, "Defect/Profile file": self.path("map.h5")}), [(-5, 15)])
 
     def test_one_call_draws_what_is_there(self):
         run = self.write_run("run")

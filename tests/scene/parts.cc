@@ -491,6 +491,7 @@ namespace
     };
     refused("corrugation that ends in a step", "2.5 wavelengths", {"Defect/Length (mm)=50"});
     refused("waves shorter than its cells carry", "is lost between cells", {"Defect/Wavelength (mm)=3"});
+    refused("a ramp that is a step", "'Defect/Ramp (mm)' 1 is a step", {"Defect/Ramp (mm)=1"});
     refused("a ramp longer than half of it", "'Defect/Ramp (mm)' 31", {"Defect/Ramp (mm)=31"});
     refused("no wavelength", "'Defect/Wavelength (mm)'", {"Defect/Wavelength (mm)=0"});
 
@@ -505,6 +506,27 @@ namespace
     check.absolute("map with ramps: its beginning, mm", height(*channel, -20., 0.), 0., picometre);
     check.absolute("map with ramps: half of the ramp, mm", height(*channel, -15., 0.), -0.05, picometre);
     check.absolute("map with ramps: its middle, mm", height(*channel, 0., 0.), -0.1, picometre);
+    // Deepest where a ramp takes half of it: the depth is that which is left, or as given.
+    const std::string bowl = folder.write("bowl.txt", "0 0\n5 -0.1\n15 -0.1\n20 0\n");
+    const Settings    profile{"Defect/Shape=profile",     "Defect/Profile file=" + bowl,
+                           "Defect/Position (mm)=-10", "Defect/Lateral law=uniform",
+                           "Motion/Start (mm)=-30",    "Motion/Rolled distance (mm)=60",
+                           "Defect/Ramp (mm)=8"};
+    for (const auto &[depth, expected] : {std::pair("0", 0.), std::pair("0.3", 0.3)})
+      {
+        const auto scene  = scene_of(profile, {std::string("Defect/Depth (mm)=") + depth});
+        double     lowest = 0., highest = 0.;
+        for (double x = -10.; x <= 10.; x += 0.01)
+          {
+            lowest  = std::min(lowest, height(*scene, x, 0.));
+            highest = std::max(highest, height(*scene, x, 0.));
+          }
+        check.relative(std::string("profile with ramps: depth in words, of ") + depth + " mm, mm",
+                       1e3 * scene->made_defect()->depth, std::max(-lowest, highest), 1e-4);
+        if (expected > 0.)
+          check.relative("profile with ramps: as deep as given, mm", std::max(-lowest, highest), expected,
+                         1e-4);
+      }
     const std::string step = tests::complaint<InputError>([&] { scene_of(map); });
     check.that("the same without: \"" + step + "\"", step.find("a step") != std::string::npos);
   }

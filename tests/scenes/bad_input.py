@@ -264,6 +264,9 @@ with tempfile.TemporaryDirectory() as folder:
               ["Defect/Profile file", "60000 x 60000", "x 1 mm, y 0 mm", "is missing"])
     must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["--batch", "twice"])
 
+    for what in ([], ["--reference-only"]):
+        must_fail("the root of a flange that an upright wheel does not have", [*base, *what, "-s", "Wheel/Tread profile=S1002", "-s",
+                  "Wheel/Lateral position (mm)=20", "-s", "Rail/Inclination=1:40"], ["root of the flange", "Wheelset/Lateral shift (mm)"])
     must_fail("a sector that is too narrow for its fine zone", base + ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Wheel/Sector width (mm)=20"], ["Wheel/Sector width (mm)", "too small"])
 
     # Root may write anywhere but not below a file.

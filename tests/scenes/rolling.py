@@ -201,6 +201,20 @@ with tempfile.TemporaryDirectory() as folder:
         fails("longer than its rail is meshed for", arguments_of(SCENE, rolled(21), path("other")) + ["--resume"], ["Longest distance", "20", "21"])
         fails("other physics", arguments_of(SCENE, rolled(20), path("other")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
+        with open(path("other/history.csv"), encoding="utf-8") as stream:
+            lines = stream.readlines()
+        with open(path("other/history.csv"), "w", encoding="utf-8") as stream:
+            stream.writelines(lines[:-1])
+        kept = [open(path(f"other/{name}"), encoding="utf-8").read() for name in ("summary.json", "parameters.prm")]
+        fails("a table that was changed", arguments_of(SCENE, rolled(20), path("other")) + ["--resume"], ["history.csv"])
+        check.that("what is refused leaves the whole run as it was",
+                   kept == [open(path(f"other/{name}"), encoding="utf-8").read() for name in ("summary.json", "parameters.prm")])
+        with open(path("other/history.csv"), "w", encoding="utf-8") as stream:
+            stream.writelines(lines)
+        fails("longer by next to nothing", arguments_of(SCENE, rolled(9.8), path("other")) + ["--resume"], ["less than a cell"])
+        little = run(program, SCENE, path("other"), rolled(12), more=["--resume"])
+        check.that("means over less than usual are warned of", any("means over the last 10 mm" in line for line in little["warnings"])
+                   and not any("means over" in line for line in again["warnings"]))
         fails("several passages", arguments_of(SCENE, rolled(9), path("fresh")) + ["-s", "Motion/Passages=2"], ["Longest distance", "Passages"])
 
     elif what == "resume":

@@ -7,12 +7,18 @@ import glob
 import os
 from collections.abc import Mapping
 
+import h5py
+import numpy as np
+
 from .runs import ROOT
 
 
 def profile_length(name: str) -> float | None:
     """Length of a profile's or a map's file in mm, looked for here and beside the shipped scenes; None if it is not found or not understood."""
     for path in [name, *glob.glob(os.path.join(ROOT, "prm", "*", name))]:
+        if os.path.isfile(path) and path.endswith((".h5", ".hdf5")):
+            with h5py.File(path) as stream:
+                return float(np.ptp(stream["x_mm"][:]))
         if os.path.isfile(path):
             with open(path, encoding="utf-8") as stream:
                 lines = [line.replace(",", " ").split() for line in stream if line.strip() and not line.startswith("#")]

@@ -62,26 +62,29 @@ namespace tread::hdf5
     return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   }
 
-  /// The numbers of a dataset of a file, the last index running fastest, and its extents.
-  struct Numbers
-  {
-    std::vector<hsize_t> extents;
-    std::vector<double>  values;
-  };
-
-  inline Numbers read(const hid_t file, const std::string &name)
+  /// Extents of a dataset of a file.
+  inline std::vector<hsize_t> extents(const hid_t file, const std::string &name)
   {
     const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose),
       space(H5Dget_space(dataset), H5Sclose);
     const int rank = H5Sget_simple_extent_ndims(space);
     check(rank);
-    Numbers numbers;
-    numbers.extents.resize(rank);
-    check(H5Sget_simple_extent_dims(space, numbers.extents.data(), nullptr));
-    numbers.values.resize(H5Sget_simple_extent_npoints(space));
-    if (!numbers.values.empty())
-      check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.values.data()));
-    return numbers;
+    std::vector<hsize_t> sizes(rank);
+    check(H5Sget_simple_extent_dims(space, sizes.data(), nullptr));
+    return sizes;
+  }
+
+  /// Its numbers, the last index running fastest.
+  inline std::vector<double> read(const hid_t file, const std::string &name)
+  {
+    std::size_t n = 1;
+    for (const hsize_t size : extents(file, name))
+      n *= size;
+    const Handle        dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    std::vector<double> values(n);
+    if (n > 0)
+      check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    return values;
   }
 
   inline hid_t create_group(const hid_t parent, const std::string &name)

@@ -9,8 +9,8 @@
 
 namespace tread
 {
-  /// Time left until a measure that falls to a limit, faster here and slower there, has reached it: at the
-  /// mean rate since it was e times as large, or from the beginning on.
+  /// Time left until a measure that swings while it falls has reached a limit: its peaks fall at the mean
+  /// rate since they were e times as large, or from the beginning on.
   class TimeLeft
   {
   public:
@@ -29,10 +29,11 @@ namespace tread
   private:
     struct Sample
     {
-      double seconds, logarithm; ///< of the least measure until then
+      double seconds, logarithm;
     };
-    double              limit;
-    std::vector<Sample> samples;
+    double              limit, now = 0.;
+    std::vector<Sample> latest; ///< measures
+    std::vector<Sample> peaks;  ///< the largest of the latest, with its time
   };
 
 

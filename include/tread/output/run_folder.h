@@ -52,8 +52,8 @@ namespace tread
     /// Remove all files of an earlier run that could be mistaken for those of the new one.
     void remove_results() const;
 
-    /// Remove the summary, which says that a run is complete: it goes on.
-    void remove_summary() const;
+    /// Remove what tells of the solution instant of a run that is complete, the summary first: it goes on.
+    void remove_solution() const;
 
     /// Write text to a file of the folder through a temporary one, so that it is either complete or absent.
     void write(const std::string &name, const std::string &text) const;

@@ -22,6 +22,7 @@
 
 #include <mpi.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -206,7 +207,8 @@ namespace tread
     std::unique_ptr<CellProbes>  probes;                  ///< none: no table
     std::unique_ptr<StressPeaks> rail_peaks, wheel_peaks; ///< none: no tables
 
-    double end_position; ///< of the first wheel, m
+    double end_position;                                       ///< of the first wheel, m
+    double went_on_at = std::numeric_limits<double>::lowest(); ///< x where it was resumed for a longer way, m
     bool   torque_released = false, solution_taken = false;
     bool   starts_with_tractions = false; ///< those that half-space theory predicts
 
