@@ -375,11 +375,11 @@ namespace tread
       {
         checkpoint.read(*this);
         // The patch is averaged over a cell at the end.
-        const double last_cell = went_on_at == position() ? 0.5 * scene.mesh.finest_cell : 0.;
-        require(position() <= scene.path_end() - last_cell,
-                "--resume: the wheel has rolled " + text_in_mm(position() - scene.path_begin()) +
-                  " mm already; 'Motion/Rolled distance (mm)' " + text_in_mm(scene.motion.rolled_distance) +
-                  " is shorter, or longer by less than a cell");
+        if (went_on_at == position())
+          require(position() <= scene.path_end() - 0.5 * scene.mesh.finest_cell,
+                  "--resume: the wheel has rolled " + text_in_mm(position() - scene.path_begin()) +
+                    " mm already; 'Motion/Rolled distance (mm)' " + text_in_mm(scene.motion.rolled_distance) +
+                    " is shorter, or longer by less than a cell");
       }
     seconds_before = wall_seconds;
 
