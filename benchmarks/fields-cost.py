@@ -6,12 +6,11 @@ millimetre, with pictures of the surface too, and without, in turn.
 Fills the table of doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
 """
 
-import functools
 import glob
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import in_turn, run_scene
+from tread.measured_runs import in_turn, rolling_seconds, run_scene
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
 
@@ -25,11 +24,6 @@ KINDS = {"nothing": {},
 TURNS = 2
 
 
-def rolling_seconds(summary: dict) -> float:
-    """From the end of the start to the end of the run; what a run has kept is written in that time."""
-    return summary["wall_s"] - summary["wall_s_start"]
-
-
 def size_of(folder: str, pattern: str) -> float:
     """Of the files of a folder, MB."""
     return sum(os.path.getsize(path) for path in glob.glob(os.path.join(folder, pattern))) / 1e6
@@ -40,8 +34,8 @@ def main() -> None:
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/fields-cost"))
     arguments = parser.parse_args()
     folder = lambda kind, turn: os.path.join(arguments.results, f"{list(KINDS).index(kind)}-{turn}")
-    best = in_turn(TURNS, {kind: functools.partial(lambda turn, kind, more: run_scene(SCENE, folder(kind, turn), {**SETTINGS, **more}, 1),
-                                                   kind=kind, more=more) for kind, more in KINDS.items()}, rolling_seconds)
+    best = in_turn(TURNS, {kind: lambda turn, kind=kind: run_scene(SCENE, folder(kind, turn), {**SETTINGS, **KINDS[kind]}, 1) for kind in KINDS},
+                   rolling_seconds)
     rows = []
     for kind, summary in best.items():
         sizes = {name: size_of(folder(kind, 0), pattern) for name, pattern in

@@ -11,7 +11,7 @@ import functools
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import available_ranks, dry_run, in_turn, run_scene
+from tread.measured_runs import available_ranks, dry_run, in_turn, rolling_seconds, run_scene
 from tread.files import Error
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
@@ -45,10 +45,6 @@ def largest_change(summary, base, keys):
     changed = {key: 100 * (summary[key] / base[key] - 1) for key in keys}
     worst = max(changed, key=lambda key: abs(changed[key]))
     return changed[worst], worst
-
-
-def rolling_seconds(summary):
-    return summary["wall_s"] - summary["wall_s_start"]
 
 
 def main():

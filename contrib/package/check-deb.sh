@@ -230,7 +230,7 @@ END
 picture()
 {
   as_user '/usr/share/tread/contrib/plot/plot-run.py one && ls one/pictures/*.png' || return
-  found="$(find "$root/home/rail/work/one/pictures" -name '*.png' | wc -l) pictures"
+  found="$(as_user 'ls one/pictures/*.png' | wc -l) pictures"
 }
 
 manual_page()
@@ -242,10 +242,10 @@ manual_page()
 project_in_c()
 {
   install install cmake make gcc libc6-dev || return
-  cp -r "$here/../../tests/scenes/outside_project" "$root/home/rail/work/" || return
+  cp -r "$here/../../tests/scenes/outside_project" "$root/tmp/" || return
   local version
   version=$(field Version)
-  as_user "cmake -S outside_project -B build -D TREAD_VERSION=${version%.*} && cmake --build build" || return
+  as_user "cmake -S /tmp/outside_project -B build -D TREAD_VERSION=${version%.*} && cmake --build build" || return
   found=$(as_user 'build/outside | head -n 1') || return
   echo "outside: $found"
   # Status, Kalker's coefficient C11 (4.12; 16 elements make 1.7 % of it), message.

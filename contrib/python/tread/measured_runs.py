@@ -80,6 +80,11 @@ def steps_seconds(summary: Mapping[str, float]) -> float:
     return sum(summary[f"wall_s_{part}"] for part in ("internal_forces", "contact", "communication", "nodes"))
 
 
+def rolling_seconds(summary: Mapping[str, float]) -> float:
+    """From the end of the start to the end of the run, with what it writes on the way."""
+    return summary["wall_s"] - summary["wall_s_start"]
+
+
 def dry_run(scene: str, settings: Mapping[str, object], ranks: int = 1) -> dict[str, float]:
     """What --dry-run says: {what: number}."""
     result = must_end_well(execute([*arguments_of(shipped(scene), settings), "--dry-run"], ranks))
