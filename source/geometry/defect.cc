@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace tread
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
+    using std::numbers::pi;
 
     /// max(p, 0) with its kink replaced by a parabola between -half and half.
     double rounded_ramp(const double p, const double half)
@@ -66,8 +67,6 @@ namespace tread
   std::function<double(double, double)> with_ramps(std::function<double(double, double)> shape,
                                                    const double                          ramp)
   {
-    if (ramp == 0.)
-      return shape;
     return [=](const double u, const double v) {
       const double from_end = std::min(u, 1. - u);
       return from_end <= 0.     ? 0.

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <utility>
 
 namespace tread
@@ -85,10 +84,10 @@ namespace tread
 
   HeightMap::Rows HeightMap::read_hdf5(const std::string &file)
   {
-    const auto opened = [&] {
+    const hdf5::Handle opened = [&] {
       try
         {
-          return std::make_unique<const hdf5::Handle>(hdf5::open(file), H5Fclose);
+          return hdf5::Handle(hdf5::open(file), H5Fclose);
         }
       catch (const std::exception &)
         {
@@ -99,7 +98,7 @@ namespace tread
     const auto of_dataset = [&](const auto &read, const std::string &name) {
       try
         {
-          return read(*opened, name);
+          return read(opened, name);
         }
       catch (const std::exception &)
         {

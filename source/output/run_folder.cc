@@ -100,20 +100,26 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// Remove the files of a folder, and nothing else that is in it, whose names are such.
+    void remove_files(const std::string &folder, const std::function<bool(const std::string &)> &are_such)
+    {
+      std::error_code                    ignored;
+      std::vector<std::filesystem::path> old;
+      for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
+        if (are_such(entry.path().filename()) && entry.is_regular_file(ignored))
+          old.push_back(entry.path());
+      for (const std::filesystem::path &path : old)
+        std::filesystem::remove(path, ignored);
+    }
+  } // namespace
+
+
   void RunFolder::remove_results() const
   {
-    if (!writes_tables)
-      return;
-    std::error_code                    ignored;
-    std::vector<std::filesystem::path> old;
-    for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
-      {
-        const std::string name = entry.path().filename();
-        if (is_own(name) && entry.is_regular_file(ignored))
-          old.push_back(entry.path());
-      }
-    for (const std::filesystem::path &path : old)
-      std::filesystem::remove(path, ignored);
+    if (writes_tables)
+      remove_files(folder, is_own);
   }
 
 
@@ -126,12 +132,7 @@ namespace tread
     static const std::regex of_solution(
       "run\\.h5|(patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|rail_cells|"
       "rail_surface|rail_seats|strip|peak_stress(_wheel)?)\\.csv");
-    std::vector<std::filesystem::path> old;
-    for (const auto &entry : std::filesystem::directory_iterator(folder, ignored))
-      if (std::regex_match(entry.path().filename().string(), of_solution))
-        old.push_back(entry.path());
-    for (const std::filesystem::path &path : old)
-      std::filesystem::remove(path, ignored);
+    remove_files(folder, [](const std::string &name) { return std::regex_match(name, of_solution); });
   }
 
 

@@ -47,6 +47,7 @@ namespace tread
       place += size;
       return content.substr(place - size, size);
     }
+
     /// Values by Section/Name, all but those of the output.
     std::map<std::string, std::string> settings_in(std::istream &&text)
     {

@@ -26,9 +26,10 @@ namespace tread
               "'Defect/Rounded leading edge (mm)' and 'Rounded trailing edge (mm)' must be at most half of "
               "'Defect/Length (mm)', " +
                 text_in_mm(0.5 * length));
-      auto defect   = std::make_shared<Defect>();
-      defect->width = section.width > 0. ? section.width : length;
-      defect->shape = dip(section.leading_rounding / length, section.trailing_rounding / length);
+      auto defect    = std::make_shared<Defect>();
+      defect->length = length;
+      defect->width  = section.width > 0. ? section.width : length;
+      defect->shape  = dip(section.leading_rounding / length, section.trailing_rounding / length);
       return defect;
     }
 
@@ -229,8 +230,6 @@ namespace tread
       entry_named(defect_shapes(), shape, "defect shape").make(*this, file);
     if (!defect)
       return nullptr;
-    if (length > 0.)
-      defect->length = length;
     if (depth > 0.)
       defect->depth = depth;
     require(defect->depth <= deepest, "'Defect/Profile file': " + text_in_mm(defect->depth) +

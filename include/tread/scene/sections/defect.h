@@ -16,7 +16,7 @@ namespace tread
   struct DefectShape
   {
     std::string name, description;
-    /// Null: there is none. @param section the parameters that the user has set; position, length and depth
+    /// Null: there is none. @param section the parameters that the user has set; position and depth
     /// are set afterwards where they are given. @param file where the profile file was found
     /// @throws InputError
     std::shared_ptr<Defect> (*make)(const DefectSection &section, const std::string &file);
