@@ -5,8 +5,10 @@
   pvpython contrib/paraview/tread.py RUN_DIR          writes RUN_DIR/pictures/paraview.png
   paraview --script=contrib/paraview/tread.py         the same in the window; start it in RUN_DIR, or
                                                       name the folder in the variable TREAD_RUN
-  /usr/bin/python3 contrib/paraview/tread.py RUN_DIR  without ParaView: reads the files with VTK, prints
+  /usr/bin/python3 contrib/paraview/tread.py RUN_DIR  without ParaView: reads the .vtu files with VTK, prints
                                                       every field's range, draws RUN_DIR/pictures/cut.png
+
+ParaView as Debian has it draws with a display only; without one: xvfb-run -a pvpython ...
 """
 
 import glob
@@ -23,15 +25,19 @@ def find_field(names, word):
 
 
 # ---------------------------------------------------------------- with ParaView
-def show_in_paraview(pvd_files, picture):
+def show_in_paraview(lists, picture):
     import paraview.simple as pv
 
     layout = pv.CreateLayout("tread")
     shown = 0
-    for pvd in pvd_files:
-        reader = pv.PVDReader(FileName=pvd)
-        times = list(reader.TimestepValues) if reader.TimestepValues else [0.0]
-        reader.UpdatePipeline(times[-1])
+    for name in lists:
+        reader = pv.Xdmf3ReaderS(FileName=[name]) if name.endswith(".xdmf") else pv.PVDReader(FileName=name)
+        steps = reader.TimestepValues  # a number where there is one only
+        last = steps[-1] if hasattr(steps, "__len__") and len(steps) else steps or 0.0
+        scene = pv.GetAnimationScene()
+        scene.UpdateAnimationUsingDataTimeSteps()
+        scene.AnimationTime = last  # before the views: a range of colours is that of their time
+        reader.UpdatePipeline(last)
         for word, cut in (("von_mises", True), ("pressure", False)):
             field, where = None, None
             for where, data in (("POINTS", reader.PointData), ("CELLS", reader.CellData)):
@@ -49,7 +55,9 @@ def show_in_paraview(pvd_files, picture):
             if cut:
                 source = pv.Slice(Input=reader, SliceType="Plane")
                 source.SliceType.Origin, source.SliceType.Normal = [0, 1e-9, 0], [0, 1, 0]
+            view.ViewTime = last
             display = pv.Show(source, view)
+            pv.Render(view)
             pv.ColorBy(display, (where, field))
             display.RescaleTransferFunctionToDataRange(True, False)
             colours = pv.GetColorTransferFunction(field)
@@ -59,15 +67,15 @@ def show_in_paraview(pvd_files, picture):
             bar.Orientation, bar.WindowLocation = "Horizontal", "Lower Center"
             bar.TitleFontSize, bar.LabelFontSize, bar.ScalarBarLength = 16, 14, 0.5
             bar.TitleColor = bar.LabelColor = [0, 0, 0]
-            focus = peak_in_paraview(pv, source, field, where)
+            bar.DrawBackground, bar.BackgroundColor, bar.BackgroundPadding = 1, [1, 1, 1, 0.7], 5
+            focus = peak_in_paraview(pv, source, field, where, last)
             view.CameraParallelProjection, view.CameraParallelScale = 1, HALF_WIDTH
             view.CameraFocalPoint = focus
             view.CameraPosition = [focus[0], focus[1] - 1, focus[2]] if cut else [focus[0], focus[1], focus[2] + 1]
             view.CameraViewUp = [0, 0, 1] if cut else [0, 1, 0]
-            view.ViewTime = times[-1]
             shown += 1
     if not shown:
-        sys.exit("tread.py: no field 'von Mises' or 'pressure' in " + ", ".join(pvd_files))
+        sys.exit("tread.py: no field 'von Mises' or 'pressure' in " + ", ".join(lists))
     if picture:
         layout.SetSize(1800, 800)
     pv.RenderAllViews()
@@ -76,12 +84,15 @@ def show_in_paraview(pvd_files, picture):
         print(picture)
 
 
-def peak_in_paraview(pv, source, field, where):
+def peak_in_paraview(pv, source, field, where, time):
     """Where the field is largest."""
     from vtkmodules.numpy_interface import dataset_adapter
     from paraview import servermanager
 
-    data = servermanager.Fetch(pv.MergeBlocks(Input=source))
+    merged = pv.MergeBlocks(Input=source)
+    merged.UpdatePipeline(time)
+    data = servermanager.Fetch(merged)
+    pv.Delete(merged)
     return peak(dataset_adapter.WrapDataObject(data), field, where == "CELLS")
 
 
@@ -123,11 +134,11 @@ def read_with_vtk(files):
     return merged.GetOutput()
 
 
-def show_with_vtk(pvd_files, folder):
+def show_with_vtk(lists, folder):
     import numpy as np
     from vtkmodules.numpy_interface import dataset_adapter
 
-    for pvd in pvd_files:
+    for pvd in lists:
         time, files = files_of_last_step(pvd)
         grid = read_with_vtk(files)
         print(f"{pvd}: {grid.GetNumberOfCells()} cells, {grid.GetNumberOfPoints()} points at {time:g} s")
@@ -188,23 +199,27 @@ def draw_cut(grid, picture):
 def main():
     arguments = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
     run = arguments[0] if arguments else os.environ.get("TREAD_RUN", ".")
-    pvd_files = sorted(glob.glob(os.path.join(run, "*.pvd")))
-    if not pvd_files:
-        sys.exit(f"tread.py: no .pvd file in {run}")
+    lists = sorted(glob.glob(os.path.join(run, "*.pvd")) + glob.glob(os.path.join(run, "*.xdmf")))
+    if not lists:
+        sys.exit(f"tread.py: no .pvd or .xdmf file in {run}")
     pictures = os.path.join(run, "pictures")
     batch = bool(arguments)
     try:
         import paraview
-        # Without a display ParaView's own Python ends with a fault of memory; pvbatch and pvpython may draw off the screen.
-        alone = batch and not os.environ.get("DISPLAY") and os.path.basename(sys.executable).startswith("python")
+        import vtkmodules.vtkRenderingOpenGL2
+        from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+        # A ParaView that draws with X only, as Debian's, ends with a fault of memory without a display.
+        alone = batch and not os.environ.get("DISPLAY") and vtkRenderWindow().GetClassName() == "vtkXOpenGLRenderWindow"
     except ImportError:
         alone = True
     if alone:
-        show_with_vtk(pvd_files, pictures)
+        show_with_vtk([name for name in lists if name.endswith(".pvd")]
+                      or sys.exit(f"tread.py: {run} has pictures in XDMF only, for which ParaView needs a display, as by xvfb-run"), pictures)
         return
     if batch:
         os.makedirs(pictures, exist_ok=True)
-    show_in_paraview(pvd_files, os.path.join(pictures, "paraview.png") if batch else None)
+    show_in_paraview(lists, os.path.join(pictures, "paraview.png") if batch else None)
 
 
 main()

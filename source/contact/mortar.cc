@@ -281,29 +281,20 @@ namespace tread
       AtPoints slave_slave_at[4][4] = {}, covered_at[4] = {};
       for (const Piece &piece : pieces)
         {
-          AtPoints       slave_master_at[4][4] = {};
-          const Polygon &polygon               = piece.polygon;
-          for (unsigned int i = 1; i + 1 < polygon.size(); ++i)
-            {
-              const Plane2 a = polygon[0], b = polygon[i], c = polygon[i + 1];
-              const double area = 0.5 * cross(a, b, c);
-              if (area <= 0.)
-                continue;
-              const auto    &q = triangle_points;
-              const AtPoints s = q[0] * a.s + q[1] * b.s + q[2] * c.s,
-                             t = q[0] * a.t + q[1] * b.t + q[2] * c.t;
-              const auto N = corners.shape_at(s, t), N_master = piece.corners.shape_at(s, t);
-              for (unsigned int j = 0; j < 4; ++j)
-                {
-                  const AtPoints w = area * triangle_weights * N[j];
-                  covered_at[j] += w;
-                  for (unsigned int k = 0; k < 4; ++k)
-                    {
-                      slave_slave_at[j][k] += w * N[k];
-                      slave_master_at[j][k] += w * N_master[k];
-                    }
-                }
-            }
+          AtPoints slave_master_at[4][4] = {};
+          with_points_of(piece.polygon, [&](const AtPoints s, const AtPoints t, const AtPoints weight) {
+            const auto N = corners.shape_at(s, t), N_master = piece.corners.shape_at(s, t);
+            for (unsigned int j = 0; j < 4; ++j)
+              {
+                const AtPoints w = weight * N[j];
+                covered_at[j] += w;
+                for (unsigned int k = 0; k < 4; ++k)
+                  {
+                    slave_slave_at[j][k] += w * N[k];
+                    slave_master_at[j][k] += w * N_master[k];
+                  }
+              }
+          });
           double slave_master[4][4];
           for (unsigned int j = 0; j < 4; ++j)
             for (unsigned int k = 0; k < 4; ++k)

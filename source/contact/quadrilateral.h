@@ -18,8 +18,7 @@ namespace tread
     double s, t;
   };
 
-  /// A value at each point of a triangle's quadrature rule; six of eight count,
-  /// the last two repeat the sixth with no weight.
+  /// A value at each point of a quadrature rule.
   typedef double AtPoints __attribute__((vector_size(64)));
 
   inline double total(const AtPoints value)
@@ -172,13 +171,67 @@ namespace tread
   }
 
   // Symmetric rule of degree 4 with 6 points on a triangle (Dunavant 1985): barycentric coordinates,
-  // weights.
+  // weights; the last two of eight repeat the sixth with no weight.
   constexpr double near_1 = 0.108103018168070, far_1 = 0.445948490915965, near_2 = 0.816847572980459,
                    far_2 = 0.091576213509771, weight_1 = 0.223381589678011, weight_2 = 0.109951743655322;
   constexpr AtPoints triangle_points[3] = {{near_1, far_1, far_1, near_2, far_2, far_2, far_2, far_2},
                                            {far_1, near_1, far_1, far_2, near_2, far_2, far_2, far_2},
                                            {far_1, far_1, near_1, far_2, far_2, near_2, near_2, near_2}},
                      triangle_weights   = {weight_1, weight_1, weight_1, weight_2, weight_2, weight_2};
+
+  // Symmetric rule of degree 5 with 8 points on the square from -1 to 1 (Burnside 1908), weights over its
+  // area.
+  constexpr double   on_axis = 0.68313005106397323, off_axis = 0.88191710368819686; // sqrt(7/15), sqrt(7/9)
+  constexpr AtPoints square_points[2] = {{on_axis, -on_axis, 0., 0., off_axis, -off_axis, -off_axis,
+                                          off_axis},
+                                         {0., 0., on_axis, -on_axis, off_axis, off_axis, -off_axis,
+                                          -off_axis}},
+                     square_weights   = {10. / 49., 10. / 49., 10. / 49., 10. / 49.,
+                                         9. / 196., 9. / 196., 9. / 196., 9. / 196.};
+
+  /// Call add(s, t, weight) with points and weights that integrate over a polygon. They do not depend on the
+  /// corner at which it begins, so that the mirror image of a contact has the mirror image of its forces.
+  template <typename Add>
+  void with_points_of(const Polygon &polygon, const Add &add)
+  {
+    const auto with_triangle = [&](const Plane2 a, const Plane2 b, const Plane2 c) {
+      const double area = 0.5 * cross(a, b, c);
+      const auto  &q    = triangle_points;
+      if (area > 0.)
+        add(q[0] * a.s + q[1] * b.s + q[2] * c.s, q[0] * a.t + q[1] * b.t + q[2] * c.t,
+            area * triangle_weights);
+    };
+    const unsigned int n = polygon.size();
+    if (n == 3)
+      {
+        with_triangle(polygon[0], polygon[1], polygon[2]);
+        return;
+      }
+    Plane2 middle{0., 0.};
+    for (const Plane2 &corner : polygon)
+      middle = {middle.s + corner.s / n, middle.t + corner.t / n};
+    if (n == 4)
+      {
+        const Plane2 a = polygon[0], b = polygon[1], c = polygon[2], d = polygon[3];
+        // Halves of its middle lines, and how much its sides are out of parallel: the rule is exact for
+        // parallelograms.
+        const Plane2 u{0.25 * (b.s + c.s - a.s - d.s), 0.25 * (b.t + c.t - a.t - d.t)},
+          v{0.25 * (c.s + d.s - a.s - b.s), 0.25 * (c.t + d.t - a.t - b.t)},
+          w{0.25 * (a.s - b.s + c.s - d.s), 0.25 * (a.t - b.t + c.t - d.t)};
+        const double area = 4. * (u.s * v.t - u.t * v.s), by_u = 4. * (u.s * w.t - u.t * w.s),
+                     by_v       = 4. * (w.s * v.t - w.t * v.s);
+        constexpr double nearly = 0.01;
+        if (std::abs(by_u) + std::abs(by_v) < nearly * area)
+          {
+            const AtPoints x = square_points[0], y = square_points[1];
+            add(middle.s + u.s * x + v.s * y + w.s * x * y, middle.t + u.t * x + v.t * y + w.t * x * y,
+                square_weights * (area + by_u * x + by_v * y));
+            return;
+          }
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      with_triangle(middle, polygon[i], polygon[i + 1 < n ? i + 1 : 0]);
+  }
 } // namespace tread
 
 #endif

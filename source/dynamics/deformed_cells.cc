@@ -118,7 +118,7 @@ namespace tread
               }
             stretch = std::max(stretch, change);
             fastest =
-              std::max(fastest, change * std::ldexp(solid.cell_frequencies()[c], solid.cell_levels()[c]));
+              std::max(fastest, change * solid.cell_frequencies()[c] * (1u << solid.cell_levels()[c]));
           }
       }
     if (const double least = min(least_volume, mesh.comm); least <= 0.)

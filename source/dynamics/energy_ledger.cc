@@ -7,6 +7,27 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Sum of of_run(run, factor)(i) over the nodes i of all ranks that do not hang, each of them once: those
+    /// of a run are on the same wheel or on none and move in time steps of the same factor. Collective.
+    template <typename OfRun>
+    double sum_by_runs(const NodeLevels &levels, const MPI_Comm comm, const OfRun &of_run)
+    {
+      ReproducibleSum<double> sum;
+      for (unsigned int level = 0; level <= levels.max_level(); ++level)
+        for (const NodeLevels::Run &run : levels.runs[level])
+          if (run.is_owned)
+            {
+              const auto of_node = of_run(run, std::ldexp(1., level));
+              for (unsigned int i = run.begin; i < run.end; ++i)
+                sum.add(of_node(i));
+            }
+      return sum.value(comm);
+    }
+  } // namespace
+
+
   double EnergyLedger::residual_share() const
   {
     return gross_work > 0. ? residual() / gross_work : 0.;
@@ -46,11 +67,11 @@ namespace tread
 
   double ExplicitDynamics::power_of(const NodalField &forces) const
   {
-    ReproducibleSum<double> of_nodes;
-    for (unsigned int i = 0; i < v.size(); ++i)
-      if (mesh.shared_nodes.is_owned(i))
-        of_nodes.add(dot(v[i], forces[i]));
-    return of_nodes.value(mesh.comm);
+    return sum_by_runs(levels, mesh.comm, [&](const Run &, const double) {
+      return [&](const unsigned int i) {
+        return dot(v[i], forces[i]);
+      };
+    });
   }
 
 
@@ -93,16 +114,12 @@ namespace tread
     if (supports)
       supports->add_spring_forces(forces.data());
     mesh.shared_nodes.sum(forces.data());
-    ReproducibleSum<double> of_nodes;
-    for (unsigned int i = 0; i < v.size(); ++i)
-      if (mesh.shared_nodes.is_owned(i))
-        {
-          double energy = 0.5 * std::ldexp(time_step, levels.of_node[i]) * dot(forces[i], v[i]);
-          if (inverse_mass[i] > 0.)
-            energy += 0.5 / inverse_mass[i] * dot(v[i], v[i]);
-          of_nodes.add(energy);
-        }
-    double energy = of_nodes.value(mesh.comm);
+    double energy = sum_by_runs(levels, mesh.comm, [&](const Run &, const double factor) {
+      return [&, back = 0.5 * factor * time_step](const unsigned int i) {
+        const double of_forces = back * dot(forces[i], v[i]);
+        return inverse_mass[i] > 0. ? of_forces + 0.5 / inverse_mass[i] * dot(v[i], v[i]) : of_forces;
+      };
+    });
     if (supports)
       energy += supports->sleeper_kinetic_energy(time_step);
     for (const Wheel &wheel : wheels)
@@ -123,23 +140,24 @@ namespace tread
   double ExplicitDynamics::body_potential() const
   {
     // Evaluated at the instant of the velocities, half a step back, up to which work is counted.
-    ReproducibleSum<double> of_nodes;
-    for (unsigned int i = 0; i < v.size(); ++i)
-      if (inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
+    const double potential = sum_by_runs(levels, mesh.comm, [&](const Run &run, const double factor) {
+      double  of_arm = 0.;
+      Vector3 middle{}, axle{};
+      if (run.wheel >= 0)
         {
-          const double  back   = 0.5 * std::ldexp(time_step, levels.of_node[i]);
-          const Vector3 before = position(i) - back * v[i];
-          double        energy = true_mass[i] * parameters.gravity * before[2];
-          if (const int number = wheel_of(i); number >= 0)
-            {
-              const Wheel    &wheel = wheels[number];
-              const WheelHub &hub   = *wheel.hub;
-              const Vector3   arm   = hub.off_axle(before - hub.middle() + back * hub.velocity());
-              energy += 0.5 * compensation(wheel) * parameters.density_scale * true_mass[i] * dot(arm, arm);
-            }
-          of_nodes.add(energy);
+          const Wheel &wheel = wheels[run.wheel];
+          of_arm             = 0.5 * compensation(wheel) * parameters.density_scale;
+          middle             = wheel.hub->middle() - 0.5 * factor * time_step * wheel.hub->velocity();
+          axle               = wheel.hub->axle();
         }
-    const double potential = of_nodes.value(mesh.comm);
+      return [=, this, back = 0.5 * factor * time_step](const unsigned int i) {
+        if (inverse_mass[i] == 0.)
+          return 0.;
+        const Vector3 before = position(i) - back * v[i], arm = before - middle,
+                      off_axle = arm - dot(axle, arm) * axle;
+        return true_mass[i] * (parameters.gravity * before[2] + of_arm * dot(off_axle, off_axle));
+      };
+    });
     return supports ? potential + supports->weight_potential(time_step) : potential;
   }
 

@@ -54,11 +54,14 @@ namespace tread
   {
   public:
     explicit Relaxation(ExplicitDynamics &dynamics);
-    /// The contact has its friction law again.
+    /// The contact has its friction law and its sliding again.
     ~Relaxation()
     {
       if (d.contact)
-        d.contact->set_friction(law);
+        {
+          d.contact->set_friction(law);
+          d.contact->impose_sliding(std::move(sliding));
+        }
     }
     Relaxation(const Relaxation &)            = delete;
     Relaxation &operator=(const Relaxation &) = delete;
@@ -154,6 +157,7 @@ namespace tread
     double               keep      = kept_at_first;
     double               residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
     std::shared_ptr<const FrictionLaw> law;                              ///< of the motion to come
+    Contact::Sliding                   sliding;                          ///< likewise
   };
 
 
@@ -174,7 +178,8 @@ namespace tread
     if (d.contact)
       {
         d.contact->set_inverse_masses(inverse);
-        law = d.contact->set_friction(std::make_shared<CoulombFriction>(0.));
+        law     = d.contact->set_friction(std::make_shared<CoulombFriction>(0.));
+        sliding = d.contact->impose_sliding({}); // metres in a unit step
         refresh_contact();
       }
   }

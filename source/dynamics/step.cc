@@ -84,6 +84,7 @@ namespace tread
         const WheelHub    &hub   = *wheel.hub;
         BodyLoads::OfWheel of_run;
         const double       inward = -compensation(wheel);
+        const bool         tilts  = hub.may_tilt(); // else nothing asks for the products
         const Vector3      middle = hub.middle(), velocity = hub.velocity(), turning = hub.turning(),
                       axle = hub.axle();
         loop([&](const unsigned int i) {
@@ -94,7 +95,8 @@ namespace tread
           const Vector3 relative = v[i] - velocity - cross(turning, arm);
           const Vector3 drag     = (damping * mass) * relative;
           of_run.arms += quanta.moments.round(mass * off_axle);
-          of_run.products += quanta.moments.round((mass * along) * off_axle);
+          if (tilts)
+            of_run.products += quanta.moments.round((mass * along) * off_axle);
           of_run.drag += quanta.on_hubs.round(drag);
           of_run.moments += quanta.on_hubs.round(cross(arm, drag));
           loss += quanta.loss.round((time_step * relative) * drag);

@@ -24,18 +24,18 @@ namespace tread
   } // namespace
 
 
-  bool Defect::is_a_bump() const
+  std::pair<double, double> extremes_of(const std::function<double(double u, double v)> &shape)
   {
-    constexpr unsigned int n      = 200; // places along and across
-    double                 lowest = 0., highest = 0.;
+    constexpr unsigned int n = 2000, n_across = 200; // places along and across
+    double                 least = 0., largest = 0.;
     for (unsigned int i = 0; i <= n; ++i)
-      for (unsigned int j = 0; j <= n; ++j)
+      for (unsigned int j = 0; j <= n_across; ++j)
         {
-          const double height = -shape(double(i) / n, 2. * j / n - 1.);
-          lowest              = std::min(lowest, height);
-          highest             = std::max(highest, height);
+          const double depth = shape(double(i) / n, 2. * j / n_across - 1.);
+          least              = std::min(least, depth);
+          largest            = std::max(largest, depth);
         }
-    return highest > -lowest;
+    return {least, largest};
   }
 
 

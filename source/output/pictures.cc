@@ -8,6 +8,7 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -60,30 +61,37 @@ namespace tread
         }
     }
 
+    // States of faces: one slips if a node of it does.
+    constexpr double apart = 0., adheres = 1., slips = 2.;
+
     struct SurfaceValues
     {
-      double  pressure = 0., state = 0.; // MPa; 0 apart, 1 adhesion, 2 slip
-      Vector3 shear{}, slip{};           // MPa, m/s
+      double  pressure = 0.;   // MPa
+      Vector3 shear{}, slip{}; // MPa, m/s
     };
 
-    void add_surface_fields(Picture &picture, const std::vector<SurfaceValues> &values, const bool at_points)
+    /// @param of_faces the states, which have no meaning between two of them
+    void add_surface_fields(Picture                          &picture,
+                            const std::vector<SurfaceValues> &values,
+                            const bool                        at_points,
+                            const std::vector<double>        &of_faces)
     {
       using S = SurfaceValues;
-      static const Vectors<S> vectors{{"shear_MPa",
-                                       [](const S &s) {
+      static const Vectors<S>      vectors{{"shear_MPa",
+                                            [](const S &s) {
                                          return s.shear;
                                        }},
                                       {"slip_m_per_s", [](const S &s) {
                                          return s.slip;
                                        }}};
-      static const Scalars<S> scalars{{"pressure_MPa",
-                                       [](const S &s) {
+      static const Scalars<S>      scalars{{"pressure_MPa", [](const S &s) {
                                          return s.pressure;
-                                       }},
-                                      {"state", [](const S &s) {
-                                         return s.state;
                                        }}};
+      static const Scalars<double> states{{"state", [](const double state) {
+                                             return state;
+                                           }}};
       add_fields(picture, values, at_points, vectors, scalars);
+      add_fields(picture, of_faces, false, {}, states);
     }
 
     void add_point(Picture &picture, const Vector3 place)
@@ -268,13 +276,14 @@ namespace tread
   {
     const Mesh                &mesh = dynamics.mesh;
     std::vector<SurfaceValues> of_nodes(mesh.nodes.size());
+    std::vector<double>        state_of_node(mesh.nodes.size(), apart), states;
     for (const ContactNodeState &state : contact.active_nodes())
       if (const int node = contact.surfaces.nodes[state.node].local; node >= 0)
         {
           const double normal = dot(state.impulse, state.normal),
                        scale  = 1e-6 / (state.area * dynamics.time_step);
-          of_nodes[node]      = {scale * normal, state.adhesion ? 1. : 2.,
-                                 scale * (state.impulse - normal * state.normal), state.slip};
+          of_nodes[node]      = {scale * normal, scale * (state.impulse - normal * state.normal), state.slip};
+          state_of_node[node] = state.adhesion ? adheres : slips;
         }
     // Those of the mesh: contact leaves out faces with an edge that hangs.
     Picture picture;
@@ -282,12 +291,18 @@ namespace tread
     PointsOfNodes points(dynamics, picture);
     for (const Mesh::Face &face : mesh.faces)
       if (face.body == body && face.boundary == Boundary::contact)
-        for (const unsigned int v : {0, 1, 3, 2}) // from the counter-clockwise order
-          points.add_corner(face.nodes[v]);
+        {
+          states.push_back(apart);
+          for (const unsigned int v : {0, 1, 3, 2}) // from the counter-clockwise order
+            {
+              points.add_corner(face.nodes[v]);
+              states.back() = std::max(states.back(), state_of_node[face.nodes[v]]);
+            }
+        }
     std::vector<SurfaceValues> values;
     for (const unsigned int node : points.nodes)
       values.push_back(of_nodes[node]);
-    add_surface_fields(picture, values, true);
+    add_surface_fields(picture, values, true, states);
     add_picture("surface", picture, dynamics.time);
   }
 
@@ -297,12 +312,13 @@ namespace tread
     Picture picture;
     picture.n_corners = 4;
     std::vector<SurfaceValues> values;
+    std::vector<double>        states;
     if (writes_tables) // all ranks know all of them
       for (const PatchNode &element : elements)
         {
           values.emplace_back();
           values.back().pressure = 1e-6 * element.pressure;
-          values.back().state    = element.adhesion ? 1. : 2.;
+          states.push_back(element.adhesion ? adheres : slips);
           for (unsigned int d = 0; d < 2; ++d)
             {
               values.back().shear[d] = 1e-6 * element.shear[d];
@@ -315,7 +331,7 @@ namespace tread
                                                             (v / 2 - 0.5) * element_size, 0., 0.});
             }
         }
-    add_surface_fields(picture, values, false);
+    add_surface_fields(picture, values, false, states);
     add_picture("surface", picture, 0.);
   }
 } // namespace tread

@@ -32,7 +32,7 @@ namespace
 {
   /// Where none are given. Shorter ones in rolling direction than across, relative to the patch, are the
   /// most accurate for their number (doc/half-space-library.md).
-  constexpr double elements_along_a = 24., elements_along_b = 9.;
+  constexpr double elements_along_a = 28., elements_along_b = 10.;
 
   unsigned int order_of(const tread_half_space_case &problem)
   {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <numbers>
 #include <numeric>
@@ -80,6 +81,17 @@ namespace tread::reference
     std::complex<double> times(const std::complex<double> &a, const std::complex<double> &b)
     {
       return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+    }
+
+    /// Multiply a spectrum by another, or by its conjugate. Separate arrays let the compiler work on several
+    /// values at once.
+    template <bool conjugate = false>
+    void multiply(FourierGrid::Spectrum &spectrum, const FourierGrid::Spectrum &by)
+    {
+      std::complex<double> *const __restrict value        = spectrum.data();
+      const std::complex<double> *const __restrict factor = by.data();
+      for (std::size_t k = 0; k < spectrum.size(); ++k)
+        value[k] = times(conjugate ? std::conj(factor[k]) : factor[k], value[k]);
     }
 
     unsigned int good_size(const unsigned int at_least)
@@ -166,25 +178,51 @@ namespace tread::reference
     }
   } // namespace
 
+  /// Of the padded rows only those of the grid hold values before a transform and are asked for after its
+  /// inverse, so lines along x are transformed in these alone.
   struct FourierGrid::Plans
   {
-    double       *real    = nullptr;
-    fftw_complex *complex = nullptr;
-    fftw_plan     forward = nullptr;
-    fftw_plan     inverse = nullptr;
-    // Buffers: input stays zero outside the selected elements, so the inverse needs its own.
-    double *output = nullptr;
+    fftw_plan rows, columns;           ///< of transform()
+    fftw_plan columns_back, rows_back; ///< of back()
+    fftw_plan whole;                   ///< of kernels, which fill all rows
+
+    explicit Plans(const FourierGrid &fourier)
+    {
+      const int n_x = static_cast<int>(fourier.padded[0]), n_y = static_cast<int>(fourier.padded[1]),
+                n = static_cast<int>(fourier.grid.n_y), half = n_x / 2 + 1;
+      std::vector<double, Aligned<double>> values(static_cast<std::size_t>(n_x) * n_y);
+      Spectrum                             one(fourier.spectrum_size()), two(one);
+      double *const                        real = values.data();
+      const auto                           from = reinterpret_cast<fftw_complex *>(one.data()),
+                 to                             = reinterpret_cast<fftw_complex *>(two.data());
+      rows = fftw_plan_many_dft_r2c(1, &n_x, n, real, nullptr, 1, n_x, to, nullptr, 1, half, FFTW_ESTIMATE);
+      rows_back =
+        fftw_plan_many_dft_c2r(1, &n_x, n, from, nullptr, 1, half, real, nullptr, 1, n_x, FFTW_ESTIMATE);
+      const auto along_y = [&](const int sign) {
+        return fftw_plan_many_dft(1, &n_y, half, from, nullptr, half, 1, to, nullptr, half, 1, sign,
+                                  FFTW_ESTIMATE);
+      };
+      columns      = along_y(FFTW_FORWARD);
+      columns_back = along_y(FFTW_BACKWARD);
+      whole        = fftw_plan_dft_r2c_2d(n_y, n_x, real, to, FFTW_ESTIMATE);
+    }
+    Plans(const Plans &)            = delete;
+    Plans &operator=(const Plans &) = delete;
 
     ~Plans()
     {
-      {
-        const std::lock_guard<std::mutex> alone(planner());
-        fftw_destroy_plan(forward);
-        fftw_destroy_plan(inverse);
-      }
-      fftw_free(real);
-      fftw_free(output);
-      fftw_free(complex);
+      for (const fftw_plan plan : {rows, columns, columns_back, rows_back, whole})
+        fftw_destroy_plan(plan);
+    }
+
+    /// Made once for each size and kept: on the small grids of a batch they cost as much as a hundred
+    /// transforms.
+    static const Plans &of(const FourierGrid &fourier)
+    {
+      const std::lock_guard<std::mutex>                   alone(planner());
+      static std::map<std::array<unsigned int, 3>, Plans> made;
+      return made.try_emplace({fourier.padded[0], fourier.padded[1], fourier.grid.n_y}, fourier)
+        .first->second;
     }
   };
 
@@ -192,19 +230,12 @@ namespace tread::reference
     : grid(grid)
   {
     check_grid(grid);
-    padded              = {good_size(2 * grid.n_x), good_size(2 * grid.n_y)};
-    plans               = std::make_unique<Plans>();
-    const std::size_t n = static_cast<std::size_t>(padded[0]) * padded[1];
-    plans->real         = fftw_alloc_real(n);
-    plans->output       = fftw_alloc_real(n);
-    plans->complex      = fftw_alloc_complex(spectrum_size());
-    const int rows = static_cast<int>(padded[1]), columns = static_cast<int>(padded[0]);
-    {
-      const std::lock_guard<std::mutex> alone(planner());
-      plans->forward = fftw_plan_dft_r2c_2d(rows, columns, plans->real, plans->complex, FFTW_ESTIMATE);
-      plans->inverse = fftw_plan_dft_c2r_2d(rows, columns, plans->complex, plans->output, FFTW_ESTIMATE);
-    }
-    std::fill_n(plans->real, n, 0.);
+    padded = {good_size(2 * grid.n_x), good_size(2 * grid.n_y)};
+    input.assign(static_cast<std::size_t>(padded[0]) * grid.n_y, 0.);
+    output.resize(input.size());
+    input_rows.assign(spectrum_size(), 0.);
+    output_rows.resize(spectrum_size());
+    plans = &Plans::of(*this);
     std::vector<unsigned int> all(grid.size());
     std::iota(all.begin(), all.end(), 0u);
     select(all);
@@ -215,7 +246,7 @@ namespace tread::reference
   void FourierGrid::select(const std::vector<unsigned int> &elements)
   {
     for (const unsigned int p : positions)
-      plans->real[p] = 0.;
+      input[p] = 0.;
     positions.resize(elements.size());
     for (std::size_t k = 0; k < elements.size(); ++k)
       positions[k] = elements[k] / grid.n_x * padded[0] + elements[k] % grid.n_x;
@@ -225,15 +256,19 @@ namespace tread::reference
   {
     spectrum.resize(spectrum_size());
     for (std::size_t k = 0; k < positions.size(); ++k)
-      plans->real[positions[k]] = values[k];
-    fftw_execute_dft_r2c(plans->forward, plans->real, reinterpret_cast<fftw_complex *>(spectrum.data()));
+      input[positions[k]] = values[k];
+    const auto rows = reinterpret_cast<fftw_complex *>(input_rows.data());
+    fftw_execute_dft_r2c(plans->rows, input.data(), rows);
+    fftw_execute_dft(plans->columns, rows, reinterpret_cast<fftw_complex *>(spectrum.data()));
   }
 
   void FourierGrid::back(Spectrum &spectrum, double *values) const
   {
-    fftw_execute_dft_c2r(plans->inverse, reinterpret_cast<fftw_complex *>(spectrum.data()), plans->output);
+    const auto rows = reinterpret_cast<fftw_complex *>(output_rows.data());
+    fftw_execute_dft(plans->columns_back, reinterpret_cast<fftw_complex *>(spectrum.data()), rows);
+    fftw_execute_dft_c2r(plans->rows_back, rows, output.data());
     for (std::size_t k = 0; k < positions.size(); ++k)
-      values[k] = plans->output[positions[k]];
+      values[k] = output[positions[k]];
   }
 
   FourierGrid::Spectrum FourierGrid::kernel(
@@ -301,7 +336,7 @@ namespace tread::reference
               weight / static_cast<double>(n) * layer_influence(kind, pair, grid.dx, i * grid.dx + offset);
       }
     Spectrum spectrum(spectrum_size());
-    fftw_execute_dft_r2c(plans->forward, values, reinterpret_cast<fftw_complex *>(spectrum.data()));
+    fftw_execute_dft_r2c(plans->whole, values, reinterpret_cast<fftw_complex *>(spectrum.data()));
     fftw_free(values);
     return spectrum;
   }
@@ -348,8 +383,7 @@ namespace tread::reference
   void NormalOperator::apply(const double *pressure, double *displacement) const
   {
     fourier.transform(pressure, work);
-    for (std::size_t k = 0; k < work.size(); ++k)
-      work[k] = times(work[k], kernel[k]);
+    multiply(work, kernel);
     fourier.back(work, displacement);
   }
 
@@ -368,11 +402,15 @@ namespace tread::reference
     const std::size_t n = fourier.n_selected();
     fourier.transform(traction, work_x);
     fourier.transform(traction + n, work_y);
+    // as in multiply()
+    const std::complex<double> *const __restrict of_xx = xx.data(), *const __restrict of_xy = xy.data(),
+                                                 *const __restrict of_yy = yy.data();
+    std::complex<double> *const __restrict x = work_x.data(), *const __restrict y = work_y.data();
     for (std::size_t k = 0; k < work_x.size(); ++k)
       {
-        const std::complex<double> px = work_x[k], py = work_y[k];
-        work_x[k] = times(xx[k], px) + times(xy[k], py);
-        work_y[k] = times(xy[k], px) + times(yy[k], py);
+        const std::complex<double> px = x[k], py = y[k];
+        x[k] = times(of_xx[k], px) + times(of_xy[k], py);
+        y[k] = times(of_xy[k], px) + times(of_yy[k], py);
       }
     fourier.back(work_x, displacement);
     fourier.back(work_y, displacement + n);
@@ -403,8 +441,7 @@ namespace tread::reference
       {
         double *block = values + d * fourier.n_selected();
         fourier.transform(block, work);
-        for (std::size_t k = 0; k < work.size(); ++k)
-          work[k] = times(forward ? inverse[d][k] : std::conj(inverse[d][k]), work[k]);
+        forward ? multiply(work, inverse[d]) : multiply<true>(work, inverse[d]);
         fourier.back(work, block);
       }
   }

@@ -83,6 +83,22 @@ namespace tread
   }
 
 
+  bool Scene::meets_defect() const
+  {
+    const Defect &made = *made_defect();
+    const double  a    = static_load() > 0. ? hertz(*this, static_load()).semi_axis_x : 0.,
+                 first = path_begin(last_wheel()) - a, last = path_begin() + motion.meshed_distance() + a;
+    const auto on_the_way = [&](const double begin) {
+      return begin < last && begin + made.length > first;
+    };
+    // A wheelset may move across its rails.
+    const bool beside = !is_positioned() && (made.y_middle - 0.5 * made.width > patch_extent().end ||
+                                             made.y_middle + 0.5 * made.width < patch_extent().begin);
+    return !beside && (on_the_way(made.begin) ||
+                       std::any_of(made.repeated_at.begin(), made.repeated_at.end(), on_the_way));
+  }
+
+
   std::string Scene::defect_in_words() const
   {
     const Defect *made = made_defect();
@@ -93,7 +109,8 @@ namespace tread
                   made->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : "") +
            (made->repeated_at.empty()
               ? ""
-              : format("; %u more like it", static_cast<unsigned int>(made->repeated_at.size())));
+              : format("; %u more like it", static_cast<unsigned int>(made->repeated_at.size()))) +
+           (meets_defect() ? "" : "; the contact does NOT reach it");
   }
 
 

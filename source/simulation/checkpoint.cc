@@ -185,8 +185,16 @@ namespace tread
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        const auto of_run = settings_in(std::ifstream(folder.path("parameters.prm")));
-        for (const auto &[name, value] : settings_in(std::istringstream(parameters())))
+        std::stringstream all;
+        scene.print(all, false);
+        const std::string distance = "Motion/Rolled distance (mm)"; // not among those of a run that may go on
+        const auto        of_run   = settings_in(std::ifstream(folder.path("parameters.prm")));
+        auto              now      = settings_in(std::istringstream(parameters()));
+        now[distance]              = settings_in(std::move(all)).at(distance);
+        if (of_run.empty())
+          problem = "--resume: the run in '" + folder.path("") +
+                    "' is complete, but its 'parameters.prm' cannot be read";
+        for (const auto &[name, value] : now)
           if (const auto before = of_run.find(name); before != of_run.end() && before->second != value)
             problem = "--resume: the run in '" + folder.path("") + "' is complete, and was made with '" +
                       name + "' " + before->second + ", now " + value + "; without --resume it starts anew";

@@ -25,7 +25,7 @@ check = Check()
 SCENE = "smooth-rolling.prm"
 COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"]
 SHORT = COARSE + ["Motion/Rolled distance (mm)=12"]
-AT_POINTS = ("displacement_um", "velocity_m_per_s", "pressure_MPa", "shear_MPa", "slip_m_per_s", "state")
+AT_POINTS = ("displacement_um", "velocity_m_per_s", "pressure_MPa", "shear_MPa", "slip_m_per_s")
 NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "creepage", "max_pressure_Pa", "patch_area_m2",
            "dissipated_work_J", "contact_work_on_nodes_J", "hourglass_of_internal_energy", "slip_chatter_share",
            "adhesion_share", "max_shear_Pa", "max_slip_m_per_s", "frictional_power_W", "frictional_work_J", "damping_work_J"]
@@ -88,7 +88,7 @@ def pictures_have_the_tables(name, folder):
     """The last pictures against patch.csv, rail_surface.csv and rail_cells.csv, which are of the same instant."""
     surface, volume = last_picture(folder, "surface"), last_picture(folder, "volume")
     patch = table(folder, "patch.csv")
-    touching = surface["state"] > 0
+    touching = surface["pressure_MPa"] > 0.
     # Points of a VTU file belong to one cell each. In x the table counts from the wheel, here both count from their middle.
     places = np.unique(surface["points"][touching][:, :2].round(6), axis=0)
     own = 1e-3 * np.column_stack([patch["x_mm"], patch["y_mm"]])
@@ -97,11 +97,15 @@ def pictures_have_the_tables(name, folder):
         nearest = [np.linalg.norm(seen - place, axis=1).argmin() for place in wanted]
         for what, values, of_table in (
                 ("pressure, MPa", surface["pressure_MPa"], patch["pressure_MPa"]),
-                ("state", surface["state"], [1 + (state == "slip") for state in patch["state"]]),
                 ("shear stress along, MPa", surface["shear_MPa"][:, 0], patch["shear_x_MPa"]),
                 ("slip along, m/s", surface["slip_m_per_s"][:, 0], patch["slip_x_m_per_s"]),
                 ("slip across, m/s", surface["slip_m_per_s"][:, 1], patch["slip_y_m_per_s"])):
             check.below(f"{name}: {what}, largest difference over the largest", np.abs(values[touching][nearest] - of_table).max() / np.abs(of_table).max(), 1e-5)
+        # A face slips where one of its nodes does.
+        of_points = np.zeros(len(surface["points"]))
+        of_points[touching] = [1 + (patch["state"][np.linalg.norm(wanted - place, axis=1).argmin()] == "slip") for place in seen]
+        check.that(f"{name}: states of faces", np.array_equal(surface["state"], of_points[surface["cells"]].max(axis=1))
+                   and {0., 1., 2.} == set(surface["state"]))
     wheel = volume["cells"][volume["body"] == 1]
     check.that(f"{name}: the wheel's displacement is without its rolling", 10. < np.abs(volume["displacement_um"][wheel]).max() < 1000.)
     origin = volume["points"] - 1e-6 * volume["displacement_um"]
@@ -198,6 +202,7 @@ with tempfile.TemporaryDirectory() as folder:
         same("the same on two ranks", run(program, SCENE, path("ranks"), rolled(20), ranks=2, more=["--resume"]), whole, 3e-3, 3e-2)
         done = execute(arguments_of(SCENE, rolled(9), path("other")) + ["--resume"], program=program)
         check.that("as long as it was it is complete", done.returncode == 0 and "complete" in done.stdout)
+        fails("shorter than it has rolled", arguments_of(SCENE, rolled(6), path("other")) + ["--resume"], ["Rolled distance", "9, now 6"])
         fails("longer than its rail is meshed for", arguments_of(SCENE, rolled(21), path("other")) + ["--resume"], ["Longest distance", "20", "21"])
         fails("other physics", arguments_of(SCENE, rolled(20), path("other")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
@@ -211,6 +216,9 @@ with tempfile.TemporaryDirectory() as folder:
                    kept == [open(path(f"other/{name}"), encoding="utf-8").read() for name in ("summary.json", "parameters.prm")])
         with open(path("other/history.csv"), "w", encoding="utf-8") as stream:
             stream.writelines(lines)
+        os.rename(path("other/parameters.prm"), path("kept.prm"))
+        fails("complete, but of unknown parameters", arguments_of(SCENE, rolled(9), path("other")) + ["--resume"], ["parameters.prm"])
+        os.rename(path("kept.prm"), path("other/parameters.prm"))
         fails("longer by next to nothing", arguments_of(SCENE, rolled(9.8), path("other")) + ["--resume"], ["less than a cell"])
         little = run(program, SCENE, path("other"), rolled(12), more=["--resume"])
         check.that("means over less than usual are warned of", any("means over the last 10 mm" in line for line in little["warnings"])

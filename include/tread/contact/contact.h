@@ -90,13 +90,15 @@ namespace tread
       time_to_refresh = 0.;
     }
 
+    using Sliding = std::function<Vector3(const Vector3 place, const unsigned int master)>;
+
     /// Impose sliding on the pairs: a velocity (m/s) of master over slave surface that adds to what their
     /// nodes do, as if the surfaces themselves flowed; its part along the normal is left out. Lateral
     /// creepage and spin of a wheel whose axle does neither. The function is given the position of a slave
-    /// node in the mesh (m) and the master body; an empty one imposes nothing.
-    void impose_sliding(std::function<Vector3(const Vector3, const unsigned int)> velocity)
+    /// node in the mesh (m) and the master body; an empty one imposes nothing. @returns the one before
+    Sliding impose_sliding(Sliding velocity)
     {
-      imposed_sliding = std::move(velocity);
+      return std::exchange(imposed_sliding, std::move(velocity));
     }
 
     /// Friction differs from place to place: a factor of the law's coefficient at the position of a slave
@@ -207,14 +209,14 @@ namespace tread
     /// strips are made.
     void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
-    MPI_Comm                                                  comm;
-    ContactParameters                                         parameters;
-    std::shared_ptr<const FrictionLaw>                        friction;
-    std::function<Vector3(const Vector3)>                     given_tractions;
-    std::function<double(const Vector3)>                      friction_factor;
-    std::function<Vector3(const Vector3, const unsigned int)> imposed_sliding;
-    std::vector<double>                                       inverse_mass; ///< by surface node
-    double                                                    face_size;
+    MPI_Comm                              comm;
+    ContactParameters                     parameters;
+    std::shared_ptr<const FrictionLaw>    friction;
+    std::function<Vector3(const Vector3)> given_tractions;
+    std::function<double(const Vector3)>  friction_factor;
+    Sliding                               imposed_sliding;
+    std::vector<double>                   inverse_mass; ///< by surface node
+    double                                face_size;
 
     ContactProblem                         problem;
     Strips                                 strips;

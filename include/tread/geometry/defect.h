@@ -5,10 +5,16 @@
 #include <tread/geometry/measured_line.h>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace tread
 {
+  /// Least (negative: above the surface) and largest depth of a shape of defect, at places so near to each
+  /// other that those between them are hardly more.
+  std::pair<double, double> extremes_of(const std::function<double(double u, double v)> &shape);
+
+
   /// A defect of the running surface as a height z(x, y) over it, in the rail's own axes, zero outside.
   /// Lengths in m.
   struct Defect
@@ -25,7 +31,11 @@ namespace tread
     std::function<double(double u, double v)> shape;
 
     /// Whether it rises above the surface by more than it lies below.
-    bool is_a_bump() const;
+    bool is_a_bump() const
+    {
+      const auto [least, largest] = extremes_of(shape);
+      return -least > largest;
+    }
 
     double height(const double x, const double y) const
     {

@@ -126,7 +126,7 @@ namespace tread::reference
 
     /// Spectrum of values on the selected elements.
     void transform(const double *values, Spectrum &spectrum) const;
-    /// Values on the selected elements of a spectrum, which is destroyed.
+    /// Values on the selected elements of a spectrum.
     void back(Spectrum &spectrum, double *values) const;
 
     /// Spectrum of the kernel sum_k weight_k C(x + offset_k, y) of influence coefficients, already divided by
@@ -148,7 +148,11 @@ namespace tread::reference
     struct Plans;
     std::array<unsigned int, 2> padded;
     std::vector<unsigned int>   positions; // of the selected elements in the padded array
-    std::unique_ptr<Plans>      plans;
+    const Plans                *plans;     // shared by all grids of this size
+    /// The input and its rows' transforms stay zero outside the selected elements and below the grid, so the
+    /// inverse needs its own.
+    mutable std::vector<double, Aligned<double>> input, output;
+    mutable Spectrum                             input_rows, output_rows;
     /// Of kernels: y ln(x + r), x ln(y + r) and r at the corners of elements in the quarter x, y > 0.
     mutable std::vector<std::array<double, 3>> quarter;
   };

@@ -102,6 +102,11 @@ namespace tread
     {
       return parameters.roll_inertia > 0.;
     }
+    /// Whether the axle's direction may change as the wheel moves.
+    bool may_tilt() const
+    {
+      return guidance != Guidance::rigid || rolls();
+    }
     /// Turn the axle about x, rad.
     void roll_by(const double angle);
     /// Displacement of a point by a small roll, per radian, from its arm from the middle (m).

@@ -55,13 +55,9 @@ namespace tread
       require(section.ramp <= 0.5 * defect.length, "'Defect/Ramp (mm)' " + text_in_mm(section.ramp) +
                                                      " must be at most half of its length, " +
                                                      text_in_mm(0.5 * defect.length));
-      const auto whole = with_ramps(defect.shape, section.ramp / defect.length);
-      double     left  = 0.;
-      // Places along and across: those of a map are hardly more.
-      constexpr unsigned int n = 2000, n_across = 200;
-      for (unsigned int i = 0; i <= n; ++i)
-        for (unsigned int j = 0; j <= n_across; ++j)
-          left = std::max(left, std::abs(whole(double(i) / n, 2. * j / n_across - 1.)));
+      const auto whole            = with_ramps(defect.shape, section.ramp / defect.length);
+      const auto [least, largest] = extremes_of(whole);
+      const double left           = std::max(-least, largest);
       require(left > 0., "'Defect/Ramp (mm)' " + text_in_mm(section.ramp) + " leaves nothing of the defect");
       defect.depth *= left;
       defect.shape = [whole, left](const double u, const double v) {
