@@ -154,7 +154,7 @@ def ways_to_say_the_same():
     mirrored = one(kinematics="82000 -0.0004 -0.0003 -0.0002", chi="180d 0.8 30000")
     check.below("rolling backwards is the mirror image: shear, over the pressure", np.abs(mirrored["shear_x"] + usual["shear_x"][:, ::-1]).max()
                 / usual["pressure"].max(), 1e-9)
-    check.below("lateral slip, over the largest", np.abs(mirrored["slip_y"] - usual["slip_y"][:, ::-1]).max() / np.abs(usual["slip_y"]).max(), 1e-7)
+    check.below("lateral slip, over the largest", np.abs(mirrored["slip_y"] - usual["slip_y"][:, ::-1]).max() / np.abs(usual["slip_y"]).max(), 5e-9)
     check.relative("force", mirrored["longitudinal_force_N"], -usual["longitudinal_force_N"], 1e-9)
     # The spin turns about (xo, yo): w_x = xi - phi (y - yo), w_y = eta + phi (x - xo).
     moved = one(kinematics=f"82000 {0.0004 - 0.0002 * 0.5} {-0.0003 + 0.0002 * 1.5} 0.0002 1.5 0.5")
