@@ -31,9 +31,25 @@ namespace tread
   /// The quantities of one node: three components and one that pads to 32 bytes.
   typedef double Vector3 __attribute__((vector_size(32)));
 
-  /// Memory aligned to cache lines. Arrays that go through the processor's caches in every step are put into
-  /// huge pages where the system lets programs ask for them (Linux): without them a twentieth of the time
-  /// goes into looking up where their pages are.
+  /// Put what of the memory fills pages of 2 MB into such where the system leaves that to programs (Linux):
+  /// the cells' arrays go through the processor's caches in every step, and looking up where pages of 4 kB
+  /// are takes a twentieth of the time. Arrays do not begin at such a page, so that they do not all compete
+  /// for the same lines of the caches.
+  inline void ask_for_huge_pages(void *memory, std::size_t size)
+  {
+#ifdef MADV_HUGEPAGE
+    constexpr std::size_t huge_page = std::size_t(1) << 21, page = 4096;
+    if (size < 2 * huge_page)
+      return;
+    void *begin = memory;
+    if (std::align(page, huge_page, begin, size))
+      madvise(begin, size / page * page, MADV_HUGEPAGE); // what cannot be had is not needed
+#else
+    (void)memory, (void)size;
+#endif
+  }
+
+  /// Memory aligned to cache lines.
   template <typename T>
   struct AlignedAllocator
   {
@@ -45,32 +61,18 @@ namespace tread
     }
     T *allocate(const std::size_t n)
     {
-      T *const memory = static_cast<T *>(::operator new(n * sizeof(T), alignment(n)));
-#ifdef MADV_HUGEPAGE
-      if (is_large(n))
-        madvise(memory, n * sizeof(T), MADV_HUGEPAGE); // what cannot be had is not needed
-#endif
-      return memory;
+      void *const memory = ::operator new(n * sizeof(T), std::align_val_t(64));
+      ask_for_huge_pages(memory, n * sizeof(T));
+      return static_cast<T *>(memory);
     }
-    void deallocate(T *p, const std::size_t n)
+    void deallocate(T *p, std::size_t)
     {
-      ::operator delete(p, alignment(n));
+      ::operator delete(p, std::align_val_t(64));
     }
     template <typename U>
     bool operator==(const AlignedAllocator<U> &) const
     {
       return true;
-    }
-
-  private:
-    static constexpr std::size_t huge_page = std::size_t(1) << 21;
-    static bool                  is_large(const std::size_t n)
-    {
-      return n * sizeof(T) >= 2 * huge_page;
-    }
-    static std::align_val_t alignment(const std::size_t n)
-    {
-      return std::align_val_t(is_large(n) ? huge_page : 64);
     }
   };
 
