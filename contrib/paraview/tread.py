@@ -204,6 +204,7 @@ def main():
         sys.exit(f"tread.py: no .pvd or .xdmf file in {run}")
     pictures = os.path.join(run, "pictures")
     batch = bool(arguments)
+    remedy = "which pvpython of ParaView reads"
     try:
         import paraview
         import vtkmodules.vtkRenderingOpenGL2
@@ -211,11 +212,12 @@ def main():
 
         # A ParaView that draws with X only, as Debian's, ends with a fault of memory without a display.
         alone = batch and not os.environ.get("DISPLAY") and vtkRenderWindow().GetClassName() == "vtkXOpenGLRenderWindow"
+        remedy = "for which ParaView needs a display, as by xvfb-run"
     except ImportError:
         alone = True
     if alone:
         show_with_vtk([name for name in lists if name.endswith(".pvd")]
-                      or sys.exit(f"tread.py: {run} has pictures in XDMF only, for which ParaView needs a display, as by xvfb-run"), pictures)
+                      or sys.exit(f"tread.py: {run} has pictures in XDMF only, {remedy}"), pictures)
         return
     if batch:
         os.makedirs(pictures, exist_ok=True)

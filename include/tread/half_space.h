@@ -43,8 +43,8 @@ extern "C"
     double creepage, lateral_creepage; /* [-] */
     double spin;                       /* [rad/m] */
     double element_x,
-      element_y;    /* edges of the elements [m]; 0: a 24th of the semi-axis in rolling direction, a 9th of
-                     that across, for forces within 0.5 % of friction times load */
+      element_y;    /* edges of the elements [m]; 0: a 28th of the semi-axis in rolling direction, a tenth
+                     of that across, for forces within 0.5 % of friction times load */
     int slip_order; /* 1: slip as in CONTACT; 2, 0: of second order, more accurate on the same elements */
     /* Any other gap of the undeformed surfaces [m], n_y rows of n_x elements, x fastest, that hold the patch.
      * 0: none. The first element has its centre at (x_first, y_first). element_x and element_y must be given.

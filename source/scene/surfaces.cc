@@ -83,19 +83,28 @@ namespace tread
   }
 
 
-  bool Scene::meets_defect() const
+  bool Scene::misses_defect() const
   {
     const Defect &made = *made_defect();
-    const double  a    = static_load() > 0. ? hertz(*this, static_load()).semi_axis_x : 0.,
-                 first = path_begin(last_wheel()) - a, last = path_begin() + motion.meshed_distance() + a;
-    const auto on_the_way = [&](const double begin) {
-      return begin < last && begin + made.length > first;
-    };
-    // A wheelset may move across its rails.
-    const bool beside = !is_positioned() && (made.y_middle - 0.5 * made.width > patch_extent().end ||
-                                             made.y_middle + 0.5 * made.width < patch_extent().begin);
-    return !beside && (on_the_way(made.begin) ||
-                       std::any_of(made.repeated_at.begin(), made.repeated_at.end(), on_the_way));
+    // What rises above the rail is touched from a distance. A wheelset may move across its rails.
+    if (extremes_of(made.shape).first < 0. || is_positioned() || static_load() <= 0.)
+      return false;
+    // As wide as the zone of fine cells would be, for what inertia adds to the load.
+    constexpr double room   = 1.35;
+    const double     a      = room * hertz(*this, static_load()).semi_axis_x + mesh.finest_cell,
+                 middle     = 0.5 * (patch_extent().begin + patch_extent().end),
+                 half_width = room * 0.5 * (patch_extent().end - patch_extent().begin) + mesh.finest_cell;
+    if (std::abs(made.y_middle - middle) > half_width + 0.5 * made.width)
+      return true;
+    std::vector<double> begins(made.repeated_at);
+    begins.push_back(made.begin);
+    return std::none_of(begins.begin(), begins.end(), [&](const double begin) {
+      for (unsigned int number = 0; number < n_wheels(); ++number)
+        if (begin < path_begin(number) + motion.meshed_distance() + a &&
+            begin + made.length > path_begin(number) - a)
+          return true;
+      return false;
+    });
   }
 
 
@@ -110,7 +119,7 @@ namespace tread
            (made->repeated_at.empty()
               ? ""
               : format("; %u more like it", static_cast<unsigned int>(made->repeated_at.size()))) +
-           (meets_defect() ? "" : "; the contact does NOT reach it");
+           (misses_defect() ? "; the contact does NOT reach it" : "");
   }
 
 

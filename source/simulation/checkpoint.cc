@@ -190,10 +190,14 @@ namespace tread
         const std::string distance = "Motion/Rolled distance (mm)"; // not among those of a run that may go on
         const auto        of_run   = settings_in(std::ifstream(folder.path("parameters.prm")));
         auto              now      = settings_in(std::istringstream(parameters()));
-        now[distance]              = settings_in(std::move(all)).at(distance);
-        if (of_run.empty())
-          problem = "--resume: the run in '" + folder.path("") +
-                    "' is complete, but its 'parameters.prm' cannot be read";
+        const auto        whole    = settings_in(std::move(all));
+        now[distance]              = whole.at(distance);
+        for (const auto &[name, value] : whole)
+          if (of_run.find(name) == of_run.end())
+            problem =
+              "--resume: the run in '" + folder.path("") +
+              "' is complete, but its 'parameters.prm' is damaged or of another version: it has no '" + name +
+              "'";
         for (const auto &[name, value] : now)
           if (const auto before = of_run.find(name); before != of_run.end() && before->second != value)
             problem = "--resume: the run in '" + folder.path("") + "' is complete, and was made with '" +

@@ -118,7 +118,7 @@ namespace tread
                                                       std::vector<PatchNode> &patch) const
   {
     if (scene.has_defect())
-      return "no comparison with steady rolling: the wheel crosses a defect";
+      return "no comparison with steady rolling: there is a defect on the rail";
     if (!(answer.force[2] > 0.))
       return "";
     if (!scene.contact.friction_pressures.empty() && !scene.friction_law()->is_constant())

@@ -433,17 +433,21 @@ namespace
     check.absolute("peaks: to, mm", 1e3 * range.end, 17., 1e-9);
     check.absolute("peaks: half width, mm", 1e3 * chosen->peak_half_width(), 4., 1e-9);
 
-    // The wheel ends at 30 mm, and its patch a semi-axis of some 7 mm further on.
+    // The wheel ends at 30 mm, and its patch a semi-axis of some 7 mm further on; not to be sure has room.
     const auto met = [&](const Settings &more) {
       return scene_of(dip, more)->defect_in_words().find("does NOT reach it") == std::string::npos;
     };
     check.that("a dip under the path is met", met({}));
-    check.that("one before the start is not", !met({"Defect/Position (mm)=-60"}));
-    check.that("one that the patch reaches at its end is", met({"Defect/Position (mm)=35"}));
-    check.that("one beyond is not", !met({"Defect/Position (mm)=40"}));
-    check.that("it is on a longer way", met({"Defect/Position (mm)=40", "Motion/Longest distance (mm)=80"}));
+    check.that("one before the start is not", !met({"Defect/Position (mm)=-70"}));
+    check.that("one that the patch reaches at its end is", met({"Defect/Position (mm)=36"}));
+    check.that("one beyond is not", !met({"Defect/Position (mm)=45"}));
+    check.that("it is on a longer way", met({"Defect/Position (mm)=45", "Motion/Longest distance (mm)=80"}));
     check.that("so is one that lies beyond with another on the way",
-               met({"Defect/Position (mm)=40", "Defect/Repeated at (mm)=10"}));
+               met({"Defect/Position (mm)=45", "Defect/Repeated at (mm)=10"}));
+    check.that("one between two wheels is not",
+               !met({"Defect/Position (mm)=-500", "Further wheels/Distances (mm)=1000"}));
+    check.that("one under the second wheel is",
+               met({"Defect/Position (mm)=-1000", "Further wheels/Distances (mm)=1000"}));
     check.that("one beside the patch is not",
                !met({"Defect/Lateral position (mm)=18", "Defect/Width (mm)=8"}));
   }

@@ -218,6 +218,9 @@ with tempfile.TemporaryDirectory() as folder:
             stream.writelines(lines)
         os.rename(path("other/parameters.prm"), path("kept.prm"))
         fails("complete, but of unknown parameters", arguments_of(SCENE, rolled(9), path("other")) + ["--resume"], ["parameters.prm"])
+        with open(path("kept.prm"), encoding="utf-8") as stream, open(path("other/parameters.prm"), "w", encoding="utf-8") as part:
+            part.writelines(stream.readlines()[:200])
+        fails("complete, but its parameters are cut off", arguments_of(SCENE, rolled(9), path("other")) + ["--resume"], ["parameters.prm", "damaged"])
         os.rename(path("kept.prm"), path("other/parameters.prm"))
         fails("longer by next to nothing", arguments_of(SCENE, rolled(9.8), path("other")) + ["--resume"], ["less than a cell"])
         little = run(program, SCENE, path("other"), rolled(12), more=["--resume"])

@@ -106,7 +106,7 @@ def solve(*, slip_order: ArrayLike = 2, contact_sixth: bool = False, threads: in
     normal_force, friction    N, Coulomb's coefficient
     young, poisson            of both bodies, Pa; steel by default
     creepage, lateral_creepage, spin   rigid slip over the speed, spin in rad/m; 0 by default
-    element_x, element_y      edges of the elements, m; 0, the default: a 24th of the semi-axis in rolling direction, a 9th across
+    element_x, element_y      edges of the elements, m; 0, the default: a 28th of the semi-axis in rolling direction, a tenth across
     slip_order                2, or 1: slip as in CONTACT
     contact_sixth             add spin element_x/6 to the lateral creepage, as CONTACT does for its steps; needs element_x
     threads                   0: all cores

@@ -138,9 +138,9 @@ namespace tread
     /// surfaces().half_width.
     bool has_narrow_head() const;
 
-    /// Whether the patch of any wheel comes to the defect, or to one of the others like it. @pre
-    /// made_defect()
-    bool meets_defect() const;
+    /// Whether no wheel's patch comes to the defect, nor to any other like it, on all of the way that is
+    /// meshed; false where that is not sure. @pre made_defect()
+    bool misses_defect() const;
 
     /// Where the defect lies and how deep, one line; empty: there is none.
     std::string defect_in_words() const;
