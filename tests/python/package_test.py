@@ -49,7 +49,8 @@ with open(os.path.join(folder, "calls"), "a") as stream:
 with open(os.path.join(folder, "history.csv"), "w") as stream:
     stream.write("time_s,position_m\\n0.5,1\\n1,2\\n")
 with open(os.path.join(folder, "summary.json"), "w") as stream:
-    json.dump(dict(completed=True, version="0", normal_force_N=140e3, arguments=sys.argv[1:]), stream)
+    json.dump(dict(completed=True, version="0", normal_force_N=140e3, arguments=sys.argv[1:],
+                   warnings=["the cells do not see it", "it sways"] if "Motion/Creepage=0.001" in sys.argv else []), stream)
 """
 
 
@@ -384,9 +385,36 @@ class Studies(InFolder):
         result = subprocess.run([os.path.join(ROOT, "contrib", "study.py"), study, "--program", self.program], capture_output=True, text=True)
         self.assertEqual((result.returncode, result.stderr), (1, ""))
         with open(self.path("results", "two", "study.csv"), encoding="utf-8") as stream:
-            self.assertEqual(list(csv.reader(stream))[1:], [["0.001", "140000", "2", "complete"],
-                                                            ["0.9", "", "", "failed: 'Motion/Creepage' cannot be '0.9'"]])
+            self.assertEqual(list(csv.reader(stream))[1:], [["0.001", "140000", "2", "2", "complete"],
+                                                            ["0.9", "", "", "", "failed: 'Motion/Creepage' cannot be '0.9'"]])
 
+
+    def test_warnings_of_runs(self):
+        study = write(self.path("one.study"), f"set Scene = {ROOT}/prm/smooth-rolling.prm\nset Figures = normal_force_N\nsubsection Vary\n"
+                      "  set Motion/Creepage = 0.001 | 0.002\nend\n")
+        said = self.perform(study).stdout.split("\n")
+        self.assertEqual([line for line in said if "WARNING" in line], [f"creepage-0.001: WARNING: {text}" for text in ("the cells do not see it", "it sways")])
+        with open(self.path("results", "one", "study.csv"), encoding="utf-8") as stream:
+            self.assertEqual([row[2:] for row in csv.reader(stream)], [["warnings", "state"], ["2", "complete"], ["0", "complete"]])
+
+    def test_a_scene_is_no_study(self):
+        scene = write(self.path("scene.study"), "subsection Motion\n  set Creepage = 0.001\nend\n")
+        with self.assertRaisesRegex(tread.DataError, "line 1: 'subsection Motion' is of a scene.*set Scene"):
+            studies.Study.of_file(scene)
+
+    def test_a_file_that_changes_while_its_run_waits(self):
+        profile = write(self.path("profile.txt"), "0 0\n")
+        scene = write(self.path("scene.prm"), "subsection Defect\n  set Profile file = profile.txt\nend\n")
+        asked = studies.Study.of_file(write(self.path("one.study"), f"set Scene = {scene}\nset Figures = normal_force_N\nsubsection Vary\n"
+                                            "  set Motion/Creepage = 0.001\nend\n"))
+        members = lambda: studies.runs_of(studies.members_of(asked, self.path("results", "one"), self.program))
+        waiting = members()
+        write(profile, "0 1\n")  # which the run then reads
+        with contextlib.redirect_stdout(io.StringIO()):
+            studies.run_all(waiting, 1)
+        self.assertTrue(members()[0].keep())
+        write(profile, "0 0\n")
+        self.assertFalse(members()[0].keep())
 
     def test_results_of_other_input_are_not_taken(self):
         profile = write(self.path("profile.txt"), "0 0\n")
@@ -597,13 +625,13 @@ class Studies(InFolder):
 
         limit = "set Limit = normal_force_N = 1e5 over Defect/Length (mm)"
         result, rows = perform("normal_force_N | dynamic(normal_force_N)", "", limit)
-        self.assertEqual((result.returncode, rows), (1, [["4", "140000", "", "complete"], ["8", "140000", "", "complete"]]), result.stderr)
+        self.assertEqual((result.returncode, rows), (1, [["4", "140000", "", "0", "complete"], ["8", "140000", "", "0", "complete"]]), result.stderr)
         self.assertLess(result.stdout.index("smooth-twin: begins"), result.stdout.index("length-4: begins"))
         self.assertIn("length-4: no 'dynamic(normal_force_N)': its smooth twin smooth-twin failed: no edge", result.stdout)
         self.assertIn("below 4, the smallest with a figure", result.stdout)
         # The exit code tells of it also where no figure needs it.
         result, rows = perform("normal_force_N", "")
-        self.assertEqual((result.returncode, rows), (1, [["4", "140000", "complete"], ["8", "140000", "complete"]]))
+        self.assertEqual((result.returncode, rows), (1, [["4", "140000", "0", "complete"], ["8", "140000", "0", "complete"]]))
         self.assertIn("\nsmooth-twin: failed: no edge\n2 of 2 runs complete", result.stdout)
         # What does not need a dynamic force does not fail with it; nor is one that is there taken once the twin fails.
         result, rows = perform("normal_force_N", "never")
@@ -690,11 +718,11 @@ class StudiesFromPython(InFolder):
         with mock.patch.dict(sys.modules, {"pandas": None}), contextlib.redirect_stdout(io.StringIO()) as said:
             rows = self.vary([0.001, 0.9])
         self.assertEqual(said.getvalue(), "")
-        self.assertEqual(list(rows[0]), ["Motion/Creepage", "normal_force_N", "last(position_m)", "state", "folder"])
-        self.assertEqual(list(rows[0].values()), [0.001, 140e3, 2., "complete", "out/creepage-0.001"])
+        self.assertEqual(list(rows[0]), ["Motion/Creepage", "normal_force_N", "last(position_m)", "warnings", "state", "folder"])
+        self.assertEqual(list(rows[0].values()), [0.001, 140e3, 2., 2, "complete", "out/creepage-0.001"])
         self.assertEqual((rows[1]["state"], np.isnan(rows[1]["normal_force_N"])), ("failed: 'Motion/Creepage' cannot be '0.9'", True))
         with open("out/study.csv", encoding="utf-8") as stream:
-            self.assertEqual(list(csv.reader(stream))[1], ["0.001", "140000", "2", "complete"])
+            self.assertEqual(list(csv.reader(stream))[1], ["0.001", "140000", "2", "2", "complete"])
 
     def test_what_is_complete_is_kept(self):
         with mock.patch.dict(sys.modules, {"pandas": None}):

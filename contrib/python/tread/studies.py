@@ -39,7 +39,8 @@ has in limit.csv.
 Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
 interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. A run is complete also if
 another version of the program made it; the last lines name such runs, and without their folders they are repeated. Ctrl-C
-ends the runs with a checkpoint. The table is study.csv in the study's folder, and limit.csv beside it what 'Limit' asks.
+ends the runs with a checkpoint. The table is study.csv in the study's folder, with the number of each run's warnings, which follow on the
+terminal; and limit.csv beside it what 'Limit' asks.
 Exit code 0: all complete; 1: something failed; 130: interrupted.
 """
 
@@ -182,6 +183,8 @@ class Study:
                 inside = True
             elif line == "end" and inside:
                 inside = False
+            elif line.startswith("subsection ") and not inside:
+                raise DataError(f"{where}: '{line}' is of a scene; a study names its scene by 'set Scene = FILE'")
             elif line:
                 raise DataError(f"{where}: cannot read '{line}'")
         if inside:
@@ -254,9 +257,12 @@ class Member(Run):
         self.without_force = ""  # why there is no dynamic.json
         self.line = [*arguments_of(study.scene, settings, self.folder), *options]
         self.ranks, self.program = study.ranks, program
-        self.input = input_of(study.scene, settings)
-        if options:
-            self.input["options"] = list(options)
+        self.scene, self.settings, self.options = study.scene, dict(settings), list(options)
+        self.input = self.present_input()
+
+    def present_input(self) -> dict:
+        """What decides about its results, with files as they are now."""
+        return {**input_of(self.scene, self.settings), **({"options": self.options} if self.options else {})}
 
     def same_input(self) -> bool:
         try:
@@ -274,6 +280,7 @@ class Member(Run):
 
     def begin(self) -> None:
         """Start it, or let it go on from its checkpoint."""
+        self.input = self.present_input()  # it may have waited for hours
         known = self.same_input()
         resume = known and self.has("checkpoint.last")
         os.makedirs(self.folder, exist_ok=True)
@@ -394,6 +401,15 @@ def figure_of(run: Member, figure: str) -> float:
     return force["oscillations"][0]["frequency_Hz"] if force["oscillations"] else float("nan")
 
 
+def warnings_of(run: Member) -> list[str]:
+    """What summary.json of a complete run warns of."""
+    if run.state != COMPLETE:
+        return []
+    with contextlib.suppress(DataError, OSError):
+        return [str(warning) for warning in run.summary.get("warnings", [])]
+    return []
+
+
 def figure_or_none(run: Member, figure: str) -> float | None:
     """Of a run that may not be complete."""
     try:
@@ -435,8 +451,8 @@ def tabulate(study: Study, root: str, members: Members) -> bool:
             except DataError as error:
                 figures.append("")
                 missing.append(str(error))
-        rows.append(list(values.values()) + figures + [run.state or "not begun"])
-    header = list(study.members[0]) + study.figures + ["state"]
+        rows.append(list(values.values()) + figures + [str(len(warnings_of(run))) if run.state == COMPLETE else "", run.state or "not begun"])
+    header = list(study.members[0]) + study.figures + ["warnings", "state"]
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([header] + rows)
     part = os.path.join(root, "study.csv.part")
@@ -450,6 +466,8 @@ def tabulate(study: Study, root: str, members: Members) -> bool:
     print()
     for row in [header] + rows:
         print("  ".join([f"{cell:>{width}}" for cell, width in zip(row, widths)] + [row[-1]]))
+    said = [f"{run.name}: WARNING: {warning}" for run in runs_of(members) for warning in warnings_of(run)]
+    print("\n".join(["", *said]) if said else "")
     missing += [f"{twin.name}: {twin.state or 'not begun'}" for twin in twins_of(members) if twin.state != COMPLETE]
     print("\n".join([""] + missing) if missing else "")
     print(f"{sum(run.state == COMPLETE for run, _ in members)} of {len(members)} runs complete. Table in {os.path.join(root, 'study.csv')}")
@@ -523,7 +541,8 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
     options      more of the program's, such as ["--reference-only"]
     show         print what happens, and the table
 
-    Returns a table with a row for each run: the varied values as given, the figures (nan where there is none), state, which is "complete" or
+    Returns a table with a row for each run: the varied values as given, the figures (nan where there is none), warnings, the number of those
+    in its summary.json, state, which is "complete" or
     "failed: ...", and folder. It is a pandas DataFrame, or a list of dicts where pandas is not installed. study.csv in the folder is that of
     the command. Results that are complete are not computed again; an interrupted call goes on when it is repeated. Raises DataError, and
     KeyboardInterrupt after Ctrl-C, when all runs have a checkpoint.
@@ -564,7 +583,7 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
             except DataError as error:
                 row[figure] = float("nan")
                 warnings.warn(str(error), stacklevel=2)
-        rows.append({**row, "state": run.state, "folder": run.folder})
+        rows.append({**row, "warnings": len(warnings_of(run)), "state": run.state, "folder": run.folder})
     for twin in twins_of(members):
         if twin.state != COMPLETE:
             warnings.warn(f"{twin.name}: {twin.state}", stacklevel=2)
