@@ -12,6 +12,7 @@ packages=(
   libcli11-dev                         # command line
   openmpi-bin                          # mpirun
   python3 python3-numpy python3-matplotlib # pictures
+  python3-venv python3-wheel           # an environment in which pip may install contrib/python
   python3-vtk9 python3-h5py            # tests read the files for ParaView and run.h5 back
   mypy                                 # the test python.source reads the Python code with it
   python3-sphinx python3-myst-parser python3-sphinx-rtd-theme # manual: contrib/manual.sh

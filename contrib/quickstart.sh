@@ -1,6 +1,6 @@
 #!/bin/bash
-# From a fresh clone to a first result: install what is missing, build, roll a wheel over a
-# smooth rail, draw the pictures.
+# From a fresh clone to a first result: install what is missing, build the program and the half-space
+# library (for contrib/contact-inp.py), roll a wheel over a smooth rail, draw the pictures.
 # TREAD_JOBS: compilers and ranks at a time (default: the number of processors; ranks: at most 2).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -12,7 +12,7 @@ jobs=${TREAD_JOBS:-$(env -u OMP_NUM_THREADS nproc)}
 install_what_is_missing
 echo "Building into build/ ..."
 configure_release build
-cmake --build build --target tread -j "$jobs"
+cmake --build build --target tread tread_half_space -j "$jobs"
 
 launch=()
 if [ "$jobs" -ge 2 ]; then

@@ -40,7 +40,7 @@ This page is written by `contrib/scenes-page.py`.
 # scenes are then listed by a line each)
 GROUPS = (
     ("First runs", "smooth-rolling.prm", ("verification.md",), None),
-    ("Tutorials", "tutorial/*.prm", ("measured.md", "track.md", "geometry.md", "crossing.md"),
+    ("Tutorials", "tutorial/*.prm", ("measured.md", "track.md", "geometry.md", "dent.md"),
      ("measured-contact-force.png", "The contact force at the squat of tutorial/measured.prm, beside the smooth twin")),
     ("Curves: wheelsets in any position", "curves/*.prm", ("kinematics.md", "curve.md"),
      ("two-patches.png", "curves/two-patches.prm: tread and gauge corner at once")),

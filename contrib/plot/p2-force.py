@@ -22,6 +22,7 @@ import numpy as np
 
 from tread.commands import command_parser, run_command
 from tread.files import DataError
+from tread.loads import static_load
 from tread.runs import Run
 
 SHEAR_COEFFICIENT = 10 * 1.3 / (12 + 11 * 0.3)  # of a rectangle, nu = 0.3 (Cowper 1966)
@@ -116,10 +117,13 @@ class Wheel:
         def number(name: str) -> float:
             return float(p[name])
 
-        self.unsprung, self.sprung = number("Wheel/Mass (kg)"), number("Vehicle/Sprung mass (kg)")
+        load = static_load(p)
+        if load is None:
+            raise DataError(f"{folder}: parameters.prm does not say what the load of the wheel is")
+        self.load, self.unsprung = 1e3 * load, number("Wheel/Mass (kg)")
+        self.sprung = self.load / number("Vehicle/Gravity (m per s2)") - self.unsprung
         self.suspension = 1e3 * number("Vehicle/Suspension stiffness (kN per m)")
         self.suspension_damping = number("Vehicle/Suspension damping (N s per m)")
-        self.load = (self.unsprung + self.sprung) * number("Vehicle/Gravity (m per s2)")
         self.radius, self.speed = 1e-3 * number("Wheel/Radius (mm)"), number("Motion/Speed (km per h)") / 3.6
         modulus = 1e9 / sum((1 - number(f"{body}/Poisson's ratio")**2) / number(f"{body}/Young's modulus (GPa)") for body in ("Wheel", "Rail"))
         self.hertz = hertz_coefficient(0.5 / self.radius, 500 / number("Rail/Crown radius (mm)"), modulus)

@@ -103,6 +103,33 @@ class Pages(unittest.TestCase):
         for name, text in made.items():
             self.assertEqual(text_of(os.path.join(folder, name)), text, f"{name}: run make-samples.py")
 
+    def test_next_steps_keep_the_results_of_each_other(self):
+        """Each command of the README that writes has a folder of its own, and none that of the quickstart."""
+        readme = text_of(os.path.join(ROOT, "README.md"))
+        steps = re.search(r"## Next steps\n(.*?)\n\nFrom Python", readme, re.DOTALL)[1]
+        quick = re.search(r"^results=(\S+)", text_of(os.path.join(ROOT, "contrib", "quickstart.sh")), re.MULTILINE)[1]
+        folders, writers = [quick], 0
+        for command in re.findall(r"^    (.*)$", steps, re.MULTILINE):
+            command = command.partition(" #")[0]
+            if ".prm" not in command or "--dry-run" in command:
+                continue
+            writers += 1
+            named = re.search(r"--output (\S+)", command)
+            self.assertTrue(named, f"{command}: it writes to the folder that other commands on this scene write to")
+            folders.append(named[1])
+        self.assertGreaterEqual(writers, 6)
+        self.assertEqual(len(folders), len(set(folders)), folders)
+
+    def test_quickstart_builds_what_the_readme_uses(self):
+        built = re.search(r"^cmake --build build --target (.*) -j", text_of(os.path.join(ROOT, "contrib", "quickstart.sh")), re.MULTILINE)[1].split()
+        readme = text_of(os.path.join(ROOT, "README.md"))
+        used = {"build/source/tread": "tread", "contrib/contact-inp.py": "tread_half_space"}
+        for what, target in used.items():
+            self.assertIn(what, readme)
+            self.assertIn(target, built)
+        for program in set(re.findall(r"build/\S+/(\w+)", re.sub(r"(?m)^.*-m venv.*$", "", readme))) - {"manual"}:
+            self.assertIn(program, built)
+
     def test_messages(self):
         sources = [path for folder in ("source", "include") for ending in ("cc", "h") for path in glob.glob(f"{ROOT}/{folder}/**/*.{ending}", recursive=True)]
         said = re.sub(r'"\s*\n\s*"', "", "".join(map(text_of, sources))).replace("%%", "%")

@@ -9,10 +9,13 @@ import contextlib
 import csv
 import glob
 import gzip
+import importlib.util
 import io
 import json
+import math
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -24,7 +27,7 @@ from unittest import mock
 import numpy as np
 
 import tread
-from tread import files, limits, measured_runs, schema, studies, tables
+from tread import arcs, files, limits, measured_runs, schema, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch, read_patches
 from tread.files import read_table
@@ -135,6 +138,23 @@ class Patches(InFolder):
         # Bilinear between the nodes: the mean of the four around, and zero outside.
         np.testing.assert_allclose(patch.sampled(patch.x, np.array([3.25, 30]), np.array([0.25, 0])), [3.25, 0])
 
+    def test_grid(self):
+        patch = read_patch(self.write_patch("patch.csv"))
+        x, y, pressure = patch.grid("pressure")
+        self.assertEqual(pressure.shape, (len(y), len(x)))
+        np.testing.assert_array_equal(pressure, patch.grid(patch.pressure)[2])
+        i, j = np.argmin(abs(x - 5)), np.argmin(abs(y + 2))  # x of the middle is 3, so that x and y are not taken for each other
+        self.assertAlmostEqual(pressure[j, i], 1000 * np.sqrt(1 - (2 / 6) ** 2 - (2 / 4) ** 2))
+        self.assertTrue(np.isnan(pressure[0]).all() and np.isnan(pressure[:, -1]).all())  # the empty border
+        adhesion = patch.grid("adhesion")[2]
+        self.assertEqual((np.nansum(adhesion), np.isfinite(adhesion).sum()), (patch.adhesion.sum(), len(patch.x)))
+        self.assertAlmostEqual(float(patch.sampled("shear", 3.0, 0.0)), 100.0)
+        np.testing.assert_allclose(patch.sampled("pressure", x=3.0, y=[0.0, 30.0]), [1000, 0])
+        with self.assertRaisesRegex(tread.Error, "no field 'presure', but .*pressure"):
+            patch.grid("presure")
+        with self.assertRaisesRegex(tread.Error, "3 values for the .* nodes in contact"):
+            patch.grid([1.0, 2.0, 3.0])
+
     def test_comparison(self):
         own, contact = self.path("run", "patch.csv"), self.write_patch("contact.csv", contact=True)
         write(self.path("run", "summary.json"), "{}")
@@ -148,6 +168,52 @@ class Patches(InFolder):
         self.assertAlmostEqual(other["max_pressure_relative_difference"], 0.02)
         self.assertGreater(other["pressure_rms_over_max"], 0.005)
         self.assertAlmostEqual(compare(self.path("run"), contact, 1.02)["max_pressure_relative_difference"], 0)
+
+
+class Arcs(InFolder):
+    """Profiles of arcs and lines with common tangents."""
+
+    def arcs(self, *rows):
+        return write(self.path("arcs.csv"), "radius_mm,until,value\n" + "".join(f"{row}\n" for row in rows))
+
+    def test_a_head_closes(self):
+        """60E1: the arcs end on the flank at half of 72 mm, 14.3 mm deep."""
+        path = self.arcs("-300,y_mm,10.228", "-80,y_mm,26.0265", "-13,slope,-20  # flank", "", "line,z_mm,-30")
+        ends = arcs.joints(arcs.read_arcs(path))
+        np.testing.assert_allclose([end[:2] for end in ends], [(0, 0), (10.228, -0.1744), (26.0265, -2.3025), (36, -14.3), (36.785, -30)], atol=3e-4)
+        table = np.array(arcs.points(arcs.read_arcs(path), mirror=True))
+        np.testing.assert_allclose(table, np.array([[-1, 1]]) * table[::-1])
+        self.assertLessEqual(np.hypot(*np.diff(table, axis=0).T).max(), 0.25)
+        middle = table[abs(table[:, 0]) < 10]
+        np.testing.assert_allclose(np.hypot(middle[:, 0], middle[:, 1] + 300), 300, atol=1e-9)
+        result = subprocess.run([os.path.join(ROOT, "contrib", "profile-from-arcs.py"), path, "--output", "points.txt", "--mirror", "--spacing", "1"],
+                                capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, r"R13 +35\.9998 +-14\.3000 +-20\.0000")
+        np.testing.assert_allclose(np.loadtxt("points.txt"), arcs.points(arcs.read_arcs(path), spacing=1.0, mirror=True), atol=1e-6)
+
+    def test_a_flange(self):
+        """From the flange's flank (70 degrees) through a root of 13 mm onto a tread of 1:40: tangents are common, and the root's circle lies above."""
+        start = arcs.Place(-40.0, -16.0, math.atan(2.747477))
+        path = self.arcs("line,y_mm,-38.5", "-13,slope,0.025", "line,y_mm,30")
+        ends = arcs.joints(arcs.read_arcs(path), start)
+        self.assertAlmostEqual(ends[1].z, -16 + 1.5 * 2.747477)
+        centre = np.array([ends[1].y + 13 * math.sin(ends[1].angle), ends[1].z - 13 * math.cos(ends[1].angle)])
+        self.assertAlmostEqual(float(np.hypot(*(np.array(ends[2][:2]) - centre))), 13)
+        self.assertAlmostEqual(math.tan(ends[3].angle), 0.025)
+        # To a height, past the lowest point of a hollow.
+        hollow = arcs.joints(arcs.read_arcs(self.arcs("20,z_mm,1")), arcs.Place(0, 0, math.atan(-0.5)))[1]
+        self.assertGreater(hollow.angle, 0)
+        self.assertAlmostEqual(hollow.z, 1)
+
+    def test_what_is_wrong_is_named(self):
+        for rows, said in ((("-300,y_mm,400",), "line 2: this piece never comes to y_mm = 400"), (("line,slope,1",), "line 2: a line keeps its slope"),
+                           (("300,y_mm",), "arcs.csv, line 2: a row is"), (("0,y_mm,3",), "line 2: the radius must not be 0"),
+                           (("-300,y_mm,10", "80,z_mm,-9"), "line 3: this piece never comes to z_mm = -9"), ((), "no pieces")):
+            with self.assertRaisesRegex(tread.Error, said):
+                arcs.joints(arcs.read_arcs(self.arcs(*rows)))
+        with self.assertRaisesRegex(tread.Error, "first row must be radius_mm,until,value"):
+            arcs.read_arcs(write(self.path("none.csv"), "-300,y_mm,3\n"))
 
 
 class Wavelets(InFolder):
@@ -798,6 +864,26 @@ class Commands(unittest.TestCase):
                 result = subprocess.run([path, "--help"], cwd="/", env={"PATH": os.environ["PATH"]}, capture_output=True, text=True)
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
                 self.assertIn("usage: " + os.path.basename(path), result.stdout)
+
+    def test_import_from_any_folder(self):
+        """As the README shows it: by PYTHONPATH, and installed into an environment of its own, which finds the program and the scenes of this folder."""
+        with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as stream:
+            readme = stream.read()
+        path = re.search(r"PYTHONPATH=\$PWD/(\S+) /usr/bin/python3", readme)[1]
+        ask = "import tread, tread.runs; print(tread.runs.PROGRAM, tread.runs.scene_path('smooth-rolling.prm'))"
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("contrib/python", "prm"):
+                shutil.copytree(os.path.join(ROOT, name), os.path.join(folder, name), symlinks=True, ignore=shutil.ignore_patterns("*.egg-info", "__pycache__"))
+            wanted = f"{folder}/build/source/tread {folder}/prm/smooth-rolling.prm\n"
+            asked = subprocess.run(["/usr/bin/python3", "-c", ask], cwd="/", env={"PYTHONPATH": os.path.join(folder, path)}, capture_output=True, text=True)
+            self.assertEqual((asked.stdout, asked.stderr), (wanted, ""))
+            if not os.path.isdir("/usr/share/python-wheels") or not importlib.util.find_spec("wheel"):
+                self.skipTest("python3-venv or python3-wheel is not installed")
+            line = re.search(r"^    (.*-m venv .*?)(?:\s+#.*)?$", readme, re.MULTILINE)[1]
+            made = subprocess.run(["bash", "-c", line], cwd=folder, env={**os.environ, "PIP_NO_INDEX": "1"}, capture_output=True, text=True)
+            self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+            asked = subprocess.run([os.path.join(folder, "build/python/bin/python"), "-c", ask], cwd="/", capture_output=True, text=True)
+            self.assertEqual((asked.stdout, asked.stderr), (wanted, ""))
 
     def test_what_fails_is_said_in_one_line(self):
         result = subprocess.run([os.path.join(ROOT, "contrib/plot/plot-run.py"), "none"], cwd="/", capture_output=True, text=True)

@@ -26,7 +26,8 @@ from package_test import InFolder, write
 from tread import plots
 from tread.defects import extents_of_defects
 from tread.differences import other_bits
-from tread.pictures import history, impact, mesh
+from tread.loads import static_load
+from tread.pictures import history, impact, mesh, patch
 from tread.runs import ROOT
 from tread.vtu import read_pieces
 
@@ -112,6 +113,89 @@ class Pictures(OfRuns):
             stream["x_mm"] = [2., 12., 22.]
         self.assertEqual(extents_of_defects({**map_of, "Defect/Profile file": self.path("map.h5")}), [(-5, 15)])
 
+    def test_static_load_is_that_of_the_scene(self):
+        """Whatever parameter sets it; the masses that it makes void are not added."""
+        masses = "subsection Wheel\n set Mass (kg) = 900\nend\nsubsection Vehicle\n set Sprung mass (kg) = 13400\n set Gravity (m per s2) = 9.8\n"
+        for more, load in ((" set Wheel load (kN) = masses\n set Axle load (t) = none\n", 140.14), (" set Wheel load (kN) = 123.45\n", 123.45),
+                           (" set Wheel load (kN) = masses\n set Axle load (t) = 22.6\n", 110.74)):
+            run = self.write_run("run", DYNAMIC, parameters=masses + more + "end\n")
+            self.assertAlmostEqual(static_load(run.parameters), load)
+            for figure in (history.draw_forces(run), impact.draw_contact_force(impact.Impact(run.folder))):
+                drawn = [line for line in figure.axes[0].lines if str(line.get_label()).startswith("static load")]
+                self.assertEqual(len(drawn), 1)
+                self.assertAlmostEqual(drawn[0].get_ydata()[0], load)
+                self.assertIn(f"static load {load:.1f} kN", drawn[0].get_label())
+        self.assertIsNone(static_load(self.write_run("run", DYNAMIC).parameters))
+
+    def test_section_is_cut_where_the_wheel_stands(self):
+        def box(x, y, z, size):
+            return np.array([(i, j, k) for i, j, k in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]) * size + (x, y - 0.5 * size, z)
+
+        # Fine cells of the rail at -40 mm, and a wheel of 300 mm radius that touches it at 210 mm.
+        rail = np.array([box(x, 0, -20, 20) for x in range(0, 400, 20)] + [box(-40, 0, -2, 2)], float)
+        x = np.arange(110, 310, 4.0)
+        wheel = np.array([box(at, 0, 300 - np.sqrt(300 ** 2 - (at + 2 - 210) ** 2), 4) for at in x])
+        self.assertAlmostEqual(mesh.under_wheel(rail, wheel), 210, delta=4)
+        figure = mesh.draw_section(rail, wheel)
+        self.assertIn("under the axle", figure.axes[0].get_title())
+        lowest = min(path.vertices[:, 1].min() for path in figure.axes[0].collections[1].get_paths())
+        self.assertLess(lowest, 0.1)  # on the rail, not above it
+
+    def test_path_is_cut_where_the_wheel_runs(self):
+        """Along y = 6 mm, where a layer below the surface has ends of its own, and no further than the way."""
+        def box(x, y, z, size):
+            corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], float)
+            return corners * size + (x, y, z)
+
+        rail = np.array([box(x, y, -10, (20, 10, 10)) for x in range(-400, 400, 20) for y in (-10, 0)]
+                        + [box(x, 0, -20, (30, 10, 10)) for x in range(-400, 380, 30)])
+        rail[:, 4:, 2] -= 0.002 * rail[:, 4:, 1]  # falls across: 12 um at y = 6 mm
+        run = self.write_run("run", {"first_contact_y_m": 6e-3})  # from -100 to 80 mm
+        cut = mesh.cut_along(rail, 6.0)
+        self.assertEqual(len(cut), 40 + 26)
+        np.testing.assert_allclose(mesh.top_edges(cut)[:, :, 1], -0.012)
+        self.assertEqual(len(mesh.top_edges(cut)), 40)
+        figure = mesh.draw_path(run, rail)
+        self.assertEqual(figure.axes[0].get_xlim(), (-150, 130))
+        self.assertIn("y = 6.0 mm", figure.axes[0].get_title())
+        self.assertTrue(all(abs(np.asarray(line.get_ydata())).max() < 1e-9 for line in figure.axes[1].lines))
+        low, high = figure.axes[1].get_ylim()
+        self.assertLess(high - low, 5)
+
+    def test_round_off_is_no_event(self):
+        """Depths from the surface on; a force or a stress that differs in its last digits is a straight line."""
+        run = self.write_run("run", DYNAMIC, parameters="subsection Defect\n set Shape = none\nend\n")
+        x = np.arange(-50, 51.0)
+        rows = [f"{at},{600 + 1e-7 * at},{3.005 + 1e-5 * np.sin(at)},{400 + 1e-7 * at},0" for at in x]
+        write(self.path("run", "strip.csv"), "x_mm,von_mises_MPa,depth_mm,surface_von_mises_MPa,equivalent_plastic_strain_percent\n" + "\n".join(rows) + "\n")
+        figure = impact.draw_strip(impact.Impact(run.folder))
+        stress, depth = (axis.get_ylim() for axis in figure.axes[:2])
+        self.assertEqual(depth[1], 0)
+        self.assertTrue(3.005 < depth[0] < 4)
+        self.assertGreater(stress[1] - stress[0], 100)
+        force = impact.draw_contact_force(impact.Impact(run.folder)).axes[0].get_ylim()
+        self.assertGreater(force[1] - force[0], 1)
+        _, axis = plots.subplots(figsize=(2, 2))
+        axis.plot(x, 5 + 1e-9 * x)
+        plots.at_least_high(axis, 0.02)
+        np.testing.assert_allclose(axis.get_ylim(), (4.95, 5.05), atol=1e-6)
+        axis.plot(x, x)
+        low, high = axis.get_ylim()
+        plots.at_least_high(axis, 0.02)
+        self.assertEqual(axis.get_ylim(), (low, high))
+        self.assertFalse(plots.STYLE["axes.formatter.useoffset"])
+
+    def test_patch_of_a_dynamic_run_stands_beside_hertz_at_its_own_load(self):
+        force = 1e-3 * 0.25 * sum(float(row.split(",")[4]) for row in patch_rows())
+        reference = {"semi_axis_x_m": {"Hertz": {"value": 6e-3}}, "semi_axis_y_m": {"Hertz": {"value": 4e-3}}, "max_pressure_Pa": {"Hertz": {"value": 1e9}}}
+        steady = self.write_run("steady", {"reference": reference})
+        run = self.write_run("run", {**DYNAMIC, "normal_force_N": 8e3 * force, "reference": reference})
+        pictured = patch.Pictured(run, None)
+        np.testing.assert_allclose(pictured.hertz, (3, 2, 500))  # of an eighth of the load
+        self.assertEqual(pictured.hertz_label, f"Hertz at {force:.1f} kN")
+        self.assertIn(f"normal force {force:.1f} kN", pictured.title)
+        self.assertEqual(patch.Pictured(steady, None).hertz_label, "Hertz")
+
     def test_one_call_draws_what_is_there(self):
         run = self.write_run("run")
         style = dict(matplotlib.rcParams)
@@ -186,6 +270,13 @@ class Comparison(OfRuns):
         self.assertIn("patches_like/1/force_N", rows)
         self.assertFalse([name for name in rows if name.startswith(("wall_s", "reference", "completed"))])
         self.assertTrue({"patch_pressure_rms_MPa", "patch_shear_x_rms_MPa", "patch_slip_x_rms_m_per_s"} <= set(rows))
+
+    def test_checksums_are_no_figures(self):
+        a, b = (self.write_run(name, {"history_crc32": value, "files": [{"sha256": value, "bytes": 10 + value}]}) for name, value in (("a", 1), ("b", 3)))
+        rows = self.rows(a, b)
+        self.assertEqual([name for name in rows if "crc" in name or "sha" in name], [])
+        self.assertIn("files/1/bytes", rows)
+        self.assertIn("history_crc32", other_bits(a, b))  # but other bits are other bits
 
     def test_what_was_put_in_comes_out(self):
         a, b = self.write_run("a", {"zero": 0.0}), self.write_run("b", {"zero": 0.5}, scale=1.1)

@@ -4,7 +4,7 @@
     contrib/compare-runs.py RUN_A RUN_B [--above PERCENT] [--csv FILE]
 
 Differences are B less A; relative ones are over the figure of A, and empty where that is 0. Figures are named as in summary.json; those of lists
-and sections have / in their names. Left out are references, and what depends on the machine: wall times and ranks. For each field of the
+and sections have / in their names. Left out are references, checksums, and what depends on the machine: wall times and ranks. For each field of the
 patch there is the root mean square over the nodes in contact in either run: of A, of B, and of their difference. B is interpolated to the nodes of A; x
 counts from the wheel in both. Runs of a wheelset in a position, which has patches of their own axes, are compared by their figures alone.
 
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     import pandas
 
 COLUMNS = ("name", "a", "b", "difference", "relative_difference")
+# A checksum is a number only in its notation: how far two of them lie apart says nothing.
+CHECKSUM = ("crc32", "checksum", "sha256", "md5")
 OF_THE_MACHINE = ("wall_s", "element_updates_per_s", "cells_and_nodes_bytes", "ranks", "reference")
 
 
@@ -54,7 +56,7 @@ def row(name: str, a: float, b: float, difference: float | None = None) -> dict:
 
 def compared_rows(run_a: Run, run_b: Run) -> list[dict]:
     a, b = figures_of(run_a.summary), figures_of(run_b.summary)
-    rows = [row(name, a[name], b[name]) for name in a if name in b]
+    rows = [row(name, a[name], b[name]) for name in a if name in b and not any(word in name.lower() for word in CHECKSUM)]
     if "patches" not in run_a.summary and "patches" not in run_b.summary and run_a.has("patch.csv") and run_b.has("patch.csv"):
         from .comparison import Shifted
 

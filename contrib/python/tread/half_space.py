@@ -53,7 +53,7 @@ def library_path() -> str:
                  ctypes.util.find_library("tread_half_space")):
         if path and (os.path.exists(path) or os.sep not in path):
             return path
-    raise Error(f"{name} is not found; build it, or name it in $TREAD_HALF_SPACE_LIBRARY")
+    raise Error(f"{name} is not found: build it (cmake --build build --target tread_half_space), or name its file in $TREAD_HALF_SPACE_LIBRARY")
 
 
 @functools.lru_cache(maxsize=None)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .files import DataError, read_table
+from .files import DataError, Error, read_table
 
 
 class Patch:
@@ -55,6 +55,11 @@ class Patch:
         return np.hypot(self.slip_x, self.slip_y)
 
     @property
+    def normal_force(self) -> float:
+        """The sum of the pressure over the patch, N: MPa and mm2 give N."""
+        return float((self.pressure * self.area).sum())
+
+    @property
     def adhesion_share(self) -> float:
         return self.area[self.adhesion].sum() / self.area.sum()
 
@@ -68,16 +73,35 @@ class Patch:
         loaded = ~self.adhesion & (self.pressure > 0.2 * self.pressure.max())
         return float(np.median(self.shear[loaded] / self.pressure[loaded])) if loaded.any() else None
 
-    def grid(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(x lines, y lines, values[y, x]) on the grid of the nodes, with one empty line around."""
+    def values_of(self, values: np.ndarray | str) -> np.ndarray:
+        """Values of the nodes in contact, or those of a field by its name. @raises Error for another name or number of values"""
+        if isinstance(values, str):
+            names = (*self.units, "adhesion")
+            if values not in names:
+                raise Error(f"a contact patch has no field '{values}', but {', '.join(names)}")
+            values = getattr(self, values)
+        values = np.asarray(values, float)
+        if values.shape != self.x.shape:
+            raise Error(f"{values.size} values for the {len(self.x)} nodes in contact: give one for each of them, or the name of a field, such as 'pressure'")
+        return values
+
+    def grid(self, values: np.ndarray | str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(x, y, table) for pictures and interpolation: the coordinates of the grid's columns and rows in mm, and the values as table[row, column],
+        y before x as matplotlib and numpy want it, nan outside the contact. An empty row or column surrounds the patch.
+
+        values  the name of a field: "pressure", "shear_x", "shear_y", "shear", "slip_x", "slip_y", "slip", "area", "adhesion" (1 or 0); or one
+                value for each node in contact
+        """
+        values = self.values_of(values)
         columns, x0, n_x = grid_index(self.x, self.size_x)
         rows, y0, n_y = grid_index(self.y, self.size_y)
         result = np.full((n_y, n_x), np.nan)
         result[rows, columns] = values
         return x0 + self.size_x * np.arange(n_x), y0 + self.size_y * np.arange(n_y), result
 
-    def sampled(self, values: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Bilinear interpolation between the nodes at the points (x, y); zero outside the patch."""
+    def sampled(self, values: np.ndarray | str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """A field by its name, or one value for each node in contact, interpolated bilinearly at the points (x, y) in mm; zero outside the patch."""
+        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
         gx, gy, grid = self.grid(values)
         grid = np.nan_to_num(grid)
         i = np.clip(((x - gx[0]) / self.size_x).astype(int), 0, len(gx) - 2)

@@ -28,7 +28,7 @@ COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, "black")  # of lines, one afte
 ADHESION, SLIP, GREY, GRID = "#A9CBE3", "#F3B77E", "#666666", "#E3E3E3"
 STYLE = {"font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10, "axes.titlelocation": "left", "axes.labelsize": 10,
          "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False,
-         "axes.spines.right": False, "grid.color": GRID, "grid.linewidth": 0.7, "legend.frameon": False, "legend.fontsize": 8.5,
+         "axes.spines.right": False, "axes.formatter.useoffset": False, "grid.color": GRID, "grid.linewidth": 0.7, "legend.frameon": False, "legend.fontsize": 8.5,
          "lines.linewidth": 1.4, "savefig.dpi": 120, "savefig.bbox": "tight"}
 
 
@@ -104,6 +104,25 @@ def span_at_least(axis: Axes, values: np.ndarray, share: float, least: float) ->
     reach = max(share * abs(values[-1]), least)
     low, high = min(values.min(), values[-1] - reach), max(values.max(), values[-1] + reach)
     axis.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
+
+
+def at_least_high(axis: Axes, share: float, least: float = 0.0) -> None:
+    """Once all lines are drawn: let the ordinate span at least this share of the largest size of their values, and at least so much,
+    so that round-off is not drawn as an event."""
+    values = np.concatenate([np.asarray(line.get_ydata(), float) for line in axis.lines] or [np.empty(0)])
+    values = values[np.isfinite(values)]
+    if not len(values):
+        return
+    wanted = max(share * abs(values).max(), least)
+    low, high = values.min(), values.max()
+    if high - low < wanted:
+        middle = 0.5 * (low + high)
+        axis.set_ylim(middle - 0.5 * wanted, middle + 0.5 * wanted)
+
+
+def depth_axis(axis: Axes, depths: np.ndarray) -> None:
+    """An ordinate that counts depths downwards from the surface."""
+    axis.set_ylim(1.1 * max(np.nanmax(depths, initial=0.0), 1e-3), 0.0)
 
 
 def shown_rows(position_mm: np.ndarray, parameters: Mapping[str, str]) -> np.ndarray:

@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 
 from ..defects import extents_of_defects
 from ..files import reference_value
+from ..loads import static_load
 from ..plots import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, legend_beside, passages, plot_passages, shade_defects, shown_rows, span_at_least, subplots
 from ..runs import Run
-from .titles import forces_title, is_dynamic, static_load
+from .titles import forces_title, is_dynamic
 
 
 def marker(history: dict[str, np.ndarray]) -> dict[str, str]:
@@ -45,7 +46,7 @@ def draw_forces(run: Run) -> Figure:
                               label=f"{text}\n(at the end {round(1e-3 * history[name][-1], 2) + 0.0:.2f} kN)")
     axes[0].set_ylabel("vertical force [kN]" if wheelset else "normal force [kN]")
     axes[1].set_ylabel("force on\nthe wheelset [kN]" if both else "force on\nthe wheel [kN]")
-    static = static_load(run) if is_dynamic(run) else None
+    static = static_load(run.parameters) if is_dynamic(run) else None
     if static is not None:
         axes[0].axhline(static, color="black", ls=":", lw=1.1, label=f"static load {static:.1f} kN")
     loads = [values for name, values in history.items() if name.endswith("normal_force_N") and not name.startswith("other_")]

@@ -16,13 +16,14 @@ from matplotlib.figure import Figure
 
 from ..defects import extents_of_defects
 from ..files import DataError
-from ..plots import (BLUE, COLOURS, ORANGE, RED, legend_beside, passages, plot_passages, shade_defects, shown_rows, subplots)
+from ..loads import static_load
+from ..plots import (BLUE, COLOURS, ORANGE, RED, at_least_high, depth_axis, legend_beside, passages, plot_passages, shade_defects, shown_rows, subplots)
 from ..runs import PROGRAM, Run, dynamic_force
 from ..vtu import read_pieces
-from .titles import is_dynamic, static_load
+from .titles import is_dynamic
 
-# Second moments of area about the lateral axis, m4 (EN 13674-1).
-SECOND_MOMENT = {"54E1": 2337.9e-8, "60E1": 3038.3e-8}
+# Second moments of area about the lateral axis, m4 (EN 13674-1, TB/T 2344).
+SECOND_MOMENT = {"54E1": 2337.9e-8, "60E1": 3038.3e-8, "49E1": 1816e-8, "CN60": 3217e-8}
 CONTACT = "normal_force_N"
 
 
@@ -83,7 +84,7 @@ def draw_contact_force(run: Impact) -> Figure:
     rows = shown_rows(position, run.parameters)
     x, history = position[rows], {name: values[rows] for name, values in run.record.items()}
     last = passages(x)[-1]
-    force, static = 1e-3 * history[CONTACT], static_load(run)
+    force, static = 1e-3 * history[CONTACT], static_load(run.parameters)
     plot_passages(axes[0], x, x, force, color=BLUE, label="with the defect" if run.twin else "normal force")
     if run.twin:
         near = run.twin.x >= x.min()
@@ -97,11 +98,13 @@ def draw_contact_force(run: Impact) -> Figure:
         axes[0].annotate(f"{x_last[j] - x_last[i]:.0f} mm", (0.5 * (x_last[i] + x_last[j]), max(force_last[i], force_last[j])), xytext=(0, 6),
                          textcoords="offset points", ha="center", va="bottom", fontsize=8, color=RED)
     axes[0].margins(y=0.1)
+    at_least_high(axes[0], 0.02, 0.1)
     axes[0].set_ylabel("normal force [kN]")
     for axis, column, factor, label in ((axes[1], "max_pressure_Pa", 1e-6, "largest\npressure [MPa]"),
                                         (axes[2], "contact_area_m2", 1e6, "patch\narea [mm$^2$]")):
         if column in history:
             plot_passages(axis, x, x, factor * history[column], color=BLUE)
+            at_least_high(axis, 0.02, 1.0)
         axis.set_ylabel(label)
     for axis in axes:
         shade_defects(axis, run.parameters, named=axis is axes[0])
@@ -142,17 +145,23 @@ def draw_patches(run: Impact) -> Figure | None:
         points = np.concatenate([points for points, _, _ in pieces])
         pressure = np.concatenate([fields["pressure_MPa"] for _, _, fields in pieces])
         centre = np.interp(when, time, run.x)
-        near = (abs(points[:, 0] - centre) < 15) & (abs(points[:, 1]) < 12)
+        near = abs(points[:, 0] - centre) < 15
         pictures.append((centre, np.interp(when, time, force), points[near], pressure[near]))
+    # As wide as the patches of all instants, wherever on the rail the wheel runs.
+    loaded = np.concatenate([points[pressure > 0, 1] for *_, points, pressure in pictures] or [np.empty(0)])
+    low, high = (loaded.min() - 3, loaded.max() + 3) if len(loaded) else (-11, 11)
+    low, high = min(low, 0.5 * (low + high) - 11), max(high, 0.5 * (low + high) + 11)
     largest = max((pressure.max() for *_, pressure in pictures if len(pressure)), default=1.0) or 1.0
     levels, colours = np.linspace(1e-3 * largest, largest, 13), ScalarMappable(Normalize(0, largest), "viridis")
     for axis, (centre, normal, points, pressure) in zip(axes.flat, pictures):
+        across = (points[:, 1] > low - 5) & (points[:, 1] < high + 5)
+        points, pressure = points[across], pressure[across]
         if len(points) > 3:
             axis.tricontourf(points[:, 0], points[:, 1], pressure, levels=levels, norm=colours.norm, cmap=colours.cmap)
         shade_defects(axis, run.parameters)
         axis.axvline(centre, color="black", lw=0.7, ls="--")
         axis.set(title=f"wheel at {centre:.1f} mm (dashed)\n{1e-3 * normal:.1f} kN, {pressure.max(initial=0):.0f} MPa", aspect="equal",
-                 xlim=(centre - 14, centre + 14), ylim=(-11, 11), xlabel="position on the rail [mm]")
+                 xlim=(centre - 14, centre + 14), ylim=(low, high), xlabel="position on the rail [mm]")
     for axis in axes.flat[len(pictures):]:
         axis.remove()
     for axis in axes[:, 0]:
@@ -175,10 +184,11 @@ def draw_strip(run: Impact) -> Figure | None:
     axes[0].plot(strip["x_mm"], strip["surface_von_mises_MPa"], color=BLUE, label="in the cells\nat the surface")
     axes[0].set(ylabel="largest von Mises stress [MPa]", title="largest stress that the rail's cells under the path have seen")
     axes[1].plot(strip["x_mm"], strip["depth_mm"], color=RED)
-    axes[1].invert_yaxis()
+    depth_axis(axes[1], strip["depth_mm"])
     axes[1].set_ylabel("its depth [mm]")
     if yields:
         axes[2].plot(strip["x_mm"], strip["equivalent_plastic_strain_percent"], color=BLUE)
+        axes[2].set_ylim(bottom=0)
         axes[2].set_ylabel("plastic strain\nat the end [%]")
     over_the_rail(axes, run)
     return figure
@@ -188,6 +198,8 @@ def over_the_rail(axes: Sequence[Axes], run: Run, what: str = "position on the r
     """The abscissa that panels share, with the defects."""
     for axis in axes:
         shade_defects(axis, run.parameters)
+        if not axis.yaxis_inverted():
+            at_least_high(axis, 0.02, 0.01)
     legend_beside(axes[0])
     axes[-1].set_xlabel(f"{what} [mm], the wheel rolls to the right")
     axes[0].figure.align_ylabels(axes)
@@ -235,6 +247,7 @@ def draw_lines(axis: Axes, run: Impact, columns: Sequence[str], labels: Sequence
     rows = shown_rows(x, run.parameters)
     for i, (column, label) in enumerate(zip(columns, labels)):
         axis.plot(x[rows], 1e-3 * run.dynamic[column][rows], color=colour or COLOURS[i % len(COLOURS)], label=label)
+    at_least_high(axis, 0.0, 0.1)
     axis.set(xlabel="position of the wheel [mm], it rolls to the right", ylabel="dynamic force [kN], + more load")
 
 

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from ..plots import GREY, legend_beside, name_sides, rolling_arrow, shade_defects, subplots
+from ..plots import GREY, at_least_high, legend_beside, name_sides, rolling_arrow, shade_defects, subplots
 from ..runs import Run
 from ..vtu import read_pieces
 
@@ -39,10 +39,22 @@ def cut_across(cells: np.ndarray, x: float) -> np.ndarray:
     return (low + share * (high - low))[:, :, 1:]
 
 
-def along_middle(cells: np.ndarray) -> np.ndarray:
-    """Sides of cells at y = 0: quadrilaterals (x, z)."""
-    sides = cells[:, (0, 1, 5, 4)]
-    return sides[abs(cells[:, (0, 4), 1]).max(1) < 0.12 * np.maximum(1., abs(cells[:, (0, 4), 2]).max(1))][:, :, (0, 2)]
+def cut_along(cells: np.ndarray, y: float) -> np.ndarray:
+    """The cells cut at y: quadrilaterals (x, z), the last two corners at the top. Edges across the path join corners 0-3, 1-2, 5-6 and 4-7."""
+    low, high = cells[:, (0, 1, 5, 4)], cells[:, (3, 2, 6, 7)]
+    inside = (low[:, :, 1].mean(1) <= y) & (high[:, :, 1].mean(1) > y)
+    low, high = low[inside], high[inside]
+    share = np.clip((y - low[:, :, 1:2]) / (high[:, :, 1:2] - low[:, :, 1:2]), 0., 1.)
+    return (low + share * (high - low))[:, :, (0, 2)]
+
+
+def top_edges(cut: np.ndarray) -> np.ndarray:
+    """Those upper edges of quadrilaterals (x, z) above whose middle there is no other one, by x."""
+    edges = cut[:, (3, 2)]
+    edges = edges[np.argsort(edges[:, 0, 0])]
+    middle, height = edges.mean(1).T
+    highest = [height[(edges[:, 0, 0] <= x) & (edges[:, 1, 0] >= x)].max() for x in middle]
+    return edges[height >= np.array(highest) - 1e-9]
 
 
 def draw_cells(axis: Axes, polygons: np.ndarray, colour: str, name: str | None = None) -> None:
@@ -56,12 +68,20 @@ def draw_cells(axis: Axes, polygons: np.ndarray, colour: str, name: str | None =
                   bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 2})
 
 
+def under_wheel(rail: np.ndarray, wheel: np.ndarray) -> float:
+    """Where along the rail the wheel stands: under its lowest cells, moved into a cell of the rail if it lies between two."""
+    lowest = wheel[:, :, 2].min()
+    size = np.ptp(wheel[:, :, 0], axis=1)
+    low = wheel[:, :, 2].min(axis=1) < lowest + 1e-3 * np.ptp(wheel[:, :, 2])
+    place = 0.5 * (wheel[low][:, :, 0].min() + wheel[low][:, :, 0].max())
+    return float(np.clip(place, rail[:, :, 0].min(), rail[:, :, 0].max() - 1e-3) + 0.01 * size.min())
+
+
 def draw_section(rail: np.ndarray, wheel: np.ndarray) -> Figure:
-    """Rail and wheel cut across the path, where the smallest cells are, and the rail at its end."""
-    length = rail[:, 1, 0] - rail[:, 0, 0]
-    finest = np.median(rail[length < 1.01 * length.min()][:, 0, 0])
+    """Rail and wheel cut across the path where the wheel stands, and the rail at its end."""
+    wheel_x = under_wheel(rail, wheel)
     figure, axes = subplots(1, 2, figsize=(11, 2 + 5 * (80 - rail[:, :, 2].min()) / 160), sharey=True)
-    for axis, x, name in ((axes[0], finest + 0.3 * length.min(), "where cells are finest"), (axes[1], rail[:, :, 0].max() - 0.1, "at the end of the rail")):
+    for axis, x, name in ((axes[0], wheel_x, "under the axle"), (axes[1], rail[:, :, 0].max() - 0.1, "at the end of the rail")):
         axis.set(xlim=(-80, 80), ylim=(rail[:, :, 2].min() - 20, 60), aspect="equal", title=f"cut at x = {x:.0f} mm, {name}", xlabel="y [mm]")
         for cells, colour, body in ((rail, RAIL_COLOUR, "rail"), (wheel, WHEEL_COLOUR, "wheel")):
             draw_cells(axis, cut_across(cells, x), colour, body)
@@ -72,25 +92,32 @@ def draw_section(rail: np.ndarray, wheel: np.ndarray) -> Figure:
 
 
 def draw_path(run: Run, rail: np.ndarray, begin: float | None = None, end: float | None = None) -> Figure:
-    """The rail's cells under the middle of the path, and the height of its top."""
-    begin = rail[:, :, 0].min() if begin is None else begin
-    end = rail[:, :, 0].max() if end is None else end
+    """The rail's cells under the path where wheel and rail first touch, and the height of its top there."""
+    y = 1e3 * run.summary.get("first_contact_y_m", 0.0)
+    cut = cut_along(rail, y)
+    ends = rail[:, :, 0].min(), rail[:, :, 0].max()
+    start = ends[0]
+    if run.has("history.csv") and len(run.history.get("position_m", ())):
+        way = 1e3 * run.history["position_m"]
+        start = float(way.min())
+        beside = max(50., 0.2 * np.ptp(way))
+        ends = max(ends[0], way.min() - beside), min(ends[1], way.max() + beside)
+    begin, end = (ends[0] if begin is None else begin), (ends[1] if end is None else end)
     figure, axes = subplots(2, 1, figsize=(10, 5.6), sharex=True)
-    axes[0].set(xlim=(begin, end), ylim=(-40, 2), ylabel="z [mm]", title="rail cut along y = 0, upper 40 mm")
-    draw_cells(axes[0], along_middle(rail), RAIL_COLOUR)
+    axes[0].set(xlim=(begin, end), ylim=(-40, 2), ylabel="z [mm]", title=f"rail cut along y = {y:.1f} mm, where the wheel first touches, upper 40 mm")
+    draw_cells(axes[0], cut, RAIL_COLOUR)
     axes[0].grid(False)
     rolling_arrow(axes[0])
-    top = rail[:, (4, 5)][abs(rail[:, (4, 5), 1]).max(1) < 0.05]
-    highest = {}
+    top = top_edges(cut)
+    level = top[np.argmin(abs(top[:, :, 0].mean(1) - start)), :, 1].mean() if len(top) else 0.
     for edge in top:
-        x = round(edge[0, 0], 1)
-        highest[x] = max(highest.get(x, edge), edge, key=lambda e: e[0, 2])
-    for edge in highest.values():
-        axes[1].plot(edge[:, 0], 1e3 * edge[:, 2], "k.-", lw=0.8, ms=3)
+        if edge[1, 0] > begin and edge[0, 0] < end:
+            axes[1].plot(edge[:, 0], 1e3 * (edge[:, 1] - level), "k.-", lw=0.8, ms=3)
+    at_least_high(axes[1], 0.0, 2.0)
     for axis in axes:
         shade_defects(axis, run.parameters, named=axis is axes[0])
     legend_beside(axes[0])
-    axes[1].set(ylabel="height of the rail's top\nat y = 0 [µm]", xlabel="x [mm]")
+    axes[1].set(ylabel="height of its top over that\nwhere the wheel starts [µm]", xlabel="x [mm]")
     return figure
 
 

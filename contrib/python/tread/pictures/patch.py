@@ -34,23 +34,30 @@ class Pictured:
         optional = lambda name: read_patch(run.path(name)) if run.has(name) and not self.half_space_only else None
         self.averaged, reference = optional("patch_averaged.csv"), optional("reference_patch.csv")
         self.references = []  # (label, patch, colour, line style)
+        # Of a run whose force varies the patch is that of its last instant, and so is its load.
+        self.force = 1e-3 * self.patch.normal_force if is_dynamic(run) else 1e-3 * run.summary["normal_force_N"]
         if reference is not None:
-            self.references.append(("half-space solver", reference, ORANGE, "-"))
+            self.references.append((f"half-space solver{self.other_load(reference)}", reference, ORANGE, "-"))
         if contact_file:
             patch = read_contact(contact_file)
-            # A solution for another load is no answer to this run; its label says for which.
-            force = 1e-3 * (patch.pressure * patch.area).sum()  # MPa and mm2 give N
-            own = 1e-3 * run.summary["normal_force_N"]
-            load = "" if abs(force / own - 1) < 0.01 else f", {force:.0f} kN"
-            self.references.append((f"CONTACT, {patch.size_x:.2g} mm{load}", patch, "black", "--"))
+            self.references.append((f"CONTACT, {patch.size_x:.2g} mm{self.other_load(patch)}", patch, "black", "--"))
         scale = {"semi_axis_x_m": 1e3, "semi_axis_y_m": 1e3, "max_pressure_Pa": 1e-6}
         hertz = [reference_value(run.summary, key, "Hertz") for key in scale]
         self.hertz = None if None in hertz else [value * factor for value, factor in zip(hertz, scale.values())]
-        # The program takes Hertz's answer at the mean force of the last 10 mm.
-        self.hertz_label = f"Hertz at {1e-3 * run.summary['normal_force_N']:.0f} kN" if is_dynamic(run) else "Hertz"
+        self.hertz_label = "Hertz"
+        if self.hertz and is_dynamic(run):
+            # The program takes Hertz's answer at the mean force of the last 10 mm; all of it grows with the cube root of the force.
+            growth = (1e3 * self.force / run.summary["normal_force_N"]) ** (1 / 3)
+            self.hertz = [growth * value for value in self.hertz]
+            self.hertz_label = f"Hertz at {self.force:.1f} kN"
         self.y = 1e3 * run.summary.get("first_contact_y_m", 0.0)
         self.friction = run.summary.get("friction_coefficient") or self.patch.friction_coefficient()
         self.title = patch_title(run, self.patch)
+
+    def other_load(self, patch: Patch) -> str:
+        """A solution for another load is no answer to this run: words for its label that say for which it is."""
+        force = 1e-3 * patch.normal_force
+        return "" if abs(force / self.force - 1) < 0.01 else f", {force:.1f} kN"
 
 
 def axis_profile(patch: Patch, values: np.ndarray, y: float) -> tuple[np.ndarray, np.ndarray]:
@@ -101,7 +108,8 @@ def draw_axis(run: Pictured) -> Figure:
     for axis in axes:
         axis.axhline(0, color="#999999", lw=0.8, zorder=0)
         legend_beside(axis)
-    limit = 1.05 * max(abs(patch.x).max() + patch.size_x, run.hertz[0] if run.hertz else 0)
+    drawn = [abs(other.x).max() + other.size_x for other in (patch, run.averaged) if other is not None]
+    limit = 1.05 * max(*drawn, run.hertz[0] if run.hertz else 0)
     axes[0].set_xlim(-limit, limit)
     axes[0].set_title(run.title, pad=24)
     rolling_arrow(axes[0])

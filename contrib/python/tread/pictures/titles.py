@@ -15,12 +15,6 @@ def is_dynamic(run: Run) -> bool:
     return "largest_normal_force_N" in run.summary
 
 
-def static_load(run: Run) -> float | None:
-    """Weight on the contact, kN; None if the parameters do not say."""
-    mass = [run.parameters.get(name) for name in ("Wheel/Mass (kg)", "Vehicle/Sprung mass (kg)", "Vehicle/Gravity (m per s2)")]
-    return None if None in mass else 1e-3 * (float(mass[0]) + float(mass[1])) * float(mass[2])
-
-
 def whose(run: Run) -> str:
     """Words for the wheel that the plain names of a run belong to, where there are several."""
     return "first wheel: " if "wheel_2_normal_force_N" in run.summary else ""
@@ -55,6 +49,6 @@ def patch_title(run: Run, patch: Patch) -> str:
     size = f"{'elements' if run.summary.get('method') == 'half-space solver' else 'cells'} of {patch.size_x:.2f} mm"
     if not is_dynamic(run):
         return f"{whose(run)}{steady_figures(run)}, {size}"
-    force = 1e-3 * (patch.pressure * patch.area).sum()  # MPa and mm2 give N
+    force = 1e-3 * patch.normal_force
     at = f" with the wheel at {1e3 * run.history['position_m'][-1]:.1f} mm" if len(run.history.get("position_m", ())) else ""
     return f"{whose(run)}at the end{at}: normal force {force:.1f} kN, {size}"
