@@ -69,10 +69,10 @@ extern "C"
     int    iterations; /* Newton steps of the tangential problem */
     double longitudinal_force, lateral_force; /* Fx, Fy on the wheel [N] */
     double spin_moment;                       /* of the shear about z, on the wheel [N m] */
-    double max_pressure;    /* of an element [Pa]; of slip order 2 without a gap of its own Hertz's maximum */
-    double adhesion_share;  /* elements in adhesion over those in contact [-] */
-    double area;            /* of the elements in contact [m^2] */
-    double approach;        /* of distant points of the bodies [m] */
+    double max_pressure;   /* of an element [Pa]; of slip order 2 without a gap of its own Hertz's maximum */
+    double adhesion_share; /* elements in adhesion over those in contact [-] */
+    double area;     /* of the elements in contact, or, where the pressure is Hertz's, of the ellipse [m^2] */
+    double approach; /* of distant points of the bodies [m] */
     double frictional_work; /* for each metre that the wheel rolls [J/m], >= 0 */
   } tread_half_space_answer;
 

@@ -32,6 +32,14 @@ namespace tread
   }
 
 
+  std::string quoted_word(const std::string &word)
+  {
+    return word.find_first_of(",\"") == std::string::npos
+             ? word
+             : '"' + std::regex_replace(word, std::regex("\""), "\"\"") + '"';
+  }
+
+
   namespace
   {
     /// Of a wheel: what acts in its contact.
@@ -357,7 +365,9 @@ namespace tread
        [](const R &r) {
          return r.shear[0];
        }},
-      {"shear_y", "MPa", "Shear stress on the wheel, across the rail along the surface",
+      {"shear_y", "MPa",
+       "Shear stress on the wheel, across the rail along the surface, positive to the field side of that "
+       "wheel's rail",
        [](const R &r) {
          return r.shear[1];
        }},
@@ -365,7 +375,7 @@ namespace tread
        [](const R &r) {
          return r.slip[0];
        }},
-      {"slip_y", "m_per_s", "The same across",
+      {"slip_y", "m_per_s", "The same across, likewise",
        [](const R &r) {
          return r.slip[1];
        }},

@@ -239,7 +239,13 @@ namespace tread
                                         !scene.contact.friction_places.empty();
         if (differs_from_start && scene.is_positioned() && !placement_at_solution)
           {
-            placement_at_solution = placement_now();
+            // Means over a cell begin half of it before the end of the path: so far it goes on with its
+            // rates.
+            Placement   &at   = placement_at_solution.emplace(placement_now());
+            const double rest = (scene.path_end() - position()) / scene.motion.speed;
+            at.position.shift += rest * at.rates.across_speed;
+            at.position.yaw += rest * at.rates.yaw_rate;
+            at.position.roll += rest * at.rates.roll_rate;
             place_at_solution();
           }
         const auto states = contact_states();

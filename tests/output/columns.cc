@@ -391,4 +391,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_passages(check);
   check_stresses(check);
   check_rail_seats(check);
+  check.that("a word with a comma is one entry of a row",
+             quoted_word("sleepers, vertical") == "\"sleepers, vertical\"" &&
+               quoted_word("adhesion") == "adhesion" &&
+               quoted_word("so \"called\"") == "\"so \"\"called\"\"\"");
 }

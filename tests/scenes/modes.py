@@ -34,6 +34,8 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"{ranks} rank(s): it ends well", result.returncode == 0)
     rows, parallel = words_of(one), words_of(three)
     check.that("columns begin with number, frequency, body", list(rows[0])[:3] == ["number", "frequency_Hz", "body"])
+    check.that("each row has as many entries as there are headings, whatever commas are in its words",
+               all(None not in row and None not in row.values() for row in rows) and any(row["description"] == "rail, vertical" for row in rows))
     check.that("bodies", {row["body"] for row in rows} == {"wheel", "wheel_on_suspension", "track"})
     check.that("as many modes on three ranks", len(rows) == len(parallel))
     number = lambda row, name: float(row[name])

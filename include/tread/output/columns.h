@@ -75,6 +75,9 @@ namespace tread
     return table;
   }
 
+  /// A word as tables have it: in quotation marks if it holds a comma, at which readers would split it.
+  std::string quoted_word(const std::string &word);
+
   /// A row with its end of line.
   template <typename Record>
   void write_row(std::ostream &out, const Columns<Record> &columns, const Record &row)
@@ -85,7 +88,7 @@ namespace tread
         out << separator;
         separator = ",";
         if (column.word)
-          out << column.word(row);
+          out << quoted_word(column.word(row));
         else if (const double factor = factor_of(column.unit); factor != 1.)
           out << factor * column.value(row);
         else

@@ -1,0 +1,313 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Figures that functions of the Python package return, against numbers that follow from what was put in by other ways than theirs.
+
+unnoticed_figures.py tells which figures no test compares.
+"""
+
+import math
+import os
+import sys
+import tempfile
+import time
+import unittest
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+
+from tread import comparison, creep_table, differences, hertz, limits, measured_runs, plots, schema, studies, vtu
+from tread.patches import Patch
+from tread.runs import Run
+
+try:
+    from tread.pictures import impact, mesh, patch as patch_pictures, plastic
+except ImportError:  # without matplotlib
+    impact = None
+
+FIELDS = ("pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s")
+
+
+def ellipse(a=6., b=4., step=0.5, pressure=1000., shift=(0., 0.), factor=1.):
+    """{column: values} of a patch on a grid: half an ellipsoid of pressure, shear stress of 0.3 and -0.1 of it, slip behind the middle."""
+    x, y = (values.ravel() for values in np.meshgrid(np.arange(-a, a + step / 2, step), np.arange(-b, b + step / 2, step)))
+    inside = (x / a) ** 2 + (y / b) ** 2 < 1 - 1e-9
+    x, y = x[inside], y[inside]
+    p = pressure * np.sqrt(1 - (x / a) ** 2 - (y / b) ** 2)
+    slips = x < 0
+    return {"x_mm": x + shift[0], "y_mm": y + shift[1], "pressure_MPa": p, "shear_x_MPa": 0.3 * factor * p, "shear_y_MPa": -0.1 * factor * p,
+            "slip_x_m_per_s": -0.04 * factor * slips, "slip_y_m_per_s": 0.03 * factor * slips, "area_mm2": np.full(len(x), step * step) * (1 + 0.5 * slips),
+            "state": np.where(slips, "slip", "adhesion")}
+
+
+def patch_of(table):
+    return Patch("patch.csv", dict(table), FIELDS)
+
+
+def write_table(path, table):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(",".join(table) + "\n" + "".join(",".join(map(str, row)) + "\n" for row in zip(*table.values())))
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def close(self, computed, reference, relative=1e-9):
+        np.testing.assert_allclose(computed, reference, rtol=relative, atol=1e-12)
+
+
+class Patches(InFolder):
+    def test_figures_of_a_patch(self):
+        table = ellipse()
+        patch = patch_of(table)
+        self.close(patch.shear, math.sqrt(0.1) * table["pressure_MPa"])
+        self.close(patch.slip[table["x_mm"] < 0], 0.05)
+        behind, ahead = np.sum(table["x_mm"] < 0), np.sum(table["x_mm"] >= 0)
+        self.close(patch.adhesion_share, ahead / (ahead + 1.5 * behind))
+
+    @unittest.skipUnless(impact, "without matplotlib")
+    def test_a_line_through_a_patch(self):
+        patch = patch_of(ellipse())
+        x, values = patch_pictures.axis_profile(patch, patch.pressure, 0.)
+        self.close((x[0], x[-1]), (-6, 6))
+        self.close(values, 1000 * np.sqrt(1 - (x / 6) ** 2))
+        self.assertEqual(patch_pictures.dominant(patch), "x")
+
+    @unittest.skipUnless(impact, "without matplotlib")
+    def test_places_in_the_axes_of_a_patch(self):
+        """A point 2 mm along a plane that rises by 0.3 rad, 1 mm above it, of each wheel; the other one's rail lies across the track."""
+        c, s = math.cos(0.3), math.sin(0.3)
+        own = {"wheel": "own", "y_m": 0.755, "y_rail_m": 0.005, "z_m": -0.001, "angle_rad": 0.3}
+        table = {"y_mm": np.array([5 + 2 * c - s]), "z_mm": np.array([-1 + 2 * s + c])}
+        self.close(patch_pictures.along_patch(table, own), [[2], [1]])
+        other = {**own, "wheel": "other", "y_m": -0.757, "y_rail_m": 0.007}
+        table["y_mm"] = np.array([-757 - 750 - (2 * c - s)])
+        self.close(patch_pictures.along_patch(table, other), [[2], [1]])
+
+    def test_beside_contact(self):
+        """Figures of a run beside one whose tractions are 10 % larger and whose patch lies elsewhere."""
+        own, other = ellipse(), ellipse(shift=(1.25, -0.5), pressure=1100.)
+        write_table(self.path("run", "patch.csv"), own)
+        write_table(self.path("run", "reference_patch.csv"), other)
+        with open(self.path("run", "summary.json"), "w", encoding="utf-8") as stream:
+            stream.write('{"reference": {"semi_axis_x_m": {"Hertz": {"value": 0.006}}, "semi_axis_y_m": {"Hertz": {"value": 0.004}}}}')
+        self.close(comparison.hertz_axes({"reference": {"semi_axis_x_m": {"Hertz": {"value": 0.006}}, "semi_axis_y_m": {"Hertz": {"value": 0.004}}}}, None), (6, 4))
+        found = comparison.compare(self.path("run"))
+        p = own["pressure_MPa"]
+        rms = 0.1 * math.sqrt(np.mean(p**2)) / (1.1 * p.max())
+        for key, value in (("nodes_in_contact", len(p)), ("node_distance_mm", 0.5), ("max_pressure_MPa", 1000.), ("max_pressure_relative_difference", 1 / 1.1 - 1),
+                           ("max_shear_MPa", 1000 * math.sqrt(0.1)), ("max_shear_relative_difference", 1 / 1.1 - 1), ("shift_x_mm", -1.25), ("shift_y_mm", 0.5),
+                           ("max_slip_m_per_s", 0.05), ("pressure_rms_over_max", rms), ("shear_rms_over_max", rms),
+                           ("adhesion_share", np.sum(own["x_mm"] >= 0) / (np.sum(own["x_mm"] >= 0) + 1.5 * np.sum(own["x_mm"] < 0)))):
+            self.close(found[key], value, 1e-6)
+
+    def test_slip_beside_contact(self):
+        """A third more slip, everywhere behind the middle."""
+        own, other = ellipse(), ellipse(factor=0.75)
+        write_table(self.path("run", "patch.csv"), own)
+        write_table(self.path("run", "patch_averaged.csv"), ellipse(factor=1.5))
+        write_table(self.path("run", "reference_patch.csv"), other)
+        with open(self.path("run", "summary.json"), "w", encoding="utf-8") as stream:
+            stream.write("{}")
+        found = comparison.compare(self.path("run"))
+        inside = (own["x_mm"] / 5.5) ** 2 + (own["y_mm"] / 3.5) ** 2 < 0.81
+        share = math.sqrt(np.mean(own["x_mm"][inside] < 0))
+        self.close(found["micro_slip_rms_over_max_instant"], 0.25 / 0.75 * share, 0.02)
+        self.close(found["micro_slip_rms_over_max"], 0.75 / 0.75 * share, 0.02)
+        self.close(found["max_slip_relative_difference"], 1., 1e-6)
+        self.close(found["max_slip_m_per_s"], 0.075)
+
+    def test_neighbours(self):
+        """Of 3 x 2 nodes the one in the middle of a long side has all others, a corner three; a node that alone adheres is isolated."""
+        table = {name: np.ones(6) for name in FIELDS} | {"x_mm": np.array([0., 1, 2, 0, 1, 2]), "y_mm": np.array([0., 0, 0, 1, 1, 1]), "state": np.full(6, "slip")}
+        near = comparison.neighbours_in_contact(patch_of(table))
+        self.assertEqual([sorted(one) for one in near[:2]], [[1, 3, 4], [0, 2, 3, 4, 5]])
+        table["state"] = np.array(["slip"] * 4 + ["adhesion", "slip"])
+        self.assertEqual(comparison.isolated_adhesion(patch_of(table)), 1)
+
+
+class Runs(InFolder):
+    def test_rows_of_two_runs(self):
+        row = differences.row("work_J", 4., 5.)
+        self.assertEqual((row["name"], row["a"], row["b"], row["difference"], row["relative_difference"]), ("work_J", 4., 5., 1., 0.25))
+        self.assertEqual(differences.row("x", -4., 5.)["relative_difference"], 2.25)
+        figures = differences.figures_of({"a": 2.5, "list": [{"b": 3}, {"b": 4}], "wall_s": 9., "yes": True, "word": "x", "deep": {"c": {"d": 5}}})
+        self.assertEqual(figures, {"a": 2.5, "list/1/b": 3, "list/2/b": 4, "deep/c/d": 5})
+        for name, value, factor in (("a", 2., 1.), ("b", 3., 1.2)):
+            write_table(self.path(name, "patch.csv"), ellipse(pressure=1000 * factor))
+            with open(self.path(name, "summary.json"), "w", encoding="utf-8") as stream:
+                stream.write('{"work_J": %g, "list": [{"creepage": %g}]}' % (value, 10 * value))
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            rows = {row["name"]: row for row in differences.compare(self.path("a"), self.path("b"))}
+        pressure = math.sqrt(np.mean(ellipse()["pressure_MPa"] ** 2))
+        for name, a, b in (("work_J", 2., 3.), ("list/1/creepage", 20., 30.), ("patch_pressure_rms_MPa", pressure, 1.2 * pressure)):
+            self.close((rows[name]["a"], rows[name]["b"]), (a, b), 1e-6)
+
+    def test_costs(self):
+        """A stand-in that takes 0.2 s and 64 MB."""
+        program = self.path("stand-in")
+        with open(program, "w", encoding="utf-8") as stream:
+            stream.write("#!/usr/bin/python3\nimport json, sys, time\nkept = bytearray(64 << 20)\ntime.sleep(0.2)\n"
+                         "open(sys.argv[sys.argv.index('--output') + 1] + '/summary.json', 'w').write(json.dumps({'completed': True, 'normal_force_N': 140e3}))\n")
+        os.chmod(program, 0o755)
+        start = time.monotonic()
+        with mock.patch.object(measured_runs, "command", lambda arguments, ranks: [program, *arguments]), mock.patch("builtins.print"):
+            summary = measured_runs.run_scene("smooth-rolling.prm", self.path("kept"))
+        self.assertEqual(summary["normal_force_N"], 140e3)
+        self.assertTrue(0.2 <= summary["seconds"] <= time.monotonic() - start)
+        self.assertTrue(64 << 20 <= summary["peak_bytes"] < 256 << 20)
+        with mock.patch.object(os, "cpu_count", return_value=1):
+            self.assertEqual(measured_runs.available_ranks(), 1)
+        with mock.patch.object(os, "cpu_count", return_value=8):
+            self.assertEqual(measured_runs.available_ranks(), 2)
+        runs = {"a": lambda turn: {"seconds": [3., 1., 2.][turn], "turn": turn}, "b": lambda turn: {"seconds": [1., 4., 5.][turn], "turn": turn}}
+        best = measured_runs.in_turn(3, runs)
+        self.assertEqual((best["a"]["seconds"], best["b"]["seconds"]), (1., 1.))
+
+
+class Studies(InFolder):
+    def test_figures_of_a_run(self):
+        """Each kind of figure, of a column whose largest, least and last entries are unlike."""
+        write_table(self.path("history.csv"), {"position_m": [1., 2., 3., 4.], "force_N": [5., 9., -7., 6.]})
+        write_table(self.path("strip.csv"), {"x_mm": [10., 20., 30.], "von_mises_MPa": [300., 700., 500.]})
+        with open(self.path("summary.json"), "w", encoding="utf-8") as stream:
+            stream.write('{"normal_force_N": 123.5, "count": 4}')
+        with open(self.path("dynamic.json"), "w", encoding="utf-8") as stream:
+            stream.write('{"forces": {"force_N": {"peak_N": -8.5, "oscillations": [{"frequency_Hz": 310.0}, {"frequency_Hz": 620.0}]}, "still_N": {"peak_N": 0, "oscillations": []}}}')
+        run = Run(self.folder)
+        member = SimpleNamespace(name="run", summary=run.summary, table=run.table, without_force="", path=run.path)
+        for figure, value in (("normal_force_N", 123.5), ("max(force_N)", 9.), ("min(force_N)", -7.), ("last(force_N)", 6.), ("max(strip.csv:von_mises_MPa)", 700.),
+                              ("min(strip.csv:von_mises_MPa)", 300.), ("at(strip.csv:von_mises_MPa:x_mm)", 20.), ("dynamic(force_N)", -8.5), ("frequency(force_N)", 310.)):
+            self.assertEqual(studies.figure_of(member, figure), value, figure)
+        self.assertTrue(math.isnan(studies.figure_of(member, "frequency(still_N)")))
+
+    def test_words_and_numbers(self):
+        self.assertEqual([studies.number_or_text(text) for text in ("1", "1.0", "-2.5e-3", "predicted")], [1., 1., -0.0025, "predicted"])
+        self.assertEqual([schema.edit_distance(*words) for words in (("Wheel", "wheel"), ("kitten", "sitting"), ("", "abc"), ("Finest", "Finst"))], [0, 3, 3, 1])
+
+    def test_where_a_limit_is_reached(self):
+        """By the straight line between 20 and 30, at a quarter of the way."""
+        self.assertEqual(limits.crossing([10, 20, 30, 40], [100., 150., 250., 260.], 175.), (30, 20, 22.5))
+        self.assertEqual(limits.crossing([40, 10, 30, 20], [260., 100., None, 150.], 175.), (40, 20, None))
+
+
+class ClosedForms(InFolder):
+    def test_elliptic_integrals(self):
+        """By Simpson's rule."""
+        angle, step = np.linspace(0, math.pi / 2, 2001, retstep=True)
+        weight = step / 3 * np.where(np.arange(2001) % 2, 4., 2.)
+        weight[[0, -1]] = step / 3
+        for m in (0.1, 0.5, 0.9):
+            root = np.sqrt(1 - m * np.sin(angle) ** 2)
+            self.close(hertz.elliptic(m), (np.sum(weight / root), np.sum(weight * root)), 1e-9)
+
+    def test_spheres(self):
+        """Johnson (1985), eq. 4.22 to 4.24, with 1/R = 2 A = 2 B."""
+        force, modulus, curvature = 1e5, 115e9, 1.25
+        radius = 0.5 / curvature
+        a = (0.75 * force * radius / modulus) ** (1 / 3)
+        self.close(hertz.semi_axes(curvature, 1., force, modulus), (a, a), 1e-6)
+        self.close(hertz.approach(a, a, force, modulus), a * a / radius, 1e-6)
+        self.close(hertz.force_of_approach(a, a, a * a / radius, modulus), force, 1e-6)
+        self.close(hertz.curvatures(a, a, force, modulus), (curvature, curvature), 1e-6)
+        self.close(hertz.semi_axis_of_approach(curvature, 1., a * a / radius), a, 1e-6)
+        self.close(hertz.ratio_of_semi_axes(curvature, curvature), 1., 1e-5)
+
+    def test_ellipses(self):
+        """The pressure's own displacement: the gap closes in the middle and on both axes alike, by the integral of Johnson's eq. 3.38."""
+        a, b, force, modulus = 6e-3, 2e-3, 1e5, 115e9
+        in_x, in_y = hertz.curvatures(a, b, force, modulus)
+        w = np.linspace(0., 1., 200001)[1:-1]
+        # Substituted by t = (w / (1 - w))^2 a b.
+        t, dt = a * b * (w / (1 - w)) ** 2, a * b * 2 * w / (1 - w) ** 3 * (w[1] - w[0])
+        rest = np.sqrt((a * a + t) * (b * b + t) * t)
+        scale = 0.75 * force / (math.pi * modulus)
+        self.close(in_x, scale * np.sum(dt / ((a * a + t) * rest)), 1e-3)
+        self.close(in_y, scale * np.sum(dt / ((b * b + t) * rest)), 1e-3)
+        self.close(hertz.approach(a, b, force, modulus), scale * np.sum(dt / rest), 1e-3)
+        self.close(hertz.ratio_of_semi_axes(in_x, in_y), 3., 1e-6)
+        self.close(hertz.curvature_y(in_x, 3.), in_y, 1e-9)
+        self.close(hertz.semi_axes(in_x, 3., force, modulus), (a, b), 1e-9)
+
+    def test_creep_table(self):
+        """Its cases' curvatures give the table's semi-axes again."""
+        cases, forces = creep_table.table_cases()
+        modulus = 82e9 / (1 - 0.28)
+        for row in (0, len(cases["curvature_x"]) // 2):
+            ratio = hertz.ratio_of_semi_axes(cases["curvature_x"][row], cases["curvature_y"][row])
+            a, b = hertz.semi_axes(cases["curvature_x"][row], ratio, 82000., modulus)
+            self.close((7 * cases["element_x"][row], 7 * cases["element_y"][row]), (2 * a, 2 * b), 1e-5)
+        answers = {"longitudinal_force": 0.3 * 82000. * (forces["longitudinal_force"] + np.eye(1, len(forces["longitudinal_force"]), 2)[0] * 0.25)}
+        self.close(creep_table.beside_table(answers, cases, {"longitudinal_force": forces["longitudinal_force"]})["longitudinal_force"], 0.25, 1e-6)
+        random, (a, b) = creep_table.random_cases(50)
+        self.assertTrue(np.all((0.2 < a / b) & (a / b < 5.)))
+        self.close(np.sqrt(a * b), 5e-3)
+        self.assertEqual(len(random["creepage"]), 50)
+
+
+@unittest.skipUnless(impact, "without matplotlib")
+class Pictured(InFolder):
+    def test_zimmermann(self):
+        """Shares of many supports sum up to the whole force, and the largest is spacing over twice the length."""
+        shares = [impact.zimmermann_share(0.6 * n + 0.13, 0.6, 0.8) for n in range(-40, 41)]
+        self.close(sum(shares), 1., 2e-3)
+        self.close(impact.zimmermann_share(0., 0.6, 0.8), 0.375)
+        self.close(impact.zimmermann_share(-0.8 * math.pi * 0.75, 0.6, 0.8), 0., 1e-6)
+
+    def test_peaks(self):
+        force = np.array([0., 5., 4., 4.5, 1., 3., 2., 2.9, 0.])
+        self.assertEqual(impact.peaks(np.arange(9.), force, 1.), [1, 5])
+        self.assertEqual(impact.peaks(np.arange(9.), force, 0.4), [1, 3, 5, 7])
+
+    def test_cells_that_are_cut(self):
+        """One cell from x = 1 to 3, whose far side is twice as wide, cut in its middle; its side on y = 0."""
+        near, far = [(1., 0., 0.), (1., 1., 0.), (1., 1., 1.), (1., 0., 1.)], [(3., 0., 0.), (3., 2., 0.), (3., 2., 1.), (3., 0., 1.)]
+        cell = np.array([[near[0], far[0], far[1], near[1], near[3], far[3], far[2], near[2]]])
+        np.testing.assert_allclose(sorted(map(tuple, mesh.cut_across(cell, 2.)[0])), [(0, 0), (0, 1), (1.5, 0), (1.5, 1)])
+        np.testing.assert_allclose(sorted(map(tuple, mesh.along_middle(cell)[0])), [(1, 0), (1, 1), (3, 0), (3, 1)])
+        self.assertEqual(len(mesh.cut_across(cell, 3.5)), 0)
+
+    def test_tables_of_a_yielding_rail(self):
+        write_table(self.path("patch.csv"), ellipse())
+        x, y, z = (values.ravel() for values in np.meshgrid([-1., 0., 1.], [-0.25, 0.25], [-0.25, -0.75, -1.5]))
+        write_table(self.path("rail_cells.csv"), {"x_mm": x, "y_mm": y, "z_mm": z, "von_mises_MPa": 100 + 10 * x - 40 * z + 5 * np.abs(y)})
+        xs, ys = (values.ravel() for values in np.meshgrid([2., 1., 3.], [-1., 0., 1.]))
+        write_table(self.path("rail_surface.csv"), {"x_mm": xs, "y_mm": ys, "u_z_um": -xs * (1 + ys)})
+        tables = plastic.Tables(self.folder)
+        at, values = tables.level(0.5, "von_mises_MPa")
+        self.close((at, values), ([-1, 0, 1], [100 - 10 + 20 + 1.25, 100 + 20 + 1.25, 100 + 10 + 20 + 1.25]))
+        self.close(tables.settlement(), ([1, 2, 3], [-1, -2, -3]))
+        depth, values = tables.under(1., "von_mises_MPa")
+        self.close((depth, values), ([0.25, 0.75, 1.5], [100 + 10 + 40 * d + 1.25 for d in (0.25, 0.75, 1.5)]), 1e-6)
+        x, values = tables.along(tables.patch.pressure)
+        self.close(values, 1000 * np.sqrt(1 - (x / 6) ** 2))
+        y, values = tables.across(tables.patch.pressure, 0.)
+        self.close(np.interp([-2., 1.], y, values), 1000 * np.sqrt(1 - (np.array([2., 1.]) / 4) ** 2), 1e-6)
+
+
+class Read(InFolder):
+    def test_vtu_in_letters(self):
+        with open(self.path("one.vtu"), "w", encoding="utf-8") as stream:
+            stream.write('<VTKFile><UnstructuredGrid><Piece><PointData><DataArray type="Float64" Name="p" format="ascii"> 1.5 2.5 </DataArray></PointData>'
+                         '<Points><DataArray type="Float64" format="ascii"> 0.001 0.002 0.003 0.004 0.005 0.006 </DataArray></Points>'
+                         '<Cells><DataArray type="Int32" Name="connectivity" format="ascii"> 1 0 </DataArray></Cells></Piece></UnstructuredGrid></VTKFile>')
+        (points, cells, fields), = vtu.read_pieces(self.path("one.vtu"))
+        self.close(points, [[1, 2, 3], [4, 5, 6]])
+        self.assertEqual((cells.tolist(), fields["p"].tolist()), ([1, 0], [1.5, 2.5]))
+
+    def test_passages_and_rows_that_are_shown(self):
+        self.assertEqual([(part.start, part.stop) for part in plots.passages(np.array([1., 2., 3., 1., 2., 1.]))], [(0, 3), (3, 5), (5, 6)])
+        dip = {"Defect/Shape": "dip", "Defect/Position (mm)": "20", "Defect/Length (mm)": "10"}
+        shown = plots.shown_rows(np.arange(0., 61., 5.), dip)  # from a quarter of 40 mm before 20 mm on
+        self.assertEqual(shown.tolist(), [x >= 10. for x in np.arange(0., 61., 5.)])
+
+
+if __name__ == "__main__":
+    unittest.main()

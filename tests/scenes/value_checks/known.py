@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Values that no comparison watches, each with the reason: patterns of the file and of the key or column."""
+
+import re
+
+COUNTS = "a count of the solver's own work: nothing else knows it"
+RESIDUAL = "what an iteration leaves: only its smallness is checked"
+TIMES = "a time on the wall: only that it is a part of the whole is checked"
+PLACES = "compared as it is made, by tests/analysis/rail_stress.cc"
+
+KNOWN: list[tuple[str, str, str]] = [
+    ("summary.json", "normal_iterations|tangential_iterations|solutions", COUNTS),
+    ("summary.json", "normal_residual|tangential_residual", RESIDUAL),
+    ("summary.json", "wall_s.*", TIMES),
+    ("summary.json", "cells_and_nodes_bytes|unknowns|plastic_cells", "how a mesh is made up: within a factor of two by its number of cells"),
+    ("summary.json", "peak_surface_von_mises_from_tractions_.*", PLACES),
+    ("summary.json", "wheel_2_free_rolling_creepage", "both wheels are of one steel and one shape: it is that of the first wheel"),
+    ("summary.json", "wheel_2_lateral_force_N", "of a wheel on an upright cylinder, to which only noise of the mesh gives one"),
+    ("summary.json", "free_rolling_creepage", "the difference of what finite bodies and half-spaces stretch by: compared by tests/scene/parts.cc"),
+    ("summary.json", "airborne_s", "no wheel of these runs leaves the rail: compared by tests/simulation/records.cc"),
+    ("summary.json", "note", "words"),
+    ("summary.json", "patches/1/(element_[xy]_m|wheel_profile_radius_m)", "of elements the number is checked; a cone has no radius but that of its rounding"),
+    ("summary.json", "wheel_max_von_mises_x_m|rail_max_von_mises_x_m", "known to an element, which is as much as it is"),
+    ("summary.json", "cell_1_y_m", "half a cell beside the middle, on one side or the other"),
+    ("summary.json", "largest_pad_force_x_m", "where the run ends: as good as 0"),
+    ("history.csv", "(own|other)_wheel_roll_rad", "moments bend the axle: compared by tests/track/flexible_axle.cc"),
+    ("history.csv", "rail_base_.*", "compared by tests/track/rail_base.cc and tests/output/columns.cc"),
+    ("history.csv", "support_0_rail_at_next_mid_span_m|support_0_rail_m|support_0_.*seat_pressure_Pa", "within bounds here; statics: tests/track/statics.cc"),
+    ("history.csv", "(other_(longitudinal|lateral|normal)_force_N|guidance_force_N|roll_rad|yaw_rad|lateral_shift_m|(own|other)_wheel_yaw_rad|axle_twist_rad)",
+     "changes by less in a row than the comparison allows: one that lies a row late is not noticed"),
+    ("history.csv", "wheel_2_(adhesion_share|contact_area_m2|max_pressure_Pa|lateral_force_N|axle_box_acceleration_m_per_s2)",
+     "of a steady wheel: one that lies a row late is not noticed"),
+    ("history.csv", "axle_box_acceleration_m_per_s2", "compared in the mean over the way, by the wheel's mass"),
+    ("modes.csv", ".*_amplitude_per_sqrt_kg|pad_elongation_per_sqrt_kg", "the sign of a mode is free; of pads the largest of each mode: some modes are compared"),
+    ("modes.csv", "web_share", "zero where the wheel is a sector"),
+    ("contact_points.csv", "height_mm|o(wn|ther)_x_mm", "hardly changes from row to row: one that lies a row late is not noticed"),
+    ("passages.csv", "shift_um", "its sign and size are bounded by the surface under load"),
+    ("cells.csv", "cell_1_equivalent_plastic_strain", "constant once the wheel is past: one that lies a row late is not noticed"),
+    ("rail_surface.csv", "[xyz]_mm|u_[xyz]_um", "its places are compared by those of the patch's nodes, whatever their order"),
+    ("rail_cells.csv", "[xyz]_mm|stress_.*_MPa|equivalent_plastic_strain_percent", "a row late moves no sum over a level"),
+    ("rail_seats.csv", "[xy]_mm", "places are symmetric to the pad's middle; moments of sleeper_stress.json tell the sides"),
+    ("strip.csv", "(surface_)?(depth|y|von_mises)_(mm|MPa)|y_mm|depth_mm", "known to a cell"),
+    ("run.h5", "reference_patch/z_mm|.*plastic.*", "zero in the runs that have it"),
+    ("sleeper_stress.json", "cells|unknowns|iterations|order_of_elements|seat_cell_m", COUNTS),
+    ("sleeper_stress.json", "(max|min)_.*|.*place.*|half_sleeper_mass_kg|mean_seat_settlement_m|.*moment_x.*", "within bounds here; stresses: tests/analysis/sleeper_stress.cc"),
+    ("subsurface.csv", "xy_MPa", "its sign in the plane of symmetry is that of a small stress: tests/reference/half_space.cc"),
+    ("transient.csv", "lateral_coefficient", "steady at the end: one that lies a row late is not noticed"),
+    ("dynamic.json", ".*logarithmic_decrement|.*oscillations", "compared by tests/analysis/spectrum.cc"),
+    ("screen", "sinks under other patches.*|wheel #: normal force.* 1|spectrum: .*", "zero, a number of the label, or within the three digits that are shown"),
+    ("screen", "# cells, # unknowns, # rank.*4|only # patch lengths.*2|.*plasticity.*3", "a constant, or zero"),
+    ("screen", "(half a sleeper|support #|force on the bottom|largest force in a pad|[a-z_0-9-]+_N|dynamic force of|rows interpolated|largest tension|largest von Mises).*",
+     "figures of files in another unit, which are compared; on the line within the digits that are shown"),
+    ("library|own gap|fields|tread_half_space_.*", "iterations|status", COUNTS),
+]
+
+
+def reason(file: str, name: str) -> str:
+    """Why a value is not compared, or "". """
+    return next((why for of_file, of_name, why in KNOWN if re.fullmatch(of_file, file) and re.fullmatch(of_name, name)), "")
