@@ -162,7 +162,7 @@ class Runs(InFolder):
             summary = measured_runs.run_scene("smooth-rolling.prm", self.path("kept"))
         self.assertEqual(summary["normal_force_N"], 140e3)
         self.assertTrue(0.2 <= summary["seconds"] <= time.monotonic() - start)
-        self.assertTrue(64 << 20 <= summary["peak_bytes"] < 256 << 20)
+        self.assertTrue(64 << 20 <= summary["peak_bytes"] < 1 << 30)  # before it starts it is as large as this process
         with mock.patch.object(os, "cpu_count", return_value=1):
             self.assertEqual(measured_runs.available_ranks(), 1)
         with mock.patch.object(os, "cpu_count", return_value=8):
@@ -271,7 +271,7 @@ class Pictured(InFolder):
         near, far = [(1., 0., 0.), (1., 1., 0.), (1., 1., 1.), (1., 0., 1.)], [(3., 0., 0.), (3., 2., 0.), (3., 2., 1.), (3., 0., 1.)]
         cell = np.array([[near[0], far[0], far[1], near[1], near[3], far[3], far[2], near[2]]])
         np.testing.assert_allclose(sorted(map(tuple, mesh.cut_across(cell, 2.)[0])), [(0, 0), (0, 1), (1.5, 0), (1.5, 1)])
-        np.testing.assert_allclose(sorted(map(tuple, mesh.along_middle(cell)[0])), [(1, 0), (1, 1), (3, 0), (3, 1)])
+        np.testing.assert_allclose(sorted(map(tuple, mesh.cut_along(cell, 0.5)[0])), [(1, 0), (1, 1), (3, 0), (3, 1)])
         self.assertEqual(len(mesh.cut_across(cell, 3.5)), 0)
 
     def test_tables_of_a_yielding_rail(self):

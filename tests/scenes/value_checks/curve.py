@@ -35,7 +35,7 @@ def position_at_the_end(runs: Runs, expect: Expect) -> None:
     summary, history = runs.of(RUN), runs.of(RUN, "history.csv")
     for key in ("lateral_shift_m", "yaw_rad", "roll_rad"):
         value = np.interp(0., history["position_m"], history[key])
-        expect.near(key, 1e3 * summary[key], 1e3 * value, relative=5e-3)
+        expect.near(key, 1e3 * summary[key], 1e3 * value, relative=5e-4)
     expect.near("yaw at the start", history["yaw_rad"][0], 3e-3, relative=0.05)
 
 

@@ -21,6 +21,7 @@ def normal_problem(runs: Runs, expect: Expect) -> None:
     expect.near("load", summary["normal_force_N"], 9.81 * (900 + 13400), relative=1e-9)
     expect.same("method", summary["method"], "half-space solver")
     expect.near("ranks", summary["ranks"], 1)
+    expect.near("ranks", runs.of("half_alike")["ranks"], 2)
 
 
 @compared

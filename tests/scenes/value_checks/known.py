@@ -50,6 +50,8 @@ KNOWN: list[tuple[str, str, str]] = [
     ("screen", "# cells, # unknowns, # rank.*4|only # patch lengths.*2|.*plasticity.*3", "a constant, or zero"),
     ("screen", "(half a sleeper|support #|force on the bottom|largest force in a pad|[a-z_0-9-]+_N|dynamic force of|rows interpolated|largest tension|largest von Mises).*",
      "figures of files in another unit, which are compared; on the line within the digits that are shown"),
+    ("tread_half_space_case", "slip_order|gap|n_x|n_y|x_first|y_first", "of a gap of one's own, whose answers are compared as `own gap`; slip_order: tests/scenes/batch.py"),
+    ("tread_half_space_case", "poisson", "of like bodies only its square counts: the sign is not noticed"),
     ("library|own gap|fields|tread_half_space_.*", "iterations|status", COUNTS),
 ]
 

@@ -189,6 +189,8 @@ def vibrations_of_the_dip(runs: Runs, expect: Expect) -> None:
     for name in [name for name in figures.names() if name.endswith("/frequency_Hz")]:
         path, column = name[: -len("frequency_Hz")], name.split("/")[1]
         amplitude, line = spectrum[column], figures[name]
+        if amplitude.max() < 1.:  # N: a wheel that the dip does not reach
+            continue
         near = int(np.argmin(np.abs(frequency - line)))
         expect.near(f"{path}: amplitude", figures[path + "amplitude_N"], amplitude[max(0, near - 1):near + 2].max(), relative=0.009)
         expect.near(f"{path}: wavelength", figures[path + "wavelength_m"], SPEED / line, relative=1e-6)
