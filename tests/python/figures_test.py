@@ -16,12 +16,12 @@ from unittest import mock
 
 import numpy as np
 
-from tread import comparison, creep_table, differences, hertz, limits, measured_runs, plots, schema, studies, vtu
+from tread import comparison, contact_cases, creep_table, differences, hertz, limits, measured_runs, plots, schema, studies, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
 try:
-    from tread.pictures import impact, mesh, patch as patch_pictures, plastic
+    from tread.pictures import contact_points, impact, mesh, patch as patch_pictures, plastic
 except ImportError:  # without matplotlib
     impact = None
 
@@ -172,6 +172,23 @@ class Runs(InFolder):
         self.assertEqual((best["a"]["seconds"], best["b"]["seconds"]), (1., 1.))
 
 
+    def test_times_of_a_summary(self):
+        summary = {"wall_s": 100., "wall_s_start": 30., "wall_s_internal_forces": 1., "wall_s_contact": 2., "wall_s_communication": 4., "wall_s_nodes": 8.}
+        self.assertEqual((measured_runs.steps_seconds(summary), measured_runs.rolling_seconds(summary)), (15., 70.))
+
+    def test_lines_of_pages(self):
+        self.assertEqual([tables.first_difference(*texts) for texts in (("a\nb", "a\nb"), ("a\nb", "a\nc"), ("a", "a\nb"))], [None, 2, 2])
+
+    def test_rows_at_even_times(self):
+        time, values, twice = wavelets.evenly_spaced(np.array([0., 1., 4.]), np.array([0., 10., 40.]), np.array([0., 20., 80.]))
+        self.close((time, values, twice), ([0, 2, 4], [0, 20, 40], [0, 40, 80]))
+
+    def test_power_at_a_frequency(self):
+        """White noise has the same at all of them."""
+        scalogram = wavelets.Scalogram(np.random.default_rng(3).normal(size=20000), 1e-5, 5000, 20000, per_octave=4)
+        self.assertTrue(np.all(np.abs(scalogram.global_spectrum() - 1.) < 0.15))
+
+
 class Studies(InFolder):
     def test_figures_of_a_run(self):
         """Each kind of figure, of a column whose largest, least and last entries are unlike."""
@@ -191,6 +208,12 @@ class Studies(InFolder):
     def test_words_and_numbers(self):
         self.assertEqual([studies.number_or_text(text) for text in ("1", "1.0", "-2.5e-3", "predicted")], [1., 1., -0.0025, "predicted"])
         self.assertEqual([schema.edit_distance(*words) for words in (("Wheel", "wheel"), ("kitten", "sitting"), ("", "abc"), ("Finest", "Finst"))], [0, 3, 3, 1])
+
+    def test_numbers_of_the_command_line(self):
+        self.assertEqual([studies.natural(text) for text in ("1", "27")], [1, 27])
+        whole, broken = (SimpleNamespace(state=state, name="run", summary={"normal_force_N": 3.5}) for state in (studies.COMPLETE, "failed"))
+        self.assertEqual((studies.figure_or_none(whole, "normal_force_N"), studies.figure_or_none(broken, "normal_force_N")), (3.5, None))
+        self.assertIsNone(studies.figure_or_none(whole, "force_N"))
 
     def test_where_a_limit_is_reached(self):
         """By the straight line between 20 and 30, at a quarter of the way."""
@@ -261,6 +284,14 @@ class Pictured(InFolder):
         self.close(impact.zimmermann_share(0., 0.6, 0.8), 0.375)
         self.close(impact.zimmermann_share(-0.8 * math.pi * 0.75, 0.6, 0.8), 0., 1e-6)
 
+    def test_lines_of_contact_points_are_broken_where_they_jump(self):
+        table = {"lateral_shift_mm": np.array([0., 1., 2., 3.])} | {f"{side}_{place}_mm": np.array([0., 2., 4. + 10. * (side == "own"), 6. + 10. * (side == "own")])
+                                                                  for side in ("own", "other") for place in ("y_wheel", "y_rail")}
+        x, values = contact_points.broken(table, np.array([5., 6., 7., 8.]), ("own", "other"))
+        np.testing.assert_allclose(x, [0, 1, np.nan, 2, 3])
+        np.testing.assert_allclose(values, [5, 6, np.nan, 7, 8])
+        self.assertEqual(len(contact_points.broken(table, np.arange(4.), ("other",))[0]), 4)
+
     def test_peaks(self):
         force = np.array([0., 5., 4., 4.5, 1., 3., 2., 2.9, 0.])
         self.assertEqual(impact.peaks(np.arange(9.), force, 1.), [1, 5])
@@ -290,6 +321,15 @@ class Pictured(InFolder):
         self.close(values, 1000 * np.sqrt(1 - (x / 6) ** 2))
         y, values = tables.across(tables.patch.pressure, 0.)
         self.close(np.interp([-2., 1.], y, values), 1000 * np.sqrt(1 - (np.array([2., 1.]) / 4) ** 2), 1e-6)
+
+
+class Areas(InFolder):
+    def test_places_of_elements(self):
+        area = contact_cases.area_between(4, 2, 6., 3.)
+        self.assertEqual(len(area.x) * len(area.y), 8)
+        self.close(np.diff(area.x), area.element_x)
+        self.close(np.diff(area.y), area.element_y)
+        self.close((area.x[0] + area.x[-1], area.y[0] + area.y[-1]), (0, 0))
 
 
 class Read(InFolder):

@@ -223,7 +223,19 @@ def unnoticed(watch: Watch, tests: dict[str, unittest.TestCase]) -> tuple[dict[s
 
 
 # Figures that need no comparison here: patterns and reasons.
-KNOWN: list[tuple[str, str]] = []
+CONTACT = "of whole cases: compared by tests/scenes/contact_inp.py beside CONTACT's own answers"
+KNOWN: list[tuple[str, str]] = [
+    (r"contact_(cases|inp|mat|rolled|track|examples)\..*", CONTACT),
+    (r"half_space\.solve(_patch)?", "the library's answers: compared by tests/scenes/unchecked.py and batch.py"),
+    (r"creep_table\..*", "rows of contrib/contact-data/creep_table.csv and random input: compared with the library's answers by tests/scenes/batch.py"),
+    (r"manchester\..*", "rolled and solved by tests/scenes/wheelset.py and wheelset_rolling.py"),
+    (r"arcs\.joints.*", "joints of arcs, of which the radii are compared"),
+    (r"measured_runs\.(dry_run|contact_measures|run_scene.*|in_turn.*turn.*)", "costs and figures of whole programs, for tables of doc/; compared in figures_test.py where a stand-in has them"),
+    (r"pictures\.(crossing|impact|mesh|patch)\..*", "what pictures show: pictures_test.py reads it off drawn axes, in a test that takes too long to be watched"),
+    (r"differences\.figures_of\[.*\]", "names of what a test puts in: figures_test.py compares all of an answer"),
+    (r"schema\.(check_scenes|make_schema|parameter_schema)", "made with the program's help: schema_test.py compares the whole with the file"),
+    (r"(studies\.main|runs\.processes_below|files\.read_toml)", "an exit code, numbers of processes, a file as it is"),
+]
 
 
 def reason(figure: str) -> str:
