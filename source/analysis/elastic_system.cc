@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/elastic_system.h>
 #include <tread/base/gathered.h>
+#include <tread/solid/surface_layer.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -108,7 +109,8 @@ namespace tread
             }
           loose.cells.push_back(cell);
         }
-      const auto groups = element.make_groups(loose, material, cells);
+      // Hourglass modes of single cells at the surface are no matter of whole bodies' modes.
+      const auto groups = element.make_groups(loose, material, cells, SurfaceLayer());
 
       NodalField x(8 * n), v(8 * n, Vector3{}), force(8 * n);
       for (unsigned int i = 0; i < 8 * n; ++i)
@@ -124,7 +126,7 @@ namespace tread
               x[8 * c + j / 3][j % 3] = corners[c][j / 3][j % 3] + sign * step[c];
             std::fill(force.begin(), force.end(), Vector3{});
             for (const auto &group : groups)
-              group->add_forces(x.data(), v.data(), force.data(), 1.);
+              group->add_forces(x.data(), v.data(), force.data(), 1., 0.);
             for (unsigned int c = 0; c < n; ++c)
               {
                 for (unsigned int i = 0; i < 24; ++i)

@@ -292,6 +292,7 @@ namespace tread
     mean_velocity.assign(involved.size(), Vector3{});
     offset.resize(problem.constraints.size());
     imposed.assign(problem.constraints.size(), Vector3{});
+    before_entry.assign(problem.constraints.size(), Vector3{});
     slips.assign(problem.constraints.size(), false);
     const unsigned int n_ranks = involved_of_rank.size();
     if (parameters.reproducible)
@@ -468,6 +469,18 @@ namespace tread
   }
 
 
+  Vector3 Contact::slip_before_entry(const ContactProblem::Constraint &constraint,
+                                     const double                      gap_over_step,
+                                     const Vector3                     sliding) const
+  {
+    const Vector3 u       = problem.combine(constraint, velocity_before);
+    const double  opening = dot(u, constraint.normal);
+    if (opening >= 0. || gap_over_step <= 0.)
+      return Vector3{};
+    return std::min(1., gap_over_step / -opening) * (u - opening * constraint.normal + sliding);
+  }
+
+
   CoulombSolverResult Contact::solve(const double time_step, Vector3 *force)
   {
     if (++steps_since_normals > steps_between_normals)
@@ -485,6 +498,10 @@ namespace tread
             imposed[j]            = sliding - dot(sliding, constraint.normal) * constraint.normal;
             offset[j] += imposed[j];
           }
+        before_entry[j] = given_ratio.empty() && dot(impulse[j], impulse[j]) == 0.
+                            ? slip_before_entry(constraint, dot(offset[j], constraint.normal), imposed[j])
+                            : Vector3{};
+        offset[j] -= before_entry[j];
       }
     // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)

@@ -119,10 +119,11 @@ namespace tread
         state.normal      = constraint.normal;
         state.impulse     = impulse[j];
         const Vector3 u   = problem.combine(constraint, velocity);
-        state.slip        = u - dot(u, constraint.normal) * constraint.normal + imposed[j];
-        state.area        = constraint.area;
-        state.gap         = dot(problem.combine(constraint, position), constraint.normal);
-        state.adhesion    = !slips[j];
+        // While it touches: what an entering pair slips before that is not.
+        state.slip     = u - dot(u, constraint.normal) * constraint.normal + imposed[j] - before_entry[j];
+        state.area     = constraint.area;
+        state.gap      = dot(problem.combine(constraint, position), constraint.normal);
+        state.adhesion = !slips[j];
         states.push_back(state);
       }
     return parameters.reproducible ? states : gathered(states, comm);

@@ -49,14 +49,14 @@ namespace tread
     if (!(parameters.damping_steps > 0. || solid.needs_velocity()))
       return 0.;
     NodalField without;
-    solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history);
-    if (solid.needs_velocity())
+    solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history, {}, surface_damping_time());
+    if (solid.has_bulk_viscosity())
       {
         const NodalField no_velocity(v.size(), Vector3{});
         without.assign(v.size(), Vector3{});
         solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
       }
-    const NodalField &elastic = solid.needs_velocity() ? without : forces;
+    const NodalField &elastic = solid.has_bulk_viscosity() ? without : forces;
     for (unsigned int i = 0; i < v.size(); ++i)
       damping[i] -= elastic[i];
     mesh.condense_hanging_nodes(damping.data()); // whose velocities may wait for other levels

@@ -158,9 +158,13 @@ namespace tread
                        mesh.comm);
     };
     NodalField mode(v.size(), Vector3{}), mode_before(v.size(), Vector3{}), moved(v.size()),
-      at_rest(v.size(), Vector3{}), f(v.size()), forces_at_x(v.size(), Vector3{});
-    const auto add_forces = [&](const NodalField &at, NodalField &forces) {
-      solid.add_internal_forces(at.data(), at_rest.data(), forces.data(), memory, Levels{first_level});
+      rate(v.size(), Vector3{}), f(v.size()), forces_at_x(v.size(), Vector3{});
+    // Damping of the surface counts like stiffness: dt^2 K (1 + 2 beta/dt) + 2 dt C <= 4. Here it acts on
+    // displacements as rates.
+    const double like_stiffness = 2. * solid.surface_damping() / (1. + 2. * parameters.damping_steps);
+    const auto   add_forces     = [&](const NodalField &at, NodalField &forces) {
+      solid.add_internal_forces(at.data(), rate.data(), forces.data(), memory, Levels{first_level},
+                                      like_stiffness);
       mesh.condense_hanging_nodes(forces.data());
       mesh.shared_nodes.sum(forces.data());
     };
@@ -182,7 +186,8 @@ namespace tread
         const double scale = probing_displacement / std::sqrt(max(largest, mesh.comm));
         for (unsigned int i = 0; i < v.size(); ++i)
           {
-            moved[i] = x[i] + scale * mode[i];
+            rate[i]  = scale * mode[i];
+            moved[i] = x[i] + rate[i];
             f[i]     = Vector3{};
           }
         add_forces(moved, f);
@@ -201,14 +206,14 @@ namespace tread
     for (unsigned int k = 0; k < lanczos_steps; ++k)
       highest = std::max(highest, std::sqrt(std::max(0., tridiagonal.eigenvalue(k).real())));
     // Bulk viscosity damps high modes, which shortens the stable step: the cells' bound leaves room for it.
-    return solid.needs_velocity() ? bound : std::min(bound, lanczos_margin * highest);
+    return solid.has_bulk_viscosity() ? bound : std::min(bound, lanczos_margin * highest);
   }
 
 
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
-    totals.plastic.add(
-      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true}));
+    totals.plastic.add(solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history,
+                                                    Levels{0, 0, true}, surface_damping_time()));
     Mesh::condense(levels.hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
@@ -222,7 +227,8 @@ namespace tread
           }
         for (std::size_t k = 0; k < shares.nodes.size(); ++k)
           force_before[k] = force[shares.nodes[k]];
-        solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
+        solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true},
+                                 surface_damping_time());
         Mesh::condense(levels.hanging[level].loaded, force.data());
         if (levels.reproducible)
           give_to_owners(shares);

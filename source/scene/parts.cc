@@ -36,6 +36,8 @@ namespace tread
     SolidParameters p;
     p.element                  = scene.solid.element;
     p.hourglass_coefficient    = scene.solid.hourglass_coefficient;
+    p.matched_surface          = scene.solid.matched_surface;
+    p.surface_damping          = scene.solid.matched_surface ? scene.solid.surface_damping : 0.;
     p.linear_bulk_viscosity    = scene.solid.linear_bulk_viscosity;
     p.quadratic_bulk_viscosity = scene.solid.quadratic_bulk_viscosity;
     p.density_scale            = scene.general.density_scale;

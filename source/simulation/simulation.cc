@@ -94,7 +94,10 @@ namespace tread
       contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
         const auto wheel =
           std::find_if(wheels.begin(), wheels.end(), [&](const RollingWheel &w) { return w.body == body; });
-        const double         x = place[0] - wheel->hub.motion.x, y = place[1] - this->scene.first_contact().y;
+        // The sliding is a velocity, at the middle of the step: there the hub will be half a step further.
+        const WheelHub::Motion &hub = wheel->hub.motion;
+        const double            x   = place[0] - (hub.x + 0.5 * dynamics.time_step * hub.velocity_x),
+                     y              = place[1] - this->scene.first_contact().y;
         const MotionSection &motion = this->scene.motion;
         return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
       });

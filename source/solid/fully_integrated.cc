@@ -13,7 +13,10 @@ namespace tread
       Lanes        weight[8]         = {}; ///< volume of each Gauss point
     };
 
-    void set(BatchOfPoints &batch, const unsigned int lane, const HexahedronIntegrals &integrals)
+    void set(BatchOfPoints             &batch,
+             const unsigned int         lane,
+             const HexahedronIntegrals &integrals,
+             const unsigned int)
     {
       for (unsigned int q = 0; q < 8; ++q)
         {
@@ -57,7 +60,11 @@ namespace tread
       {
       }
 
-      void add_forces(const Vector3 *x, const Vector3 *, Vector3 *force, const double factor) const override
+      void add_forces(const Vector3 *x,
+                      const Vector3 *,
+                      Vector3     *force,
+                      const double factor,
+                      const double) const override
       {
         for (const BatchOfPoints &batch : batches)
           {
@@ -119,7 +126,8 @@ namespace tread
 
 
   double FullyIntegrated::highest_frequency_bound(const HexahedronIntegrals &cell,
-                                                  const ElasticMaterial     &material) const
+                                                  const ElasticMaterial     &material,
+                                                  const double) const
   {
     return fully_integrated_frequency_bound(cell, material, density_scale);
   }
@@ -135,7 +143,8 @@ namespace tread
   std::vector<std::unique_ptr<const CellGroup>> FullyIntegrated::make_groups(
     const Mesh                      &mesh,
     const ElasticMaterial           &material,
-    const std::vector<unsigned int> &cells) const
+    const std::vector<unsigned int> &cells,
+    const SurfaceLayer &) const
   {
     std::vector<std::unique_ptr<const CellGroup>> groups;
     groups.push_back(std::make_unique<Group>(mesh, material, cells, force_quantum));

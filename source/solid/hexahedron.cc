@@ -2,6 +2,7 @@
 #include <tread/base/format.h>
 #include <tread/solid/hexahedron.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
@@ -172,14 +173,17 @@ namespace tread
                              const double               coefficient)
   {
     // The direction with the smallest gradients is the longest edge: bending along it is what the
-    // modes must not stiffen.
-    double squares[3] = {0., 0., 0.};
+    // modes must not stiffen. It is a principal one of their squares, wherever the axes point.
+    dealii::SymmetricTensor<2, 3> squares;
     for (const auto &g : cell.gradient)
       for (unsigned int i = 0; i < 3; ++i)
-        squares[i] += g[i] * g[i];
+        for (unsigned int j = 0; j <= i; ++j)
+          squares[i][j] += g[i] * g[j];
+    const double smallest =
+      eigenvectors(squares, dealii::SymmetricTensorEigenvectorMethod::jacobi)[2].first; // sorted
     const double plate_modulus =
       material.young_modulus / (1. - material.poisson_ratio * material.poisson_ratio);
-    return coefficient * plate_modulus * cell.volume * std::min({squares[0], squares[1], squares[2]}) / 24.;
+    return coefficient * plate_modulus * cell.volume * smallest / 24.;
   }
 
 

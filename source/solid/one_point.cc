@@ -2,6 +2,7 @@
 #include <tread/solid/batched_group.h>
 #include <tread/solid/one_point.h>
 #include <tread/solid/one_point_batch.h>
+#include <tread/solid/surface_layer.h>
 
 #include <cmath>
 
@@ -9,34 +10,51 @@ namespace tread
 {
   namespace
   {
-    template <bool affine>
-    class Group : public BatchedGroup<OnePointBatch<affine>>
+    /// Cells of the uppermost layer.
+    struct SurfaceBatch : OnePointBatch<false>
+    {
+      SurfaceModes modes;
+    };
+
+    /// @tparam Batch OnePointBatch or SurfaceBatch.
+    template <typename Batch>
+    class Group : public BatchedGroup<Batch>
     {
     public:
       Group(const Mesh                      &mesh,
             const ElasticMaterial           &material,
             const std::vector<unsigned int> &cells,
-            const SolidParameters           &parameters)
-        : BatchedGroup<OnePointBatch<affine>>(
-            mesh,
-            material,
-            cells,
-            [&](OnePointBatch<affine> &batch, const unsigned int lane, const HexahedronIntegrals &integrals) {
-              batch.set(lane, integrals,
-                        hourglass_stiffness(integrals, material, parameters.hourglass_coefficient));
-            })
+            const SolidParameters           &parameters,
+            const SurfaceLayer              &surface)
+        : BatchedGroup<Batch>(mesh,
+                              material,
+                              cells,
+                              [&](Batch                     &batch,
+                                  const unsigned int         lane,
+                                  const HexahedronIntegrals &integrals,
+                                  const unsigned int         cell) {
+                                batch.set(
+                                  lane, integrals,
+                                  hourglass_stiffness(integrals, material, parameters.hourglass_coefficient));
+                                if constexpr (is_surface)
+                                  batch.modes.set(lane, *surface.find(cell));
+                              })
         , parameters(parameters)
         , density(parameters.density_scale * material.density)
         , wave_speed(material.pressure_wave_speed())
       {
       }
 
-      void add_forces(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const override
+      void add_forces(const Vector3 *x,
+                      const Vector3 *v,
+                      Vector3       *force,
+                      const double   factor,
+                      const double   surface_damping) const override
       {
         if (parameters.reproducible)
-          add(x, v, force, factor, parameters.force_quantum());
+          add(x, v, force, factor, surface_damping, parameters.force_quantum());
         else
-          add(x, v, force, factor, NoRounding());
+          add(x, v, force, factor, surface_damping, NoRounding());
       }
 
       void add_energies(const Vector3          *x,
@@ -50,42 +68,47 @@ namespace tread
             green_lagrange(F, E);
             strain.add(batch.volume * HenckyPoint<Lanes>(E).energy(this->lambda, this->mu));
             Lanes squares{};
-            for (const auto &mode : amplitude)
-              for (const Lanes &component : mode)
-                squares += component * component;
+            if constexpr (is_surface)
+              squares = batch.modes.squares(F, amplitude);
+            else
+              for (const auto &mode : amplitude)
+                for (const Lanes &component : mode)
+                  squares += component * component;
             hourglass.add(0.5 * batch.stiffness * squares);
           }
       }
 
     protected:
-      void deform_centre(const OnePointBatch<affine> &batch,
-                         const Vector3               *x,
-                         Lanes (&F)[3][3]) const override
+      void deform_centre(const Batch &batch, const Vector3 *x, Lanes (&F)[3][3]) const override
       {
         Lanes amplitude[4][3];
         deform(batch, x, F, amplitude);
       }
 
     private:
+      static constexpr bool is_surface = std::is_same_v<Batch, SurfaceBatch>;
+
       template <typename Rounding>
       void add(const Vector3 *x,
                const Vector3 *v,
                Vector3       *force,
                const double   factor,
+               const double   surface_damping,
                const Rounding rounding) const
       {
         if (parameters.has_bulk_viscosity())
-          add<true>(x, v, force, factor, rounding);
+          add<true>(x, v, force, factor, surface_damping, rounding);
         else
-          add<false>(x, v, force, factor, rounding);
+          add<false>(x, v, force, factor, surface_damping, rounding);
       }
 
       template <bool viscous, typename Rounding>
-      void add(const Vector3 *x,
-               const Vector3 *v,
-               Vector3       *force,
-               const double   factor,
-               const Rounding rounding) const
+      void add(const Vector3                *x,
+               const Vector3                *v,
+               Vector3                      *force,
+               const double                  factor,
+               [[maybe_unused]] const double surface_damping,
+               const Rounding                rounding) const
       {
         const double lambda = this->lambda, mu = this->mu;
         for (const auto &batch : this->batches)
@@ -100,19 +123,20 @@ namespace tread
             for (Lanes &component : S)
               component *= volume;
             first_piola(F, S, P);
-            for (auto &mode : amplitude)
-              for (Lanes &component : mode)
-                component *= stiffness;
+            if constexpr (is_surface)
+              batch.modes.add(F, amplitude, HourglassRates(batch, v, surface_damping), stiffness, amplitude,
+                              P);
+            else
+              for (auto &mode : amplitude)
+                for (Lanes &component : mode)
+                  component *= stiffness;
             add_forces_of(batch, force, P, amplitude, rounding);
           }
       }
 
       /// Volumetric strain rate tr(F^T dF/dt): a pressure against fast changes of volume (von Neumann &
       /// Richtmyer 1950; Landshoff 1955).
-      void add_viscosity(const OnePointBatch<affine> &batch,
-                         const Vector3               *v,
-                         const Lanes (&F)[3][3],
-                         Lanes (&S)[6]) const
+      void add_viscosity(const Batch &batch, const Vector3 *v, const Lanes (&F)[3][3], Lanes (&S)[6]) const
       {
         Lanes rate[3][3], amplitude_rate[4][3];
         deform(batch, v, rate, amplitude_rate);
@@ -138,11 +162,13 @@ namespace tread
 
 
   double OnePoint::highest_frequency_bound(const HexahedronIntegrals &cell,
-                                           const ElasticMaterial     &material) const
+                                           const ElasticMaterial     &material,
+                                           const double               hourglass_factor) const
   {
-    return one_point_frequency_bound(cell, material,
-                                     hourglass_stiffness(cell, material, parameters.hourglass_coefficient),
-                                     parameters.density_scale);
+    return one_point_frequency_bound(
+      cell, material,
+      hourglass_stiffness(cell, material, hourglass_factor * parameters.hourglass_coefficient),
+      parameters.density_scale);
   }
 
 
@@ -155,17 +181,23 @@ namespace tread
   }
 
 
-  std::vector<std::unique_ptr<const CellGroup>> OnePoint::make_groups(
-    const Mesh                      &mesh,
-    const ElasticMaterial           &material,
-    const std::vector<unsigned int> &cells) const
+  std::vector<std::unique_ptr<const CellGroup>> OnePoint::make_groups(const Mesh            &mesh,
+                                                                      const ElasticMaterial &material,
+                                                                      const std::vector<unsigned int> &cells,
+                                                                      const SurfaceLayer &surface) const
   {
-    std::vector<unsigned int> parallelepipeds, others;
+    std::vector<unsigned int> parallelepipeds, others, of_surface;
     for (const unsigned int c : cells)
-      (is_parallelepiped(mesh.corners(c)) ? parallelepipeds : others).push_back(c);
+      if (surface.find(c))
+        of_surface.push_back(c);
+      else
+        (is_parallelepiped(mesh.corners(c)) ? parallelepipeds : others).push_back(c);
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    groups.push_back(std::make_unique<Group<true>>(mesh, material, parallelepipeds, parameters));
-    groups.push_back(std::make_unique<Group<false>>(mesh, material, others, parameters));
+    groups.push_back(
+      std::make_unique<Group<OnePointBatch<true>>>(mesh, material, parallelepipeds, parameters, surface));
+    groups.push_back(
+      std::make_unique<Group<OnePointBatch<false>>>(mesh, material, others, parameters, surface));
+    groups.push_back(std::make_unique<Group<SurfaceBatch>>(mesh, material, of_surface, parameters, surface));
     return groups;
   }
 } // namespace tread

@@ -30,7 +30,8 @@ namespace tread
                              const std::vector<ElasticMaterial> &materials,
                              const std::vector<PlasticZone>     &zones,
                              const double                        hourglass_coefficient,
-                             const Quantum                       force_quantum)
+                             const Quantum                       force_quantum,
+                             const SurfaceLayer                 &surface)
     : force_quantum(force_quantum)
   {
     if (zones.empty())
@@ -49,40 +50,51 @@ namespace tread
       {
         if (zones[z].material.backstresses.size() > PlasticMaterial::max_backstresses)
           throw std::invalid_argument("a material has at most three backstresses");
-        Range range{batches.size(), 0, size, materials[zones[z].body], zones[z].material, zones[z].body};
-        unsigned int lane = n_lanes;
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          if (zone_of_cell[c] == static_cast<int>(z))
-            {
-              const HexahedronIntegrals integrals(mesh.corners(c));
-              const double stiffness = hourglass_stiffness(integrals, range.elastic, hourglass_coefficient);
-              if (lane == n_lanes)
+        for (const bool is_surface : {false, true})
+          {
+            Range range{batches.size(), 0,          size,        materials[zones[z].body], zones[z].material,
+                        zones[z].body,  is_surface, modes.size()};
+            unsigned int lane = n_lanes;
+            for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+              if (const SurfaceCell *of_surface = surface.find(c);
+                  zone_of_cell[c] == static_cast<int>(z) && (of_surface != nullptr) == is_surface)
                 {
-                  lane = 0;
-                  cell_of_lane.emplace_back();
-                  cell_of_lane.back().fill(-1);
-                  // Padded lanes repeat the first cell, without volume and hourglass stiffness: no forces.
-                  batches.emplace_back();
-                  for (unsigned int l = 0; l < n_lanes; ++l)
+                  const HexahedronIntegrals integrals(mesh.corners(c));
+                  const double              stiffness =
+                    hourglass_stiffness(integrals, range.elastic, hourglass_coefficient);
+                  if (lane == n_lanes)
                     {
-                      for (unsigned int a = 0; a < 8; ++a)
-                        batches.back().node[a][l] = mesh.cells[c].nodes[a];
-                      batches.back().set(l, integrals, 0.);
-                      batches.back().volume[l] = 0.;
+                      lane = 0;
+                      cell_of_lane.emplace_back();
+                      cell_of_lane.back().fill(-1);
+                      if (is_surface)
+                        modes.emplace_back();
+                      // Padded lanes repeat the first cell, without volume and hourglass stiffness: no
+                      // forces.
+                      batches.emplace_back();
+                      for (unsigned int l = 0; l < n_lanes; ++l)
+                        {
+                          for (unsigned int a = 0; a < 8; ++a)
+                            batches.back().node[a][l] = mesh.cells[c].nodes[a];
+                          batches.back().set(l, integrals, 0.);
+                          batches.back().volume[l] = 0.;
+                        }
                     }
+                  Batch &batch              = batches.back();
+                  cell_of_lane.back()[lane] = c;
+                  batch.set(lane, integrals, stiffness);
+                  if (is_surface)
+                    modes.back().set(lane, *of_surface);
+                  for (unsigned int a = 0; a < 8; ++a)
+                    batch.node[a][lane] = mesh.cells[c].nodes[a];
+                  keys.push_back({{mesh.cells[c].body, std::llround(1e9 * centers[c][0]),
+                                   std::llround(1e9 * centers[c][1]), std::llround(1e9 * centers[c][2])}});
+                  ++lane;
                 }
-              Batch &batch              = batches.back();
-              cell_of_lane.back()[lane] = c;
-              batch.set(lane, integrals, stiffness);
-              for (unsigned int a = 0; a < 8; ++a)
-                batch.node[a][lane] = mesh.cells[c].nodes[a];
-              keys.push_back({{mesh.cells[c].body, std::llround(1e9 * centers[c][0]),
-                               std::llround(1e9 * centers[c][1]), std::llround(1e9 * centers[c][2])}});
-              ++lane;
-            }
-        range.end = batches.size();
-        size += (range.end - range.begin) * range.stride();
-        ranges.push_back(range);
+            range.end = batches.size();
+            size += (range.end - range.begin) * range.stride();
+            ranges.push_back(range);
+          }
       }
   }
 
@@ -207,9 +219,11 @@ namespace tread
         }
     }
 
-    /// @param stiffness of the amplitudes, N/m.
-    Lanes hourglass_energy(const Lanes stiffness) const
+    /// @param stiffness of the amplitudes, N/m. @param modes null: below the surface.
+    Lanes hourglass_energy(const Lanes stiffness, const SurfaceModes *modes) const
     {
+      if (modes)
+        return 0.5 * stiffness * modes->squares(F, amplitude);
       Lanes sum{};
       for (const auto &mode : amplitude)
         for (const Lanes &component : mode)
@@ -239,8 +253,10 @@ namespace tread
   template <unsigned int n, bool updates, typename History>
   ReproducibleSum<double> PlasticCells::add_forces(const Range   &range,
                                                    const Vector3 *x,
+                                                   const Vector3 *v,
                                                    Vector3       *force,
-                                                   History       &history) const
+                                                   History       &history,
+                                                   const double   surface_damping) const
   {
     const YieldConstants<n> material(range.elastic, range.plastic);
     ReproducibleSum<Lanes>  work;
@@ -255,15 +271,23 @@ namespace tread
         for (auto &row : P)
           for (Lanes &component : row)
             component *= -batch.volume;
+        Lanes                     restoring[4][3];
+        const SurfaceModes *const of_surface = range.modes_of(modes, b);
+        if (of_surface)
+          {
+            HourglassRates rates(batch, v, surface_damping);
+            rates.without_flow(state.flowed);
+            of_surface->add(state.F, state.amplitude, rates, -batch.stiffness, restoring, P);
+          }
+        else
+          for (unsigned int m = 0; m < 4; ++m)
+            for (unsigned int i = 0; i < 3; ++i)
+              restoring[m][i] = -batch.stiffness * state.amplitude[m][i];
         // What the amplitudes do, differentiated: their plastic part is carried with F.
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int m = 0; m < 4; ++m)
-              P[i][j] += batch.stiffness * state.amplitude[m][i] * state.flowed[m][j];
-        Lanes restoring[4][3];
-        for (unsigned int m = 0; m < 4; ++m)
-          for (unsigned int i = 0; i < 3; ++i)
-            restoring[m][i] = -batch.stiffness * state.amplitude[m][i];
+              P[i][j] -= restoring[m][i] * state.flowed[m][j];
         add_forces_of(batch, force, P, restoring, force_quantum);
         if constexpr (updates)
           {
@@ -284,7 +308,7 @@ namespace tread
                 // Amplitudes that shrink to the share 1 - s lose 1 - (1 - s)^2 of their energy.
                 const Lanes left = 1. - state.point.flow.share;
                 work.add(batch.volume * state.point.flow.work +
-                         state.hourglass_energy(batches[b].stiffness) * (1. / (left * left) - 1.));
+                         state.hourglass_energy(batch.stiffness, of_surface) * (1. / (left * left) - 1.));
               }
           }
       }
@@ -292,19 +316,28 @@ namespace tread
   }
 
 
-  void PlasticCells::add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const
+  void PlasticCells::add_forces(const Vector3        *x,
+                                const Vector3        *v,
+                                Vector3              *force,
+                                const PlasticHistory &history,
+                                const double          surface_damping) const
   {
-    for_ranges([&](const Range &range, const auto n) { add_forces<n(), false>(range, x, force, history); });
+    for_ranges([&](const Range &range, const auto n) {
+      add_forces<n(), false>(range, x, v, force, history, surface_damping);
+    });
   }
 
 
   ReproducibleSum<double> PlasticCells::update(const Vector3  *x,
+                                               const Vector3  *v,
                                                Vector3        *force,
-                                               PlasticHistory &history) const
+                                               PlasticHistory &history,
+                                               const double    surface_damping) const
   {
     ReproducibleSum<double> work;
-    for_ranges(
-      [&](const Range &range, const auto n) { work.add(add_forces<n(), true>(range, x, force, history)); });
+    for_ranges([&](const Range &range, const auto n) {
+      work.add(add_forces<n(), true>(range, x, v, force, history, surface_damping));
+    });
     return work;
   }
 
@@ -321,7 +354,7 @@ namespace tread
           state.evaluate(material, batches[b], x,
                          history.values.data() + range.history + (b - range.begin) * range.stride());
           strain.add(batches[b].volume * state.point.energy);
-          hourglass.add(state.hourglass_energy(batches[b].stiffness));
+          hourglass.add(state.hourglass_energy(batches[b].stiffness, range.modes_of(modes, b)));
         }
     });
     return {{strain.of_lanes(), hourglass.of_lanes()}};
@@ -413,7 +446,7 @@ namespace tread
 
   std::size_t PlasticCells::memory_consumption() const
   {
-    std::size_t bytes = batches.size() * sizeof(Batch);
+    std::size_t bytes = batches.size() * sizeof(Batch) + modes.size() * sizeof(SurfaceModes);
     for (const Range &range : ranges)
       bytes += (range.end - range.begin) * range.stride() * sizeof(Lanes);
     return bytes;

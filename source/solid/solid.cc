@@ -15,23 +15,34 @@ namespace tread
                const SolidParameters              &parameters,
                const std::vector<PlasticZone>     &zones)
     : parameters(parameters)
-    , plastic_cells(mesh, materials, zones, parameters.hourglass_coefficient, parameters.force_quantum())
+    , surface_layer(parameters.matched_surface && element_named(parameters.element).has_hourglass_modes
+                      ? SurfaceLayer(mesh, materials, parameters.hourglass_coefficient)
+                      : SurfaceLayer())
+    , plastic_cells(mesh,
+                    materials,
+                    zones,
+                    parameters.hourglass_coefficient,
+                    parameters.force_quantum(),
+                    surface_layer)
     , virgin_history(plastic_cells.virgin_history())
     , materials(materials)
     , n_cells(mesh.cells.size())
   {
     const ElementEntry &entry = element_named(parameters.element);
-    if (needs_velocity() && !entry.has_bulk_viscosity)
+    if (!parameters.matched_surface || !entry.has_hourglass_modes)
+      this->parameters.surface_damping = 0.;
+    if (has_bulk_viscosity() && !entry.has_bulk_viscosity)
       throw std::invalid_argument("bulk viscosity is not for cells of the element " + entry.name);
-    if (!zones.empty() && (!entry.can_yield || needs_velocity()))
+    if (!zones.empty() && (!entry.can_yield || has_bulk_viscosity()))
       throw std::invalid_argument("plastic zones are for one-point cells without bulk viscosity");
     const std::shared_ptr<const Element> element = entry.make(parameters);
     frequencies.resize(n_cells);
     levels_of_cells.resize(n_cells);
     for (unsigned int c = 0; c < n_cells; ++c)
       {
-        frequencies[c]         = element->highest_frequency_bound(HexahedronIntegrals(mesh.corners(c)),
-                                                                  materials[mesh.cells[c].body]);
+        frequencies[c] = element->highest_frequency_bound(
+          HexahedronIntegrals(mesh.corners(c)), materials[mesh.cells[c].body],
+          surface_layer.stiffening_of(c, parameters.surface_damping));
         highest_cell_frequency = std::max(highest_cell_frequency, frequencies[c]);
       }
     highest_cell_frequency = dealii::Utilities::MPI::max(highest_cell_frequency, mesh.comm);
@@ -47,7 +58,7 @@ namespace tread
               cells.push_back(c);
           if (cells.empty())
             continue;
-          for (auto &group : element->make_groups(mesh, materials[body], cells))
+          for (auto &group : element->make_groups(mesh, materials[body], cells, surface_layer))
             groups.push_back({level, std::move(group)});
         }
   }
@@ -77,11 +88,13 @@ namespace tread
   void Solid::add_elastic_forces(const Vector3 *x,
                                  const Vector3 *v,
                                  Vector3       *force,
-                                 const Levels   levels) const
+                                 const Levels   levels,
+                                 const double   surface_damping) const
   {
     for (const Group &group : groups)
       if (group.level >= levels.first && group.level <= levels.last)
-        group.cells->add_forces(x, v, force, levels.weighted ? std::ldexp(1., group.level) : 1.);
+        group.cells->add_forces(x, v, force, levels.weighted ? std::ldexp(1., group.level) : 1.,
+                                surface_damping);
   }
 
 
@@ -113,7 +126,9 @@ namespace tread
                                                                  const unsigned int               body,
                                                                  const std::vector<unsigned int> &cells) const
   {
-    return element_named(parameters.element).make(parameters)->make_groups(mesh, materials[body], cells);
+    return element_named(parameters.element)
+      .make(parameters)
+      ->make_groups(mesh, materials[body], cells, surface_layer);
   }
 
 

@@ -184,6 +184,14 @@ namespace tread
     const ContactSurfaces surfaces;
 
   private:
+    /// What a pair that touched nothing in the last step slips in this one before it touches, over the step:
+    /// the share of the step that its gap still takes to close, at the slip of the last step. Gap and slip
+    /// still to come both fall with the same power of the distance from the edge of contact, so the share is
+    /// linear in the gap. A node would adhere from the beginning of the step else, as if it entered half a
+    /// step earlier. @param gap_over_step m/s.
+    Vector3 slip_before_entry(const ContactProblem::Constraint &constraint,
+                              const double                      gap_over_step,
+                              const Vector3                     sliding) const;
     /// Let the coefficients of the strip's pairs follow their slip in this step.
     void age_friction(const double time_step);
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
@@ -243,6 +251,7 @@ namespace tread
     std::vector<Vector3>      offset;           ///< by constraint of the strip, see solve_coulomb()
     PairFriction              pair_friction;    ///< coefficients by constraint of the strip, factors of all
     std::vector<Vector3>      imposed;          ///< by constraint of the strip: sliding in the last step, m/s
+    std::vector<Vector3>      before_entry;     ///< likewise: slip before it touched, over the step, m/s
     std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
     std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move

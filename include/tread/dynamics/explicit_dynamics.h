@@ -232,8 +232,13 @@ namespace tread
     std::string place_of_worst_cell(const bool is_worst, const unsigned int cell) const;
 
     /// Set the time step, the inverse masses and the pairs in contact.
-    void                set_inertia();
-    void                prepare_step(); ///< the state that step() leaves for the next one
+    void set_inertia();
+    void prepare_step(); ///< the state that step() leaves for the next one
+    /// Of the hourglass modes of the uppermost layer of cells over their stiffness, s.
+    double surface_damping_time() const
+    {
+      return solid.surface_damping() * time_step;
+    }
     void                set_damping_time(const double beta); ///< positions stay
     std::vector<double> free_inverse_masses() const;         ///< 0 where motion is prescribed
     /// Highest frequency of the cells of this and higher levels with nodes at x, rad/s.

@@ -43,7 +43,7 @@ namespace tread
   class BatchedGroup : public CellGroup
   {
   public:
-    /// @param set called with batch, lane and integrals of each cell.
+    /// @param set called with batch, lane, integrals and number of each cell.
     template <typename Set>
     BatchedGroup(const Mesh                      &mesh,
                  const ElasticMaterial           &material,
@@ -66,7 +66,7 @@ namespace tread
               if (padded)
                 continue;
               cell_of_lane.back()[lane] = c;
-              set(batches.back(), lane, HexahedronIntegrals(mesh.corners(c)));
+              set(batches.back(), lane, HexahedronIntegrals(mesh.corners(c)), c);
             }
         }
     }

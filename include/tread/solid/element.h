@@ -15,11 +15,18 @@
 
 namespace tread
 {
+  class SurfaceLayer;
+
   struct SolidParameters
   {
     std::string element = "one-point"; ///< one of elements()
     /// Stiffness of the hourglass modes over that of pure bending of a box cell.
     double hourglass_coefficient = 1.;
+    /// Whether the surface of contact has the tangential stiffness that belongs to its normal one (@see
+    /// SurfaceWeights), in elements with hourglass modes; and the damping of the modes that this softens, in
+    /// time steps.
+    bool   matched_surface = true;
+    double surface_damping = 0.5;
     /// Artificial bulk viscosity: linear (times c h rho) and quadratic (times rho h^2 in compression).
     double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
     /// Factor on the inertia of the cells (quasi-static scenes).
@@ -51,11 +58,13 @@ namespace tread
     virtual ~CellGroup() = default;
 
     /// Add factor times the forces that the cells exert on their nodes (N) when these are at x (m) and, for
-    /// bulk viscosity, move at v (m/s).
+    /// bulk viscosity and for cells at the surface, move at v (m/s). @param surface_damping of the hourglass
+    /// modes of the latter over their stiffness, s.
     virtual void add_forces(const Vector3 *x,
                             const Vector3 *v,
                             Vector3       *force,
-                            const double   factor) const = 0;
+                            const double   factor,
+                            const double   surface_damping) const = 0;
 
     /// Add the energies stored at x, J, whose sums over the lanes count.
     virtual void add_energies(const Vector3          *x,
@@ -81,19 +90,21 @@ namespace tread
     virtual ~Element() = default;
 
     /// Upper bound of the highest angular frequency of one free cell, rad/s, with the nodal masses
-    /// density_scale * density * node_volume.
+    /// density_scale * density * node_volume. @param hourglass_factor on the stiffness of all hourglass
+    /// modes.
     virtual double highest_frequency_bound(const HexahedronIntegrals &cell,
-                                           const ElasticMaterial     &material) const = 0;
+                                           const ElasticMaterial     &material,
+                                           const double               hourglass_factor) const = 0;
 
     /// Approximate time that a cell with these corners (m) and its nodes take in a step, over that of a
     /// one-point parallelepiped: for a fair division among the ranks.
     virtual double relative_cost(const std::array<dealii::Point<3>, 8> &corners) const = 0;
 
     /// Put cells of the mesh, all of this material, into groups.
-    virtual std::vector<std::unique_ptr<const CellGroup>> make_groups(
-      const Mesh                      &mesh,
-      const ElasticMaterial           &material,
-      const std::vector<unsigned int> &cells) const = 0;
+    virtual std::vector<std::unique_ptr<const CellGroup>> make_groups(const Mesh            &mesh,
+                                                                      const ElasticMaterial &material,
+                                                                      const std::vector<unsigned int> &cells,
+                                                                      const SurfaceLayer &surface) const = 0;
   };
 
   /// What a scene has to know of an element to offer it.

@@ -57,8 +57,8 @@ namespace tread
     return product;
   }
 
-  /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a box the
-  /// stiffness of a plate that bends along its longest edge: E/(1 - nu^2) V min_i(sum_a B_ai^2)/24.
+  /// Stiffness of the hourglass amplitudes gamma.x of a cell, N/m; 1 as coefficient gives a box that of a
+  /// plate bent along its longest edge: E/(1 - nu^2) V/24 times the smallest eigenvalue of sum_a B_a B_a^T.
   double hourglass_stiffness(const HexahedronIntegrals &cell,
                              const ElasticMaterial     &material,
                              const double               coefficient);

@@ -22,12 +22,13 @@ namespace tread
     }
 
     double highest_frequency_bound(const HexahedronIntegrals &cell,
-                                   const ElasticMaterial     &material) const override;
+                                   const ElasticMaterial     &material,
+                                   const double               hourglass_factor) const override;
     double relative_cost(const std::array<dealii::Point<3>, 8> &corners) const override;
-    std::vector<std::unique_ptr<const CellGroup>> make_groups(
-      const Mesh                      &mesh,
-      const ElasticMaterial           &material,
-      const std::vector<unsigned int> &cells) const override;
+    std::vector<std::unique_ptr<const CellGroup>> make_groups(const Mesh                      &mesh,
+                                                              const ElasticMaterial           &material,
+                                                              const std::vector<unsigned int> &cells,
+                                                              const SurfaceLayer &surface) const override;
 
   private:
     SolidParameters parameters;

@@ -7,6 +7,7 @@
 #include <tread/material/plastic.h>
 #include <tread/mesh/mesh.h>
 #include <tread/solid/one_point_batch.h>
+#include <tread/solid/surface_layer.h>
 
 #include <functional>
 
@@ -59,7 +60,8 @@ namespace tread
                  const std::vector<ElasticMaterial> &materials,
                  const std::vector<PlasticZone>     &zones,
                  const double                        hourglass_coefficient,
-                 const Quantum                       force_quantum = Quantum());
+                 const Quantum                       force_quantum = Quantum(),
+                 const SurfaceLayer                 &surface       = {});
 
     bool contains(const unsigned int cell) const
     {
@@ -77,11 +79,20 @@ namespace tread
     void forget(const unsigned int body, PlasticHistory &history) const;
 
     /// Add the forces (N) that the cells exert when their nodes move to x (m) from the state of the last
-    /// update of the history. The history remains unchanged.
-    void add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const;
+    /// update of the history. The history remains unchanged. @param v velocities of the nodes, m/s, which
+    /// the surface's damping reads (@see CellGroup::add_forces).
+    void add_forces(const Vector3        *x,
+                    const Vector3        *v,
+                    Vector3              *force,
+                    const PlasticHistory &history,
+                    const double          surface_damping) const;
 
     /// The same with an update of the history. @returns the plastic work done in it on this rank, J.
-    ReproducibleSum<double> update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const;
+    ReproducibleSum<double> update(const Vector3  *x,
+                                   const Vector3  *v,
+                                   Vector3        *force,
+                                   PlasticHistory &history,
+                                   const double    surface_damping) const;
 
     /// Elastic energies of deformation and of the hourglass modes at x, J.
     std::array<ReproducibleSum<double>, 2> energies(const Vector3 *x, const PlasticHistory &history) const;
@@ -115,13 +126,20 @@ namespace tread
 
   private:
     using Batch = OnePointBatch<false>;
-    struct Range ///< the cells of one zone
+    struct Range ///< the cells of one zone: those of the uppermost layer, or all others
     {
       std::size_t     begin, end; ///< batches
       std::size_t     history;    ///< where that of the first batch begins
       ElasticMaterial elastic;
       PlasticMaterial plastic;
       unsigned int    body;
+      bool            is_surface;
+      std::size_t     surface; ///< where the modes of the first batch are if it is
+
+      const SurfaceModes *modes_of(const AlignedVector<SurfaceModes> &all, const std::size_t batch) const
+      {
+        return is_surface ? &all[surface + (batch - begin)] : nullptr;
+      }
 
       /// Number of lanes of history per batch.
       std::size_t stride() const
@@ -135,8 +153,10 @@ namespace tread
     template <unsigned int n, bool updates, typename History>
     ReproducibleSum<double> add_forces(const Range   &range,
                                        const Vector3 *x,
+                                       const Vector3 *v,
                                        Vector3       *force,
-                                       History       &history) const;
+                                       History       &history,
+                                       const double   surface_damping) const;
 
     /// Call work(range, n) for each range, with the number n of its backstresses as a constant.
     template <typename Work>
@@ -148,6 +168,7 @@ namespace tread
 
     std::vector<int>                      zone_of_cell; ///< -1: none
     AlignedVector<Batch>                  batches;
+    AlignedVector<SurfaceModes>           modes;        ///< of the batches of surface ranges
     std::vector<std::array<int, n_lanes>> cell_of_lane; ///< -1: padded
     std::vector<std::array<long long, 4>> keys;         ///< of the cells, in the order of for_cells()
     std::vector<Range>                    ranges;

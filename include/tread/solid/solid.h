@@ -7,6 +7,7 @@
 #include <tread/mesh/mesh.h>
 #include <tread/solid/element.h>
 #include <tread/solid/plastic_cells.h>
+#include <tread/solid/surface_layer.h>
 
 #include <cstdint>
 #include <memory>
@@ -46,11 +47,14 @@ namespace tread
           const std::vector<PlasticZone>     &zones = {});
 
     /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and, for bulk
-    /// viscosity, move at v (m/s). The caller treats hanging nodes. Cells of plastic zones are not included.
+    /// viscosity and the damping of the surface, move at v (m/s). The caller treats hanging nodes. Cells of
+    /// plastic zones are not included. @param surface_damping of the hourglass modes of the uppermost layer
+    /// of cells over their stiffness, s.
     void add_elastic_forces(const Vector3 *x,
                             const Vector3 *v,
                             Vector3       *force,
-                            const Levels   levels = {}) const;
+                            const Levels   levels          = {},
+                            const double   surface_damping = 0.) const;
 
     /// Forces of all cells. Those of plastic zones, which are on level 0, move to x from the state of the
     /// last update of the history, which remains unchanged.
@@ -58,11 +62,12 @@ namespace tread
                              const Vector3        *v,
                              Vector3              *force,
                              const PlasticHistory &history,
-                             const Levels          levels = {}) const
+                             const Levels          levels          = {},
+                             const double          surface_damping = 0.) const
     {
-      add_elastic_forces(x, v, force, levels);
+      add_elastic_forces(x, v, force, levels, surface_damping);
       if (levels.first == 0)
-        plastic_cells.add_forces(x, force, history);
+        plastic_cells.add_forces(x, v, force, history, surface_damping);
     }
 
     /// The same for cells that have never been loaded.
@@ -80,10 +85,12 @@ namespace tread
                                                    const Vector3  *v,
                                                    Vector3        *force,
                                                    PlasticHistory &history,
-                                                   const Levels    levels = {}) const
+                                                   const Levels    levels          = {},
+                                                   const double    surface_damping = 0.) const
     {
-      add_elastic_forces(x, v, force, levels);
-      return levels.first == 0 ? plastic_cells.update(x, force, history) : ReproducibleSum<double>();
+      add_elastic_forces(x, v, force, levels, surface_damping);
+      return levels.first == 0 ? plastic_cells.update(x, v, force, history, surface_damping)
+                               : ReproducibleSum<double>();
     }
 
     /// Energies stored in the cells of this rank at x.
@@ -158,9 +165,27 @@ namespace tread
       return parameters.force_quantum();
     }
 
-    bool needs_velocity() const
+    bool has_bulk_viscosity() const
     {
       return parameters.has_bulk_viscosity();
+    }
+
+    /// Damping of the hourglass modes of the uppermost layer of cells over their stiffness, in time steps.
+    double surface_damping() const
+    {
+      return parameters.surface_damping;
+    }
+
+    /// Whether forces depend on the velocities of the nodes, those that hang included.
+    bool needs_velocity() const
+    {
+      return has_bulk_viscosity() || parameters.surface_damping > 0.;
+    }
+
+    /// The cells of the uppermost layer with hourglass stiffness of their own.
+    const SurfaceLayer &surface() const
+    {
+      return surface_layer;
     }
 
     /// Memory of this rank's cells for the internal forces, bytes.
@@ -174,6 +199,7 @@ namespace tread
     };
 
     SolidParameters              parameters;
+    SurfaceLayer                 surface_layer;
     PlasticCells                 plastic_cells;
     PlasticHistory               virgin_history;
     std::vector<ElasticMaterial> materials;

@@ -13,6 +13,17 @@ namespace tread
                 "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
                 Double(0.01, 10.));
     section.add(
+      "Matched surface", matched_surface,
+      "Whether the hourglass stiffness of the uppermost layer of one-point cells is weighted so that "
+      "the surface has the tangential stiffness that belongs to its normal one. Without it a mesh "
+      "acts as if the surface shear stress began a tenth of a cell ahead of the pressure.");
+    section.add(
+      "Surface damping (time steps)", surface_damping,
+      "Damping of the hourglass modes that 'Matched surface' softens, in directions of the surface, "
+      "over their unweighted stiffness. 0 lets the micro-slip of coarse cells chatter; above 1.6 the "
+      "stable time step becomes shorter.",
+      Double(0., 10.));
+    section.add(
       "Stiffness damping (time steps)", stiffness_damping,
       "Internal forces are taken at x + beta v, beta in time steps. 0.1 removes grid-frequency chatter of "
       "the "

@@ -12,6 +12,8 @@ namespace tread
   {
     std::string element               = elements().front().name;
     double      hourglass_coefficient = 1.;
+    bool        matched_surface       = true;
+    double      surface_damping       = 0.5;
     double      stiffness_damping     = 0.1; ///< time steps
     double      mass_damping          = 0.;  ///< 1/s
     double      linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
