@@ -69,7 +69,7 @@ namespace tread
             strain.add(batch.volume * HenckyPoint<Lanes>(E).energy(this->lambda, this->mu));
             Lanes squares{};
             if constexpr (is_surface)
-              squares = batch.modes.squares(F, amplitude);
+              squares = batch.modes.template squares<false>(F, amplitude);
             else
               for (const auto &mode : amplitude)
                 for (const Lanes &component : mode)
@@ -124,8 +124,8 @@ namespace tread
               component *= volume;
             first_piola(F, S, P);
             if constexpr (is_surface)
-              batch.modes.add(F, amplitude, HourglassRates(batch, v, surface_damping), stiffness, amplitude,
-                              P);
+              batch.modes.template add<false>(F, amplitude, HourglassRates(batch, v, surface_damping),
+                                              stiffness, amplitude, P);
             else
               for (auto &mode : amplitude)
                 for (Lanes &component : mode)

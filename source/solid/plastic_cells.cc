@@ -223,7 +223,7 @@ namespace tread
     Lanes hourglass_energy(const Lanes stiffness, const SurfaceModes *modes) const
     {
       if (modes)
-        return 0.5 * stiffness * modes->squares(F, amplitude);
+        return 0.5 * stiffness * modes->template squares<true>(F, amplitude);
       Lanes sum{};
       for (const auto &mode : amplitude)
         for (const Lanes &component : mode)
@@ -277,7 +277,7 @@ namespace tread
           {
             HourglassRates rates(batch, v, surface_damping);
             rates.without_flow(state.flowed);
-            of_surface->add(state.F, state.amplitude, rates, -batch.stiffness, restoring, P);
+            of_surface->template add<true>(state.F, state.amplitude, rates, -batch.stiffness, restoring, P);
           }
         else
           for (unsigned int m = 0; m < 4; ++m)

@@ -14,7 +14,7 @@ namespace tread
   {
     using Vector = dealii::Tensor<1, 3>;
 
-    /// Largest cosine between two edges directions, and largest share by which opposite edges may differ, of
+    /// Largest cosine between two edges, and largest share by which opposite edges may differ, of
     /// a cell that counts as a box. The theory is one of boxes; a cell that is sheared by so much is met
     /// where profiles bend sharply.
     constexpr double most_sheared = 0.2, most_tapered = 0.3;
@@ -110,11 +110,10 @@ namespace tread
         for (unsigned int i = 0; i < 3; ++i)
           {
             for (unsigned int j = 0; j < 3; ++j)
-              cell.axes[own[i]][j] = axes[i][j];
-            cell.in_surface[own[i]] = i != 2;
+              cell.axes[i][j] = axes[i][j];
             for (unsigned int m = 0; m < 3; ++m)
-              cell.weights[own[m]][own[i]] = (*of_box)[m][i];
-            cell.weights[3][own[i]] = (*of_box)[3][i];
+              cell.weights[own[m]][i] = (*of_box)[m][i];
+            cell.weights[3][i] = (*of_box)[3][i];
           }
         number[c] = cells.size();
         cells.push_back(cell);

@@ -15,9 +15,8 @@ namespace tread
   /// What a cell of the uppermost layer has beside a cell below it.
   struct SurfaceCell
   {
-    std::array<std::array<double, 3>, 3> axes;    ///< of its own directions 0, 1, 2 in the reference position
-    HourglassWeights                     weights; ///< by its own modes and these axes
-    std::array<bool, 3> in_surface;               ///< which axes lie in the surface: their modes are damped
+    std::array<std::array<double, 3>, 3> axes;    ///< two in the surface, then the normal; reference position
+    HourglassWeights                     weights; ///< by the cell's own modes and these axes
   };
 
   /// The one-point cells on this rank that have one face on the surface of contact, and the weights of their
@@ -80,13 +79,13 @@ namespace tread
 
   /// Hourglass modes of n_lanes cells of the surface. Their energy is half the stiffness times
   /// sum w_mi (e_i . g_m)^2 with the amplitudes g_m, the weights w_mi and the cell's axes as they are now,
-  /// e_i = F E_i / |F E_i|: it depends on the nodes' positions alone and not on a common rotation, so that
-  /// forces keep energy, momentum and angular momentum.
+  /// e_i = F E_i, over its length in cells that yield: stretch of one per cent needs no square roots. It
+  /// depends on the nodes' positions alone and not on a common rotation, so that forces keep energy,
+  /// momentum and angular momentum.
   struct SurfaceModes
   {
     Lanes axis[3][3]   = {}; ///< E_i
     Lanes weight[4][3] = {};
-    Lanes damped[3]    = {}; ///< 1: direction in the surface
 
     void set(const unsigned int lane, const SurfaceCell &cell)
     {
@@ -96,19 +95,18 @@ namespace tread
             axis[i][j][lane] = cell.axes[i][j];
           for (unsigned int m = 0; m < 4; ++m)
             weight[m][i][lane] = cell.weights[m][i];
-          damped[i][lane] = cell.in_surface[i] ? 1. : 0.;
         }
     }
 
     /// Sum of the weighted squares of the amplitudes, m^2.
+    template <bool yields>
     Lanes squares(const Lanes (&F)[3][3], const Lanes (&amplitude)[4][3]) const
     {
       Lanes sum{};
       for (unsigned int i = 0; i < 3; ++i)
         {
-          Lanes       e[3];
-          const Lanes inverse_length = axis_now(i, F, e);
-          (void)inverse_length;
+          Lanes e[3];
+          axis_now<yields>(i, F, e);
           for (unsigned int m = 0; m < 4; ++m)
             {
               const Lanes A = e[0] * amplitude[m][0] + e[1] * amplitude[m][1] + e[2] * amplitude[m][2];
@@ -118,8 +116,9 @@ namespace tread
       return sum;
     }
 
-    /// Set Q_m to stiffness times sum_i (w_mi A_mi + time dA_mi/dt) e_i with A_mi = e_i . g_m, where only
-    /// directions in the surface are damped, and add to P what the same energy and dissipation give by F.
+    /// Set Q_m to stiffness times sum_i (w_mi A_mi + time e_i . dg_m/dt) e_i with A_mi = e_i . g_m, where
+    /// only directions in the surface are damped, and add to P what the same loads on A_mi give by F.
+    template <bool yields>
     void add(const Lanes (&F)[3][3],
              const Lanes (&amplitude)[4][3],
              const HourglassRates &rates,
@@ -127,40 +126,35 @@ namespace tread
              Lanes (&Q)[4][3],
              Lanes (&P)[3][3]) const
     {
-      Lanes sum[4][3] = {}; // Q may be the amplitudes' own array
+      const bool is_damped = rates.time > 0.;
+      Lanes      sum[4][3] = {}; // Q may be the amplitudes' own array
       for (unsigned int i = 0; i < 3; ++i)
         {
-          Lanes       e[3], turning[3] = {};
-          const Lanes inverse_length = axis_now(i, F, e);
-          if (rates.time > 0.)
-            for (unsigned int j = 0; j < 3; ++j)
-              turning[j] = inverse_length * (rates.F[j][0] * axis[i][0] + rates.F[j][1] * axis[i][1] +
-                                             rates.F[j][2] * axis[i][2]);
-          Lanes across[3] = {};
+          Lanes       e[3], turned[3] = {}, along{};
+          const Lanes inverse_length = axis_now<yields>(i, F, e);
           for (unsigned int m = 0; m < 4; ++m)
             {
               const Lanes(&g)[3] = amplitude[m];
               const Lanes A      = e[0] * g[0] + e[1] * g[1] + e[2] * g[2];
-              Lanes       rest[3], load = weight[m][i] * A;
-              for (unsigned int j = 0; j < 3; ++j)
-                rest[j] = g[j] - A * e[j];
-              if (rates.time > 0.)
-                {
-                  const Lanes(&rate)[3] = rates.amplitude[m];
-                  load += (rates.time * damped[i]) *
-                          (e[0] * rate[0] + e[1] * rate[1] + e[2] * rate[2] + rest[0] * turning[0] +
-                           rest[1] * turning[1] + rest[2] * turning[2]);
-                }
+              Lanes       load   = weight[m][i] * A;
+              if (i < 2 && is_damped)
+                load += rates.time * (e[0] * rates.amplitude[m][0] + e[1] * rates.amplitude[m][1] +
+                                      e[2] * rates.amplitude[m][2]);
               load *= stiffness;
               for (unsigned int j = 0; j < 3; ++j)
                 {
                   sum[m][j] += load * e[j];
-                  across[j] += load * rest[j];
+                  turned[j] += load * g[j];
                 }
+              if constexpr (yields)
+                along += load * A;
             }
+          if constexpr (yields)
+            for (unsigned int j = 0; j < 3; ++j)
+              turned[j] = inverse_length * (turned[j] - along * e[j]);
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int k = 0; k < 3; ++k)
-              P[j][k] += (inverse_length * across[j]) * axis[i][k];
+              P[j][k] += turned[j] * axis[i][k];
         }
       for (unsigned int m = 0; m < 4; ++m)
         for (unsigned int j = 0; j < 3; ++j)
@@ -168,17 +162,23 @@ namespace tread
     }
 
   private:
-    /// Set e to F E_i over its length. @returns one over the length.
+    /// Set e to F E_i, over its length in cells that yield. @returns one over the length, of those.
+    template <bool yields>
     Lanes axis_now(const unsigned int i, const Lanes (&F)[3][3], Lanes (&e)[3]) const
     {
-      constexpr double none = 1e-200; // of padded lanes, whose F and stiffness are 0
       for (unsigned int j = 0; j < 3; ++j)
         e[j] = F[j][0] * axis[i][0] + F[j][1] * axis[i][1] + F[j][2] * axis[i][2];
-      Lanes inverse = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + none;
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        inverse[lane] = 1. / std::sqrt(inverse[lane]);
-      for (Lanes &component : e)
-        component *= inverse;
+      Lanes inverse{};
+      if constexpr (yields)
+        {
+          // Newton's method from a value that is right for no stretch: to round-off for stretches up to 2.
+          const Lanes square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+          inverse            = 2. / (1. + square);
+          for (unsigned int pass = 0; pass < 6; ++pass)
+            inverse *= 1.5 - 0.5 * square * inverse * inverse;
+          for (Lanes &component : e)
+            component *= inverse;
+        }
       return inverse;
     }
   };
