@@ -32,7 +32,7 @@ def run(results: str, cell: float, traction: float) -> None:
     # The patch slips as a whole where the friction coefficient is all that is used of it.
     settings = {"Mesh/Finest cell (mm)": cell, "Peak stress/Region": "range", "Peak stress/From (mm)": -12, "Peak stress/To (mm)": -6,
                 "Output/Write volume": "false", "Motion/Traction coefficient": min(traction, 0.495)}
-    run_scene(SCENE, folder(results, cell, traction), settings)
+    run_scene(SCENE, folder(results, cell, traction), settings, ranks=1)
 
 
 def differences(of_run: str) -> list[tuple[float, float, float]]:
