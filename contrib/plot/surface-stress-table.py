@@ -20,7 +20,7 @@ from tread.tables import fill, markdown
 
 SCENE = "verification/half-space-0.63-mu0.30.prm"
 CELLS = (1.3, 1.1, 0.63, 0.55, 0.33)
-TRACTIONS = (0.0, 0.26, 0.5)
+TRACTIONS = (0.0, 0.26, 0.3, 0.5)
 LAYERS = 4  # below the surface
 
 

@@ -19,29 +19,33 @@ namespace tread
     /// do where nobody asks for depths.
     std::function<double(const dealii::Point<3> &)> depth_of;
     std::function<bool(const dealii::Point<3> &)>   contains;
-    bool                                            only_surface = false;
+    bool only_surface = false; ///< whether stresses are recovered at the surface alone
   };
 
   /// Stresses at the surface of a body and below it, of second order in the size of the cells: the one
   /// recovery of all tables and pictures.
   ///
-  /// A cell with one point of integration knows its stress at its centre, half a cell below the surface, and
-  /// there it is too large by the square of the cell's size over eight times the second derivatives along
-  /// the surface: equilibrium holds at the nodes, for the mean of the cells around them. Hence
-  /// - **below the surface** stress is recovered in the middle of the edges that go into depth, as the mean
-  ///   of the cells around such an edge, in which this error and the zigzag beside larger cells cancel;
-  /// - **at the surface** it is recovered at the nodes: stress across it is the traction that contact exerts,
-  ///   0 outside the patch; stress along it follows by Hooke's law from that and from the stretch of the
-  ///   faces around the node. Nothing is extrapolated.
-  /// - The edges of the uppermost layer end at the surface, on which shear stress follows from equilibrium
-  ///   with the mean between its own value and that of the surface instead of the own one: half the square of
-  ///   the depth times the second derivative over depth, by the surface's value, its own and that of the edge
-  ///   below, is taken off.
+  /// A cell with one point of integration knows its stress at its centre, half a cell below the surface.
+  /// There the stress is too large by the square of the cell's size over eight times the second derivatives
+  /// along the surface, because equilibrium holds at the nodes, for the mean of the cells around them. Hence
+  /// - **below the surface** stress is recovered in the middle of each edge that goes into depth, as the mean
+  /// of
+  ///   the cells around this edge. The error and the alternation beside larger cells cancel in it.
+  /// - **at the surface** stress is recovered at the nodes. The stress across the surface is the traction
+  /// that
+  ///   the contact exerts, 0 outside the patch. The stress along the surface follows by Hooke's law from this
+  ///   traction and from the stretch of the faces around the node. Nothing is extrapolated.
+  /// - **In the uppermost layer** the mean of the cells still contains an error: it balances the traction
+  /// with
+  ///   the stress along the surface at half the height of the layer instead of the mean of this stress above
+  ///   it. Half the square of the depth times the second derivative over depth is therefore subtracted. The
+  ///   derivative is that of the parabola through the stress of the surface, that of the edge and that of the
+  ///   edge below.
   ///
-  /// Hooke's law is not that of steel that has yielded. Around a node where a cell has, the stress along the
-  /// surface is extrapolated from the edge below the node and the next one, with the tractions as they are,
-  /// and taken back towards equal stress in all directions, along the surface as across it, until the
-  /// equivalent stress is one that the yield condition of the cells around the node allows.
+  /// Hooke's law does not apply to steel that has yielded. Around a node where a cell has yielded, the stress
+  /// along the surface is extrapolated from the edge below the node and the next one, with the tractions as
+  /// they are. It is then reduced towards equal stress in all directions until the equivalent stress is one
+  /// that the yield condition of the cells around the node allows.
   class StressRecovery
   {
   public:
@@ -63,7 +67,7 @@ namespace tread
       bool every_step;        ///< whether its cells make the smallest time steps; else they may lag behind
       bool wanted;            ///< of this rank, and in the extent; others only help
     };
-    /// Nodes of the surface, and edges below it; the latter by the depth of no one in particular.
+    /// Nodes of the surface, and edges below it.
     const std::vector<Site> &at_surface() const
     {
       return surface_sites;
