@@ -4,7 +4,7 @@
 
     plot-peaks.py RUN [RUN ...] [--names "10 mm, sharp" ...] [--strength 900] [--output peaks.png]
 
-Lines and filled marks: layers of cells, and the surface by extrapolation. Open marks: the surface from stretch and tractions.
+Lines and filled marks: layers of cells, and the nodes of the surface. Open marks: the middles of its faces.
 """
 
 from __future__ import annotations

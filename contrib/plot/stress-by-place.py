@@ -6,7 +6,7 @@
 
 The parts are sections of the path in mm from the beginning of the defect. For each run (a folder with strip.csv, and
 rail_cells.csv if the rail yields) and part the table has the largest von Mises stress that a cell under the path has seen with
-its place and the depth of its centre, the same for the cells at the surface, and the largest equivalent plastic strain at
+its place and the depth of its centre, the same for the surface, and the largest equivalent plastic strain at
 the end of the run with its place and depth, in all cells and in those of the first layer in the fine part of the mesh. Write the option with =, as the first number may be negative.
 """
 

@@ -49,8 +49,23 @@ namespace tread
   } // namespace
 
 
-  StressStrip::StressStrip(const Mesh &mesh, const unsigned int body, const StripExtent &extent)
+  StressStrip::StressStrip(const Mesh            &mesh,
+                           const Solid           &solid,
+                           const ContactSurfaces *surfaces,
+                           const unsigned int     body,
+                           const ElasticMaterial &material,
+                           const StripExtent     &extent)
     : comm(mesh.comm)
+    , recovery(mesh,
+               solid,
+               surfaces,
+               material,
+               {body, extent.depth_of,
+                [&extent](const dealii::Point<3> &p) {
+                  return p[0] >= extent.x_begin - nm && p[0] <= extent.x_end + nm &&
+                         std::abs(p[1] - extent.y_middle) <= extent.half_width + nm;
+                },
+                true})
     , wanted(mesh.cells.size(), false)
   {
     std::vector<char> at_surface(mesh.cells.size(), false);
@@ -76,15 +91,30 @@ namespace tread
           members.push_back(member);
           wanted[c] = true;
         }
+    for (const unsigned int c : recovery.cells())
+      wanted[c] = true;
+    for (unsigned int k = 0; k < recovery.at_surface().size(); ++k)
+      if (const StressRecovery::Site &site = recovery.at_surface()[k]; site.wanted)
+        surface.push_back({k, key_of(body, site.place), site.place[0], site.place[1], StressPeak()});
   }
 
 
-  void StressStrip::sample(const ExplicitDynamics &dynamics, const double wheel_x)
+  void StressStrip::sample(const ExplicitDynamics     &dynamics,
+                           const std::vector<Vector3> &impulses,
+                           const double                wheel_x)
   {
-    const auto stress = dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history, wanted);
+    const NodalField x      = dynamics.positions();
+    const auto       stress = dynamics.solid.cauchy_stress(x.data(), dynamics.history, wanted);
+    const auto       keep   = [&](StressPeak &peak, const StressRecovery::Stress &present) {
+      if (const double value = von_mises(present); value > peak.stress)
+        peak = {value, dynamics.time, wheel_x};
+    };
     for (Member &member : members)
-      if (const double value = von_mises(stress[member.cell]); value > member.peak.stress)
-        member.peak = {value, dynamics.time, wheel_x};
+      keep(member.peak, stress[member.cell]);
+    recovery.recover(x.data(), stress, dynamics.solid.plastic().yield_limits(dynamics.history), impulses,
+                     dynamics.time_step);
+    for (SurfaceMember &member : surface)
+      keep(member.peak, recovery.stress_at_surface()[member.site]);
   }
 
 
@@ -101,11 +131,13 @@ namespace tread
     std::sort(all.begin(), all.end()); // equal peaks: the same cell on any number of ranks
 
     std::map<long long, StripColumn> by_place;
+    std::map<long long, double>      length_of; // of the surface cell
     for (const auto &cell : all)
       if (cell[4] > 0.)
         {
           const double x                       = 0.5 * (cell[0] + cell[1]);
           by_place[std::llround(per_nm * x)].x = x;
+          length_of[std::llround(per_nm * x)]  = cell[1] - cell[0];
         }
     std::vector<StripColumn> columns;
     for (const auto &[place, column] : by_place)
@@ -123,13 +155,30 @@ namespace tread
                 column->y       = y;
                 column->depth   = depth;
               }
-            if (at_surface > 0. && stress > column->at_surface.stress)
-              {
-                column->at_surface   = peak;
-                column->y_at_surface = y;
-              }
             column->equivalent_plastic_strain = std::max(column->equivalent_plastic_strain, plastic_strain);
           }
+      }
+
+    std::vector<std::array<double, 5>> own_nodes;
+    for (const SurfaceMember &m : surface)
+      own_nodes.push_back({{m.x, m.y, m.peak.stress, m.peak.time, m.peak.wheel_x}});
+    std::vector<std::array<double, 5>> nodes;
+    for (const auto &list : dealii::Utilities::MPI::gather(comm, own_nodes, 0))
+      nodes.insert(nodes.end(), list.begin(), list.end());
+    std::sort(nodes.begin(), nodes.end());
+    for (const auto &[x, y, stress, time, wheel_x] : nodes)
+      {
+        // A node belongs to the cells on both sides of it.
+        const auto above = std::lower_bound(columns.begin(), columns.end(), x,
+                                            [](const StripColumn &c, const double at) { return c.x < at; });
+        for (auto column = above == columns.begin() ? above : above - 1;
+             column != columns.end() && column <= above; ++column)
+          if (std::abs(x - column->x) <= 0.5 * length_of[std::llround(per_nm * column->x)] + nm &&
+              stress > column->at_surface.stress)
+            {
+              column->at_surface   = {stress, time, wheel_x};
+              column->y_at_surface = y;
+            }
       }
     return columns;
   }
@@ -142,20 +191,24 @@ namespace tread
       Archive::Key key;
       StressPeak   peak;
     };
-    std::vector<KeptPeak> own;
-    for (const Member &member : members)
-      own.push_back({member.key, member.peak});
-    const std::vector<KeptPeak> all = archive.records(own);
-    if (!archive.restores())
-      return;
-    std::map<Archive::Key, StressPeak> by_key;
-    for (const KeptPeak &kept : all)
-      by_key[kept.key] = kept.peak;
-    for (Member &member : members)
-      if (const auto kept = by_key.find(member.key); kept != by_key.end())
-        member.peak = kept->second;
-      else
-        archive.miss();
+    const auto store = [&archive](auto &list) {
+      std::vector<KeptPeak> own;
+      for (const auto &member : list)
+        own.push_back({member.key, member.peak});
+      const std::vector<KeptPeak> all = archive.records(own);
+      if (!archive.restores())
+        return;
+      std::map<Archive::Key, StressPeak> by_key;
+      for (const KeptPeak &kept : all)
+        by_key[kept.key] = kept.peak;
+      for (auto &member : list)
+        if (const auto kept = by_key.find(member.key); kept != by_key.end())
+          member.peak = kept->second;
+        else
+          archive.miss();
+    };
+    store(members);
+    store(surface);
   }
 
 

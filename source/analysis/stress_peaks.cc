@@ -22,6 +22,9 @@ namespace tread
       constexpr double quarter = 0.25;
       return std::max(0., std::floor(depth / finest_cell + quarter));
     }
+
+    /// Cells whose centres lie deeper than that below their tops, in finest cells, are larger than these.
+    constexpr double half_of_larger = 0.75;
   } // namespace
 
 
@@ -65,108 +68,119 @@ namespace tread
 
   StressPeaks::StressPeaks(const ExplicitDynamics &dynamics,
                            const Contact          *contact,
+                           const bool              is_slave,
                            const unsigned int      body,
                            const ElasticMaterial  &material,
                            const PeakRegion       &region)
     : comm(dynamics.mesh.comm)
     , region(region)
     , material(material)
+    , recovery(dynamics.mesh,
+               dynamics.solid,
+               contact ? &contact->surfaces : nullptr,
+               material,
+               {body, region.depth_of, [this](const dealii::Point<3> &p) {
+                  return contains(p);
+                }})
   {
+    const std::string of_body = body == 0 ? "rail" : "wheel";
     find_members(dynamics, body);
-    if (dealii::Utilities::MPI::sum(members.size(), comm) == 0)
-      throw InputError(std::string("the region of 'Peak stress' holds no middle of a cell of the ") +
-                       (contact ? "rail" : "wheel") + ": make it longer, wider or deeper");
-    find_pairs();
-    if (dealii::Utilities::MPI::sum(pairs.size(), comm) == 0)
-      throw InputError(
-        std::string("the region of 'Peak stress' holds no two layers of the finest cells of the ") +
-        (contact ? "rail" : "wheel") +
-        ", from which the stress at its surface follows: make it deeper, or longer where the "
-        "cells are finest");
-    if (contact)
+    find_places(dynamics.mesh);
+    if (dealii::Utilities::MPI::sum(below_surface.size() + centres.size(), comm) == 0)
+      throw InputError("the region of 'Peak stress' holds no edge between cells of the " + of_body +
+                       ": make it longer, wider or deeper");
+    if (dealii::Utilities::MPI::sum(at_surface.size(), comm) == 0)
+      throw InputError("the region of 'Peak stress' holds no node of the surface of the " + of_body +
+                       " that can be in contact: make it longer or wider");
+    if (contact && is_slave)
       find_faces(dynamics, *contact);
-    unsigned int n_layers = 0;
+    unsigned int n_slots = first_layer;
+    for (const auto *places : {&below_surface, &centres})
+      for (const Place &place : *places)
+        n_slots = std::max(n_slots, place.slot + 1);
     for (const Member &member : members)
-      n_layers = std::max(n_layers, member.layer + 1);
-    peaks.resize(first_layer + dealii::Utilities::MPI::max(n_layers, comm));
+      n_slots = std::max(n_slots, first_layer + member.layer + 1);
+    peaks.resize(dealii::Utilities::MPI::max(n_slots, comm));
+  }
+
+
+  bool StressPeaks::contains(const dealii::Point<3> &p) const
+  {
+    constexpr double round_off = 1e-9; // m
+    const double     along     = region.along(p);
+    return along >= region.x_begin - round_off && along <= region.x_end + round_off &&
+           std::abs(p[1] - region.y_middle) <= region.half_width + round_off &&
+           region.depth_of(p) <= region.depth;
   }
 
 
   void StressPeaks::find_members(const ExplicitDynamics &dynamics, const unsigned int body)
   {
-    const Mesh               &mesh  = dynamics.mesh;
-    const Solid              &solid = dynamics.solid;
-    std::vector<unsigned int> elastic;
+    const Mesh       &mesh  = dynamics.mesh;
+    const Solid      &solid = dynamics.solid;
+    std::vector<char> needed(mesh.cells.size(), false), needs_node(mesh.nodes.size(), false);
+    for (const unsigned int c : recovery.cells())
+      needed[c] = true;
+    nodes = recovery.nodes();
+    for (const unsigned int i : nodes)
+      needs_node[i] = true;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (mesh.cells[c].body == body)
         {
-          const dealii::Point<3> centre = centre_of(mesh.corners(c));
-          const double           along = region.along(centre), depth = region.depth_of(centre);
-          if (along < region.x_begin || along > region.x_end ||
-              std::abs(centre[1] - region.y_middle) > region.half_width || depth > region.depth)
+          const auto             corners = mesh.corners(c);
+          const dealii::Point<3> centre  = centre_of(corners);
+          if (!contains(centre))
             continue;
-          members.push_back(
-            {c, layer_at(depth, region.finest_cell), along, centre[1], depth, solid.cell_levels()[c] == 0});
-          nodes.insert(nodes.end(), mesh.cells[c].nodes.begin(), mesh.cells[c].nodes.end());
-          if (!solid.plastic().contains(c))
-            elastic.push_back(c);
-          else
-            {
-              plastic_members.resize(mesh.cells.size(), false);
-              plastic_members[c] = true;
-            }
+          const double depth = region.depth_of(centre);
+          members.push_back({c, layer_at(depth, region.finest_cell)});
+          double top = depth;
+          for (const dealii::Point<3> &p : corners)
+            top = std::min(top, region.depth_of(p));
+          if (depth - top < half_of_larger * region.finest_cell)
+            continue;
+          centres.push_back({c, first_layer + members.back().layer, region.along(centre), centre[1], depth,
+                             solid.cell_levels()[c] == 0});
+          needed[c] = true;
+          for (const unsigned int i : mesh.cells[c].nodes)
+            if (!needs_node[i])
+              {
+                needs_node[i] = true;
+                nodes.push_back(i);
+              }
         }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::vector<unsigned int> elastic;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (!needed[c])
+        continue;
+      else if (!solid.plastic().contains(c))
+        elastic.push_back(c);
+      else
+        {
+          plastic_members.resize(mesh.cells.size(), false);
+          plastic_members[c] = true;
+        }
     groups = solid.groups_of(mesh, body, elastic);
     x.resize(mesh.nodes.size());
     stress.resize(mesh.cells.size());
   }
 
 
-  void StressPeaks::find_pairs()
+  void StressPeaks::find_places(const Mesh &mesh)
   {
-    struct Cell
-    {
-      double       x, y, depth;
-      unsigned int rank, member;
-      bool         every_step;
+    const auto place_of = [&](const StressRecovery::Site &site, const unsigned int number) {
+      return Place{number, surface, region.along(site.place), site.place[1], site.depth, site.every_step};
     };
-    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
-    std::vector<Cell>  own, own_at_surface;
-    for (unsigned int m = 0; m < members.size(); ++m)
-      (members[m].layer == 0 ? own_at_surface : own)
-        .push_back({members[m].x, members[m].y, members[m].depth, rank, m, members[m].every_step});
-    const std::vector<Cell> all = gathered(own_at_surface, comm), below = gathered(own, comm);
-    for (const Cell &cell : all)
-      {
-        const Cell *nearest  = nullptr;
-        double      distance = 0.;
-        for (const Cell &other : below)
-          {
-            const double d = std::hypot(cell.x - other.x, cell.y - other.y) + (other.depth - cell.depth);
-            if (!nearest || d < distance)
-              {
-                nearest  = &other;
-                distance = d;
-              }
-          }
-        // Not below the middle: the region ends at the surface cells, or they are finer than what lies below.
-        if (!nearest || std::hypot(cell.x - nearest->x, cell.y - nearest->y) > 0.5 * region.finest_cell)
-          continue;
-        const bool     here = nearest->rank == rank, crosses = nearest->rank != cell.rank;
-        const unsigned slot = exchanged.size();
-        if (crosses)
-          {
-            exchanged.emplace_back();
-            if (here)
-              sent.emplace_back(nearest->member, slot);
-          }
-        if (cell.rank == rank)
-          pairs.push_back({cell.member, crosses ? -1 : static_cast<int>(nearest->member), slot,
-                           cell.depth / (nearest->depth - cell.depth),
-                           cell.every_step && nearest->every_step});
-      }
+    for (unsigned int k = 0; k < recovery.at_surface().size(); ++k)
+      if (const StressRecovery::Site &site = recovery.at_surface()[k]; site.wanted)
+        at_surface.push_back(place_of(site, k));
+    for (unsigned int k = 0; k < recovery.below_surface().size(); ++k)
+      if (const StressRecovery::Site &site = recovery.below_surface()[k];
+          site.wanted && site.depth <= region.depth &&
+          site.depth - region.depth_of(mesh.nodes[site.node]) < half_of_larger * region.finest_cell)
+        {
+          below_surface.push_back(place_of(site, k));
+          below_surface.back().slot = first_layer + layer_at(site.depth, region.finest_cell);
+        }
   }
 
 
@@ -189,8 +203,12 @@ namespace tread
       }
     if (dealii::Utilities::MPI::sum(can_yield, comm) > 0)
       return;
+    std::vector<char> known(mesh.nodes.size(), false);
+    for (const unsigned int i : nodes)
+      known[i] = true;
     for (const Mesh::Face &face : mesh.faces)
-      if (face.boundary == Boundary::contact && is_member[face.cell])
+      if (face.boundary == Boundary::contact && is_member[face.cell] &&
+          std::all_of(face.nodes.begin(), face.nodes.end(), [&](const unsigned int i) { return known[i]; }))
         {
           SurfaceFace found{face.nodes, {}, {}, 0., 0.};
           bool        complete = true;
@@ -220,6 +238,7 @@ namespace tread
 
   void StressPeaks::sample(const ExplicitDynamics              &dynamics,
                            const std::vector<ContactNodeState> &states,
+                           const std::vector<Vector3>          &impulses,
                            const double                         wheel_x)
   {
     const Instant instant{dynamics.time, wheel_x, dynamics.synchronised()};
@@ -227,44 +246,28 @@ namespace tread
       x[i] = dynamics.position(i);
     for (const auto &group : groups)
       group->set_cauchy_stress(x.data(), {}, stress);
+    std::vector<double> yield_limits;
     if (!plastic_members.empty())
-      dynamics.solid.plastic().cauchy_stress(x.data(), dynamics.history, stress, plastic_members);
-    sample_layers(instant);
-    extrapolate(instant);
+      {
+        dynamics.solid.plastic().cauchy_stress(x.data(), dynamics.history, stress, plastic_members);
+        yield_limits = dynamics.solid.plastic().yield_limits(dynamics.history);
+      }
+    recovery.recover(x.data(), stress, yield_limits, impulses, dynamics.time_step);
+    sample_places(at_surface, recovery.stress_at_surface(), instant);
+    sample_places(below_surface, recovery.stress_below_surface(), instant);
+    sample_places(centres, stress, instant);
     sample_surface(states, dynamics.time_step, instant);
   }
 
 
-  void StressPeaks::sample_layers(const Instant &instant)
+  void StressPeaks::sample_places(const std::vector<Place>                  &places,
+                                  const std::vector<StressRecovery::Stress> &stresses,
+                                  const Instant                             &instant)
   {
-    for (const Member &m : members)
-      if (m.every_step || instant.all)
-        keep(first_layer + m.layer,
-             {von_mises(stress[m.cell]), m.x, m.y, m.depth, instant.time, instant.wheel_x});
-  }
-
-
-  void StressPeaks::extrapolate(const Instant &instant)
-  {
-    if (!exchanged.empty())
-      {
-        std::fill(exchanged.begin(), exchanged.end(), std::array<double, 6>{});
-        for (const auto &[member, slot] : sent)
-          exchanged[slot] = stress[members[member].cell];
-        MPI_Allreduce(MPI_IN_PLACE, exchanged.data(), 6 * exchanged.size(), MPI_DOUBLE, MPI_SUM, comm);
-      }
-    for (const Pair &pair : pairs)
-      if (pair.every_step || instant.all)
-        {
-          const Member                &member = members[pair.member];
-          const std::array<double, 6> &upper  = stress[member.cell],
-                                      &lower  = pair.below < 0 ? exchanged[pair.slot]
-                                                               : stress[members[pair.below].cell];
-          std::array<double, 6> at_surface;
-          for (unsigned int k = 0; k < 6; ++k)
-            at_surface[k] = upper[k] + pair.share * (upper[k] - lower[k]);
-          keep(extrapolated, {von_mises(at_surface), member.x, member.y, 0., instant.time, instant.wheel_x});
-        }
+    for (const Place &place : places)
+      if (place.every_step || instant.all)
+        keep(place.slot,
+             {von_mises(stresses[place.site]), place.x, place.y, place.depth, instant.time, instant.wheel_x});
   }
 
 
@@ -327,7 +330,7 @@ namespace tread
       const double plastic_part = layer < strain.size() ? strain[layer] : 0.;
       return Layer{peak, peak.value / (3. * material.shear_modulus()) + plastic_part};
     };
-    Answer answer{of_layer(all[extrapolated], 0), all[from_tractions], all[pressure], all[shear], {}};
+    Answer answer{of_layer(all[surface], 0), all[from_tractions], all[pressure], all[shear], {}};
     for (unsigned int layer = 0; layer < strain.size(); ++layer)
       if (const Peak &peak = all[first_layer + layer]; peak.value > 0.)
         answer.layers.push_back(of_layer(peak, layer));

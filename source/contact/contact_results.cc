@@ -130,6 +130,18 @@ namespace tread
   }
 
 
+  std::vector<Vector3> Contact::surface_impulses() const
+  {
+    std::vector<Vector3> of_node(surfaces.nodes.size(), Vector3{});
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      if (const ContactProblem::Constraint &constraint = problem.constraints[j];
+          dot(impulse[j], constraint.normal) > 0.)
+        for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+          of_node[involved[problem.entries[i].node]] += problem.entries[i].coefficient * impulse[j];
+    return of_node;
+  }
+
+
   std::optional<Vector3> Contact::contact_at_rim() const
   {
     if (rim_nodes.empty())

@@ -461,11 +461,11 @@ namespace tread
   {
     using R = StressPeaks::Layer;
     static const Columns<R> columns{
-      {"depth", "mm", "Of the layer of cells; 0: the surface, extrapolated",
+      {"depth", "mm", "Half the height of the layer of cells; 0: the surface",
        [](const R &r) {
          return r.peak.depth;
        }},
-      {"von_mises", "MPa", "Largest von Mises stress of all steps",
+      {"von_mises", "MPa", "Largest von Mises stress of all steps, recovered at this depth",
        [](const R &r) {
          return r.peak.value;
        }},
@@ -502,7 +502,7 @@ namespace tread
        [](const R &r) {
          return r.x;
        }},
-      {"von_mises", "MPa", "Largest stress of all rows of the history in the cells below it",
+      {"von_mises", "MPa", "Largest stress of all rows of the history in the middles of the cells below it",
        [](const R &r) {
          return r.largest.stress;
        }},
@@ -522,7 +522,7 @@ namespace tread
        [](const R &r) {
          return r.largest.wheel_x;
        }},
-      {"surface_von_mises", "MPa", "Largest stress of the cells at the surface",
+      {"surface_von_mises", "MPa", "Largest stress of the surface, recovered at the nodes of the cell",
        [](const R &r) {
          return r.at_surface.stress;
        }},
@@ -598,7 +598,7 @@ namespace tread
       {{{"x", "mm", "Middle of the cell before any load, along the rail"},
         {"y", "mm", "The same across"},
         {"z", "mm", "The same upwards"},
-        {"von_mises", "MPa", "Von Mises stress at the solution instant"},
+        {"von_mises", "MPa", "Von Mises stress in the middle of the cell at the solution instant"},
         {"stress_xx", "MPa", "Cauchy stress, along the rail"},
         {"stress_yy", "MPa", "Across"},
         {"stress_zz", "MPa", "Upwards"},
@@ -610,15 +610,22 @@ namespace tread
   }
 
 
-  const Columns<std::array<double, 6>> &rail_surface_columns()
+  const Columns<std::array<double, 13>> &rail_surface_columns()
   {
     static const auto columns =
-      columns_of<6>({{{"x", "mm", "Node of the surface before any load, along the rail"},
-                      {"y", "mm", "The same across"},
-                      {"z", "mm", "The same upwards"},
-                      {"u_x", "um", "Displacement at the solution instant, along the rail"},
-                      {"u_y", "um", "The same across"},
-                      {"u_z", "um", "The same upwards"}}});
+      columns_of<13>({{{"x", "mm", "Node of the surface before any load, along the rail"},
+                       {"y", "mm", "The same across"},
+                       {"z", "mm", "The same upwards"},
+                       {"u_x", "um", "Displacement at the solution instant, along the rail"},
+                       {"u_y", "um", "The same across"},
+                       {"u_z", "um", "The same upwards"},
+                       {"von_mises", "MPa", "Von Mises stress at the surface, recovered, at that instant"},
+                       {"stress_xx", "MPa", "Cauchy stress there, along the rail"},
+                       {"stress_yy", "MPa", "Across"},
+                       {"stress_zz", "MPa", "Upwards"},
+                       {"stress_xy", "MPa", "Shear"},
+                       {"stress_yz", "MPa", "Shear"},
+                       {"stress_zx", "MPa", "Shear"}}});
     return columns;
   }
 

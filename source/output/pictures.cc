@@ -94,6 +94,23 @@ namespace tread
       add_fields(picture, of_faces, false, {}, states);
     }
 
+    constexpr const char *components[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+
+    /// Recovered stresses at nodes: the first fields of von Mises stress and the components.
+    Scalars<unsigned int> stress_fields(const std::vector<StressRecovery::Stress> &stresses,
+                                        const unsigned int                         n_fields)
+    {
+      Scalars<unsigned int> fields{{"recovered_von_mises_MPa", [&stresses](const unsigned int i) {
+                                      return 1e-6 * von_mises(stresses[i]);
+                                    }}};
+      for (unsigned int k = 0; k + 1 < n_fields; ++k)
+        fields.push_back(
+          {std::string("recovered_stress_") + components[k] + "_MPa", [&stresses, k](const unsigned int i) {
+             return 1e-6 * stresses[i][k];
+           }});
+      return fields;
+    }
+
     void add_point(Picture &picture, const Vector3 place)
     {
       for (unsigned int d = 0; d < 3; ++d)
@@ -217,6 +234,7 @@ namespace tread
 
 
   void RunFolder::write_volume(const ExplicitDynamics                         &dynamics,
+                               const std::vector<StressRecovery::Stress>      &stresses,
                                const std::map<unsigned int, const WheelHub *> &hubs)
   {
     const Mesh                              &mesh = dynamics.mesh;
@@ -252,7 +270,6 @@ namespace tread
                                    {"body", [&](const unsigned int c) {
                                       return double(mesh.cells[c].body);
                                     }}};
-    constexpr const char *components[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
     for (unsigned int k = 0; k < 6; ++k)
       of_cells.push_back({std::string("stress_") + components[k] + "_MPa", [&, k](const unsigned int c) {
                             return 1e-6 * stress[c][k];
@@ -264,15 +281,16 @@ namespace tread
                           }});
     std::vector<unsigned int> cells(mesh.cells.size());
     std::iota(cells.begin(), cells.end(), 0u);
-    add_fields(picture, points.nodes, true, of_nodes, {});
+    add_fields(picture, points.nodes, true, of_nodes, stress_fields(stresses, 1));
     add_fields(picture, cells, false, {}, of_cells);
     add_picture("volume", picture, dynamics.time);
   }
 
 
-  void RunFolder::write_surface(const ExplicitDynamics &dynamics,
-                                const Contact          &contact,
-                                const unsigned int      body)
+  void RunFolder::write_surface(const ExplicitDynamics                    &dynamics,
+                                const Contact                             &contact,
+                                const std::vector<StressRecovery::Stress> &stresses,
+                                const unsigned int                         body)
   {
     const Mesh                &mesh = dynamics.mesh;
     std::vector<SurfaceValues> of_nodes(mesh.nodes.size());
@@ -303,6 +321,7 @@ namespace tread
     for (const unsigned int node : points.nodes)
       values.push_back(of_nodes[node]);
     add_surface_fields(picture, values, true, states);
+    add_fields(picture, points.nodes, true, {}, stress_fields(stresses, 7));
     add_picture("surface", picture, dynamics.time);
   }
 

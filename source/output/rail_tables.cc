@@ -11,9 +11,10 @@
 
 namespace tread
 {
-  void RunFolder::write_rail_tables(const ExplicitDynamics &dynamics,
-                                    const unsigned int      body,
-                                    const double            depth) const
+  void RunFolder::write_rail_tables(const ExplicitDynamics                    &dynamics,
+                                    const std::vector<StressRecovery::Stress> &stresses,
+                                    const unsigned int                         body,
+                                    const double                               depth) const
   {
     const Mesh                              &mesh = dynamics.mesh;
     const std::vector<std::array<double, 6>> stress =
@@ -32,17 +33,19 @@ namespace tread
           cells.push_back({{center[0], center[1], center[2], von_mises(s), s[0], s[1], s[2], s[3], s[4], s[5],
                             strain.empty() ? 0. : strain[c]}});
         }
-    std::map<std::array<long long, 4>, std::array<double, 6>> own;
+    std::map<std::array<long long, 4>, std::array<double, 13>> own;
     for (const Mesh::Face &face : mesh.faces)
       if (face.body == body && face.boundary == Boundary::contact)
         for (const unsigned int i : face.nodes)
           if (mesh.shared_nodes.is_owned(i) && std::abs(mesh.nodes[i][1]) <= depth)
             {
-              const dealii::Point<3> &p = mesh.nodes[i];
-              const Vector3           u = dynamics.position(i) - Vector3{p[0], p[1], p[2], 0.};
-              own[mesh.node_key(i)]     = {{p[0], p[1], p[2], u[0], u[1], u[2]}};
+              const dealii::Point<3>       &p = mesh.nodes[i];
+              const Vector3                 u = dynamics.position(i) - Vector3{p[0], p[1], p[2], 0.};
+              const StressRecovery::Stress &s = stresses[i];
+              own[mesh.node_key(i)]           = {
+                          {p[0], p[1], p[2], u[0], u[1], u[2], von_mises(s), s[0], s[1], s[2], s[3], s[4], s[5]}};
             }
-    std::vector<std::array<double, 6>> nodes;
+    std::vector<std::array<double, 13>> nodes;
     for (const auto &[key, values] : own)
       nodes.push_back(values);
 

@@ -233,23 +233,24 @@ namespace tread
                                          : "Where it was, along the rail");
       keys.emplace_back(name + "_y_m", "Where it was, across");
       if (what.find("cells") != std::string::npos)
-        keys.emplace_back(name + "_depth_m", "Where it was: middle of its cell, from the surface");
+        keys.emplace_back(name + "_depth_m", "Where it was: half the height of its layer, from the surface");
       keys.emplace_back(name + "_time_s", "When it was");
     }
 
     Keys peaks()
     {
-      const std::string extrapolated = ", extrapolated from the middles of the two uppermost cells";
-      Keys              keys;
-      add_peak(keys, "peak_von_mises", "von Mises stress of the rail's cells");
-      add_peak(keys, "peak_surface_von_mises", "von Mises stress at the rail's surface", extrapolated);
+      const std::string recovered =
+        ", recovered at its nodes from tractions and stretch, or from below where steel has yielded";
+      Keys keys;
+      add_peak(keys, "peak_von_mises", "von Mises stress of the layers of the rail's cells");
+      add_peak(keys, "peak_surface_von_mises", "von Mises stress at the rail's surface", recovered);
       add_peak(keys, "peak_surface_von_mises_from_tractions", "von Mises stress at the rail's surface",
                ", from the stretch of a face of it and the tractions on it");
       add_peak(keys, "peak_pressure", "pressure of a node of the rail");
       add_peak(keys, "peak_shear", "shear stress of a node of the rail");
-      add_peak(keys, "wheel_peak_von_mises", "von Mises stress of the first wheel's cells");
+      add_peak(keys, "wheel_peak_von_mises", "von Mises stress of the layers of the first wheel's cells");
       add_peak(keys, "wheel_peak_surface_von_mises", "von Mises stress at the first wheel's surface",
-               extrapolated);
+               recovered);
       return keys;
     }
 

@@ -141,6 +141,20 @@ namespace tread
   }
 
 
+  std::function<double(const dealii::Point<3> &)> depth_in(const Scene &scene, const unsigned int body)
+  {
+    if (body == rail_body)
+      return [&scene](const dealii::Point<3> &p) {
+        return scene.depth_in_rail(p);
+      };
+    return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
+      const RunningSurfaces &surfaces = scene.surfaces();
+      const double           offset   = surfaces.tread_offset ? surfaces.tread_offset(p[1]) : 0.;
+      return surfaces.radius + offset - std::hypot(p[0] - begin, height - p[2]);
+    };
+  }
+
+
   PeakRegion peak_region(const Scene &scene, const unsigned int body)
   {
     // This far from the middle of a patch, half a semi-axis from its edge, no stress is as large as under it.
@@ -156,24 +170,17 @@ namespace tread
     region.depth       = section.depth;
     region.finest_cell = scene.mesh.finest_cell;
     region.reach       = semi_axes * ellipse.semi_axis_x;
+    region.depth_of    = depth_in(scene, body);
     if (body == rail_body)
       {
         region.along = [](const dealii::Point<3> &p) {
           return p[0];
-        };
-        region.depth_of = [&scene](const dealii::Point<3> &p) {
-          return scene.depth_in_rail(p);
         };
         return region;
       }
     const double begin = scene.path_begin(), height = scene.axle_height(), radius = scene.rolling_radius();
     region.along = [=](const dealii::Point<3> &p) {
       return begin + radius * std::atan2(p[0] - begin, height - p[2]);
-    };
-    region.depth_of = [&scene, begin, height](const dealii::Point<3> &p) {
-      const RunningSurfaces &surfaces = scene.surfaces();
-      const double           offset   = surfaces.tread_offset ? surfaces.tread_offset(p[1]) : 0.;
-      return surfaces.radius + offset - std::hypot(p[0] - begin, height - p[2]);
     };
     return region;
   }

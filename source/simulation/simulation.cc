@@ -103,15 +103,16 @@ namespace tread
       });
 
     if (scene.output.strip_half_width > 0.)
-      strip = std::make_unique<StressStrip>(mesh, rail_body, strip_extent(scene));
+      strip = std::make_unique<StressStrip>(mesh, solid, &contact.surfaces, rail_body,
+                                            materials(scene)[rail_body], strip_extent(scene));
     if (scene.peak_stress.is_wanted())
       {
-        const auto record = [&](const Contact *slave, const unsigned int body) {
-          return std::make_unique<StressPeaks>(dynamics, slave, body, materials(scene)[body],
+        const auto record = [&](const bool is_slave, const unsigned int body) {
+          return std::make_unique<StressPeaks>(dynamics, &contact, is_slave, body, materials(scene)[body],
                                                peak_region(scene, body));
         };
-        rail_peaks  = record(&contact, rail_body);
-        wheel_peaks = record(nullptr, wheels.front().body);
+        rail_peaks  = record(true, rail_body);
+        wheel_peaks = record(false, wheels.front().body);
       }
     if (const auto points = scene.recorded_cells(); !points.empty())
       try
@@ -272,9 +273,10 @@ namespace tread
     });
     if (near == wheels.end())
       return;
-    rail_peaks->sample(dynamics, contact.active_nodes(), near->hub.motion.x);
+    const std::vector<Vector3> impulses = contact.surface_impulses();
+    rail_peaks->sample(dynamics, contact.active_nodes(), impulses, near->hub.motion.x);
     if (near == wheels.begin())
-      wheel_peaks->sample(dynamics, {}, position());
+      wheel_peaks->sample(dynamics, {}, impulses, position());
   }
 
 
@@ -315,7 +317,7 @@ namespace tread
     if (probes)
       row.cells = probes->record(dynamics);
     if (strip)
-      strip->sample(dynamics, position());
+      strip->sample(dynamics, contact.surface_impulses(), position());
     impacts.add(row, dynamics.time - interval_start_time, scene.recorded_supports());
     folder.append(row);
     watch(row.energy);
@@ -349,8 +351,8 @@ namespace tread
       }
     solution_taken = true;
     if (scene.output.table_depth > 0.)
-      folder.write_rail_tables(dynamics, rail_body, scene.output.table_depth);
-    folder.write_surface(dynamics, contact, rail_body);
+      folder.write_rail_tables(dynamics, nodal_stresses().at_present(), rail_body, scene.output.table_depth);
+    write_surface(folder);
     if (scene.output.write_volume)
       write_volume(folder);
   }
@@ -361,7 +363,30 @@ namespace tread
     std::map<unsigned int, const WheelHub *> hubs;
     for (const RollingWheel &wheel : wheels)
       hubs[wheel.body] = &wheel.hub;
-    folder.write_volume(dynamics, hubs);
+    folder.write_volume(dynamics, nodal_stresses().at_present(), hubs);
+  }
+
+
+  void Simulation::write_surface(RunFolder &folder) const
+  {
+    folder.write_surface(dynamics, contact, nodal_stresses().at_present(), rail_body);
+  }
+
+
+  NodalStresses &Simulation::nodal_stresses() const
+  {
+    if (!stresses_at_nodes)
+      {
+        const std::vector<ElasticMaterial> of_bodies = materials(scene);
+        std::vector<RecoveredBody> bodies{{rail_body, of_bodies[rail_body], depth_in(scene, rail_body)}};
+        for (const RollingWheel &wheel : wheels)
+          bodies.push_back(
+            {wheel.body, of_bodies[wheel.body], [axle = wheel.hub.start()](const dealii::Point<3> &p) {
+               return -std::hypot(p[0] - axle[0], p[2] - axle[2]);
+             }});
+        stresses_at_nodes = std::make_unique<NodalStresses>(dynamics, &contact, bodies);
+      }
+    return *stresses_at_nodes;
   }
 
 
@@ -547,7 +572,7 @@ namespace tread
     if (interval_ended(scene.output.history_interval))
       end_interval(folder);
     if (interval_ended(scene.output.surface_interval))
-      folder.write_surface(dynamics, contact, rail_body);
+      write_surface(folder);
     if (interval_ended(scene.output.interval_of_patches()))
       {
         const auto patches = patches_now();

@@ -400,6 +400,27 @@ namespace tread
   }
 
 
+  std::vector<double> PlasticCells::yield_limits(const PlasticHistory &history) const
+  {
+    std::vector<double> limits(zone_of_cell.size(), 0.);
+    for_cells(
+      [&](const Range &range, const std::size_t first, const unsigned int lane, const int cell, std::size_t) {
+        const double strain = history.values[first + strain_at][lane];
+        if (!(strain > 0.))
+          return;
+        limits[cell] = range.plastic.yield_stress + range.plastic.isotropic_modulus * strain;
+        for (std::size_t i = 0; i < range.plastic.backstresses.size(); ++i)
+          {
+            std::array<double, 6> backstress;
+            for (unsigned int k = 0; k < 6; ++k)
+              backstress[k] = history.values[first + backstress_at + 6 * i + k][lane];
+            limits[cell] += von_mises(backstress);
+          }
+      });
+    return limits;
+  }
+
+
   std::vector<CellHistory> PlasticCells::stored(const PlasticHistory &history) const
   {
     std::vector<CellHistory> list;

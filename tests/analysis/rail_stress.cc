@@ -37,9 +37,43 @@ namespace
       return (from_rear ? -1. : 1.) * 0.5 * rise * s * s * (1. - slope * p[2]) * (1. + tilt * p[1]);
     }
 
+    /// At a node of the surface, where nothing acts on it: Hooke's law with the logarithmic strains along it.
+    StressRecovery::Stress at_surface(const double x, const double y) const
+    {
+      const double s   = from_rear ? length - x : x;
+      const double F11 = 1. + rise * s * (1. + tilt * y),
+                   F12 = (from_rear ? -0.5 : 0.5) * rise * s * s * tilt;
+      const double E11 = 0.5 * (F11 * F11 - 1.), E12 = 0.5 * F11 * F12, E22 = 0.5 * F12 * F12;
+      const double e11 = E11 - E11 * E11 - E12 * E12, e22 = E22 - E22 * E22 - E12 * E12,
+                   e12 = E12 - E12 * (E11 + E22);
+      const ElasticMaterial steel;
+      const double          factor = steel.young_modulus / (1. - steel.poisson_ratio * steel.poisson_ratio);
+      return {{factor * (e11 + steel.poisson_ratio * e22), factor * (e22 + steel.poisson_ratio * e11), 0.,
+               2. * steel.shear_modulus() * e12, 0., 0.}};
+    }
+
+    /// Mean of the four cells around an edge into depth.
+    StressRecovery::Stress at_edge(const double x, const double y, const double z, const double edge) const
+    {
+      StressRecovery::Stress mean{};
+      for (const double along : {-0.5, 0.5})
+        for (const double across : {-0.5, 0.5})
+          {
+            const auto of_cell = stress(x + along * edge, y + across * edge, z, edge);
+            for (unsigned int k = 0; k < 6; ++k)
+              mean[k] += 0.25 * of_cell[k];
+          }
+      return mean;
+    }
+
+    double von_mises(const double x, const double y, const double z, const double edge) const
+    {
+      return tread::von_mises(stress(x, y, z, edge));
+    }
+
     /// Of the cell with this centre and edge. Means of the trilinear field's gradient, then Cauchy's stress
     /// of Hencky's law.
-    double von_mises(const double x, const double y, const double z, const double edge) const
+    StressRecovery::Stress stress(const double x, const double y, const double z, const double edge) const
     {
       const double s = from_rear ? length - x : x;
       const double a = s - 0.5 * edge, b = s + 0.5 * edge;
@@ -59,9 +93,8 @@ namespace
       dealii::Tensor<2, 3>       S      = (2. * mu - 2. * lambda * trace(E)) * E - 6. * mu * square;
       for (unsigned int i = 0; i < 3; ++i)
         S[i][i] += lambda * (trace(E) - trace(square));
-      const dealii::Tensor<2, 3> stress = F * S * transpose(F) / determinant(F);
-      return tread::von_mises(
-        {{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][2], stress[2][0]}});
+      const dealii::Tensor<2, 3> T = F * S * transpose(F) / determinant(F);
+      return {{T[0][0], T[1][1], T[2][2], T[0][1], T[1][2], T[2][0]}};
     }
   };
 
@@ -83,19 +116,19 @@ namespace
                                return -p[2];
                              }};
     const Field       first{0.1, false}, second{0.15, true};
-    StressStrip       strip(dynamics.mesh, 0, extent);
+    StressStrip       strip(dynamics.mesh, dynamics.solid, nullptr, 0, ElasticMaterial(), extent);
     take(dynamics, first, 1.);
-    strip.sample(dynamics, 10.);
+    strip.sample(dynamics, {}, 10.);
 
     // A strip that goes on from what the first has stored.
-    StressStrip resumed(dynamics.mesh, 0, extent);
+    StressStrip resumed(dynamics.mesh, dynamics.solid, nullptr, 0, ElasticMaterial(), extent);
     Archive     stored(comm);
     strip.serialize(stored);
     Archive archive(comm, tests::parts_of(stored, comm));
     resumed.serialize(archive);
     take(dynamics, second, 2.);
-    strip.sample(dynamics, 20.);
-    resumed.sample(dynamics, 20.);
+    strip.sample(dynamics, {}, 20.);
+    resumed.sample(dynamics, {}, 20.);
     const auto columns = strip.columns(dynamics), again = resumed.columns(dynamics);
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
@@ -116,11 +149,6 @@ namespace
                                     second.von_mises(centre, y, z, edge)};
           for (unsigned int k = 0; k < 2; ++k)
             {
-              if (z == -0.5 * fine)
-                {
-                  at_surface   = std::max(at_surface, values[k]);
-                  y_at_surface = y;
-                }
               if (values[k] > most)
                 {
                   y_most = y;
@@ -130,10 +158,17 @@ namespace
                 }
             }
         };
+        // Both nodes of the cell along the path, and the farthest within 6 mm to that side.
+        y_at_surface = 2. * fine;
+        for (const double node : {x - 0.5 * fine, x + 0.5 * fine})
+          for (const Field &field : {first, second})
+            at_surface = std::max(at_surface, von_mises(field.at_surface(node, y_at_surface)));
         look(x, -0.5 * fine, fine);
         look(x, -1.5 * fine, fine);
         look(x_below, -1.5 * coarse, coarse);
-        surface = std::max(surface, std::abs(column.at_surface.stress / at_surface - 1.));
+        // Around nodes at the ends of the block there are faces on one side only.
+        if (i > 0 && i + 1 < columns.size())
+          surface = std::max(surface, std::abs(column.at_surface.stress / at_surface - 1.));
         largest = std::max(largest, std::abs(column.largest.stress / most - 1.));
         across =
           across && std::abs(column.y - y_most) < 1e-9 && std::abs(column.y_at_surface - y_at_surface) < 1e-9;
@@ -143,7 +178,8 @@ namespace
       }
     // Round-off of positions (1e-17 m) over strains of 1e-4 in cells of 2.5 mm.
     check.below("middles of the columns, share", place, 1e-12);
-    check.below("largest at the surface, share", surface, 1e-9);
+    // Strains are means over faces: shear is a few hundredths of the stretch, and 0.2 % off at most.
+    check.below("largest at the surface, share", surface, 1e-4);
     check.below("largest at any depth, share", largest, 1e-9);
     check.that("its time and the wheel's place", times);
     check.that("its depth", depths);
@@ -200,19 +236,19 @@ namespace
     parameters.max_level = 1;
     const Solid      solid(mesh, {ElasticMaterial()}, parameters);
     ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
-    StressPeaks      peaks(dynamics, nullptr, 0, ElasticMaterial(), region_of_peaks());
+    StressPeaks      peaks(dynamics, nullptr, true, 0, ElasticMaterial(), region_of_peaks());
     dynamics.n_steps = 1;
     take(dynamics, Field{0.1, false}, 1.);
-    peaks.sample(dynamics, {}, 10.);
+    peaks.sample(dynamics, {}, {}, 10.);
     dynamics.n_steps = 2;
     take(dynamics, Field{0.09, false}, 2.);
-    peaks.sample(dynamics, {}, 20.);
+    peaks.sample(dynamics, {}, {}, 20.);
     const StressPeaks::Answer answer = peaks.answer(dynamics);
     check.that("peaks between steps: three layers", answer.layers.size() == 3);
     for (unsigned int k = 0; k < std::min<std::size_t>(3, answer.layers.size()); ++k)
       check.absolute("peaks between steps: time of layer " + std::to_string(k + 1),
                      answer.layers[k].peak.time, k < 2 ? 1. : 2., 0.);
-    check.absolute("peaks between steps: time of the extrapolated one", answer.surface.peak.time, 1., 0.);
+    check.absolute("peaks between steps: time of that at the surface", answer.surface.peak.time, 1., 0.);
   }
 
   void check_peaks(tests::Check &check, ExplicitDynamics &dynamics)
@@ -220,46 +256,51 @@ namespace
     const MPI_Comm   comm   = dynamics.mesh.comm;
     const PeakRegion region = region_of_peaks();
     const Field      first{0.1, false}, second{0.09, true};
-    StressPeaks      peaks(dynamics, nullptr, 0, ElasticMaterial(), region);
+    StressPeaks      peaks(dynamics, nullptr, true, 0, ElasticMaterial(), region);
     check.that("peaks: a wheel is near up to the reach, and no farther",
                peaks.concerns(0.0151) && peaks.concerns(0.0449) && !peaks.concerns(0.0149) &&
                  !peaks.concerns(0.0451));
     take(dynamics, first, 1.);
-    peaks.sample(dynamics, {}, 10.);
-    StressPeaks resumed(dynamics, nullptr, 0, ElasticMaterial(), region);
+    peaks.sample(dynamics, {}, {}, 10.);
+    StressPeaks resumed(dynamics, nullptr, true, 0, ElasticMaterial(), region);
     Archive     stored(comm);
     peaks.serialize(stored);
     Archive archive(comm, tests::parts_of(stored, comm));
     resumed.serialize(archive);
     take(dynamics, second, 2.);
-    peaks.sample(dynamics, {}, 20.);
-    resumed.sample(dynamics, {}, 20.);
+    peaks.sample(dynamics, {}, {}, 20.);
+    resumed.sample(dynamics, {}, {}, 20.);
     const StressPeaks::Answer answer = peaks.answer(dynamics), again = resumed.answer(dynamics);
 
-    // The first field is the larger one, at the region's end; cells lie with their centres in it.
-    const double x_fine = 0.04 - 0.5 * fine, x_coarse = 0.04 - 0.5 * coarse;
+    // The first field is the larger one, at the region's end; of the nodes within 4 mm of the middle the
+    // largest are those to the side to which the field rises. Coarse cells have the stress of their centres.
+    const double x_end = 0.04, y_fine = fine;
     check.that("peaks: three layers, two of them fine", answer.layers.size() == 3);
-    const double depths[3] = {0.5 * fine, 1.5 * fine, 1.5 * coarse};
-    // The farthest centres within 4 mm of the middle, to the side to which the field rises.
-    const double y_fine = 1.5 * fine, y_coarse = 0.5 * coarse;
-    const double expected[3] = {first.von_mises(x_fine, y_fine, -depths[0], fine),
-                                first.von_mises(x_fine, y_fine, -depths[1], fine),
-                                first.von_mises(x_coarse, y_coarse, -depths[2], coarse)};
+    const double                 depths[3]   = {0.5 * fine, 1.5 * fine, 1.5 * coarse};
+    const StressRecovery::Stress surface     = first.at_surface(x_end, y_fine);
+    StressRecovery::Stress       stresses[3] = {
+            first.at_edge(x_end, y_fine, -depths[0], fine), first.at_edge(x_end, y_fine, -depths[1], fine),
+            first.stress(x_end - 0.5 * coarse, 0.5 * coarse, -depths[2], coarse)};
+    // The uppermost one without half the square of its depth times the second derivative over depth.
+    for (unsigned int c = 0; c < 6; ++c)
+      stresses[0][c] -= (stresses[1][c] - 3. * stresses[0][c] + 2. * surface[c]) / 6.;
+    double expected[3];
+    for (unsigned int k = 0; k < 3; ++k)
+      expected[k] = von_mises(stresses[k]);
     for (unsigned int k = 0; k < std::min<std::size_t>(3, answer.layers.size()); ++k)
       {
         const Peak       &peak = answer.layers[k].peak;
         const std::string name = "peaks: layer " + std::to_string(k + 1) + ": ";
-        check.relative(name + "stress", peak.value, expected[k], 1e-9);
+        check.relative(name + "stress", peak.value, expected[k], k == 0 ? 1e-6 : 1e-9);
         check.relative(name + "depth", peak.depth, depths[k], 1e-9);
-        check.relative(name + "x", peak.x, k < 2 ? x_fine : x_coarse, 1e-9);
+        check.relative(name + "x", peak.x, k < 2 ? x_end : x_end - 0.5 * coarse, 1e-9);
         check.that(name + "instant, and where the wheel was", peak.time == 1. && peak.wheel_x == 10.);
         check.relative(name + "strain of Hooke's law", answer.layers[k].equivalent_strain,
-                       expected[k] / (3. * ElasticMaterial().shear_modulus()), 1e-9);
+                       peak.value / (3. * ElasticMaterial().shear_modulus()), 1e-12);
         check.relative(name + "restored and gone on", again.layers[k].peak.value, peak.value, 1e-15);
       }
-    // Stresses are linear in z but for products of the strain, 0.4 %, with its change over a cell, 10 %.
-    check.relative("peaks: extrapolated to the surface", answer.surface.peak.value,
-                   first.von_mises(x_fine, y_fine, 0., fine), 1e-3);
+    check.relative("peaks: at the surface", answer.surface.peak.value, von_mises(surface), 1e-6);
+    check.relative("peaks: at the surface: x", answer.surface.peak.x, x_end, 1e-9);
     check.that("peaks: not that of the first layer", answer.surface.peak.value < 0.99 * expected[0] ||
                                                        answer.surface.peak.value > 1.01 * expected[0]);
   }
@@ -270,7 +311,7 @@ namespace
   {
     const Mesh   &mesh = dynamics.mesh;
     const Contact contact(mesh, ContactParameters(), std::make_shared<CoulombFriction>(0.3));
-    StressPeaks   peaks(dynamics, &contact, 0, ElasticMaterial(), region_of_peaks());
+    StressPeaks   peaks(dynamics, &contact, true, 0, ElasticMaterial(), region_of_peaks());
     dynamics.time_step        = 1e-7;
     constexpr double pressure = 300e6, shear = 50e6, area = 6e-6, strain = 1e-3;
     const auto       stretch = [&](const double share, const double time) {
@@ -282,6 +323,9 @@ namespace
       dynamics.time = time;
     };
     std::vector<ContactNodeState> states;
+    // What acts on the nodes is given over the areas that belong to them in the mesh.
+    std::vector<Vector3> impulses(contact.surfaces.nodes.size(),
+                                  fine * fine * dynamics.time_step * Vector3{-shear, 0., -pressure, 0.});
     for (unsigned int k = 0; k < contact.surfaces.nodes.size(); ++k)
       {
         ContactNodeState state{};
@@ -293,16 +337,21 @@ namespace
         states.push_back(state);
       }
     stretch(0., 1.);
-    peaks.sample(dynamics, states, 10.);
-    const Peak pressed = peaks.answer(dynamics).from_tractions;
+    peaks.sample(dynamics, states, impulses, 10.);
+    const Peak pressed   = peaks.answer(dynamics).from_tractions,
+               recovered = peaks.answer(dynamics).surface.peak;
     stretch(strain, 2.);
-    peaks.sample(dynamics, {}, 20.);
+    peaks.sample(dynamics, {}, {}, 20.);
     const StressPeaks::Answer answer = peaks.answer(dynamics);
     // Hooke's law with no strain along the surface, then with no stress across it. Strains are logarithmic,
     // to second order: 4/3 of the square of 0.1 % is left.
     const double nu = ElasticMaterial().poisson_ratio, E = ElasticMaterial().young_modulus;
     check.relative("surface: under the wheel, MPa", 1e-6 * pressed.value,
                    1e-6 * std::hypot(pressure * (1. - 2. * nu) / (1. - nu), std::sqrt(3.) * shear), 1e-12);
+    check.relative("surface: the same recovered at its nodes, MPa", 1e-6 * recovered.value,
+                   1e-6 * pressed.value, 1e-9);
+    check.relative("surface: recovered when the wheel has left, MPa", 1e-6 * answer.surface.peak.value,
+                   1e-6 * answer.from_tractions.value, 1e-8);
     check.relative("surface: stretched when the wheel has left, MPa", 1e-6 * answer.from_tractions.value,
                    1e-6 * E / (1. - nu * nu) * std::sqrt(1. - nu + nu * nu) * std::log1p(strain), 2e-6);
     check.that("surface: the latter is larger", answer.from_tractions.value > pressed.value);

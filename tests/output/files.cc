@@ -214,10 +214,20 @@ namespace
                                                                       {"yz", {{1, 2}}}, {"zx", {{2, 0}}}};
 
 
+  /// Stresses at nodes that tell where each belongs, Pa.
+  std::vector<StressRecovery::Stress> nodal_stresses(const Mesh &mesh)
+  {
+    std::vector<StressRecovery::Stress> stresses;
+    for (const Point<3> &p : mesh.nodes)
+      stresses.push_back({{1e9 * p[0], 2e9 * p[1], 3e9 * p[2], 4e9 * p[0], 5e9 * p[1], 6e9 * p[0]}});
+    return stresses;
+  }
+
+
   void check_rail_tables(tests::Check &check, const Bodies &bodies, RunFolder &folder)
   {
     // Half of the layers, and of each the middle.
-    folder.write_rail_tables(bodies.dynamics, 0, 6e-3);
+    folder.write_rail_tables(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), 0, 6e-3);
     const auto all = [](const std::string &) {
       return true;
     };
@@ -247,7 +257,7 @@ namespace
 
     const CsvTable surface(folder.path("rail_surface.csv"), all, "no table of the surface");
     check.absolute("rail_surface.csv: rows, nodes up to 6 mm to both sides", surface.n_rows(), 12, 0.);
-    check.absolute("rail_surface.csv: columns", surface.names().size(), 6, 0.);
+    check.absolute("rail_surface.csv: columns", surface.names().size(), 13, 0.);
     const auto place = [&](const std::size_t i) {
       return 1e-3 * Point<3>(surface.column("x_mm")[i], surface.column("y_mm")[i], surface.column("z_mm")[i]);
     };
@@ -261,12 +271,23 @@ namespace
                   deviation(surface.column(names[d]),
                             [&](const std::size_t i) { return 1e6 * displacement(place(i))[d]; }),
                   1e-7); // of which the difference of two positions leaves nine digits
+    check.below(
+      "rail_surface.csv: stress_yz_MPa, relative",
+      deviation(surface.column("stress_yz_MPa"), [&](const std::size_t i) { return 5e3 * place(i)[1]; }),
+      1e-8);
+    check.below("rail_surface.csv: von_mises_MPa, relative",
+                deviation(surface.column("von_mises_MPa"),
+                          [&](const std::size_t i) {
+                            const Point<3> p = 1e3 * place(i);
+                            return von_mises({{p[0], 2. * p[1], 3. * p[2], 4. * p[0], 5. * p[1], 6. * p[0]}});
+                          }),
+                1e-8);
   }
 
 
   void check_bodies(tests::Check &check, const Bodies &bodies, RunFolder &folder)
   {
-    folder.write_volume(bodies.dynamics, {{1, &bodies.hub}});
+    folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {{1, &bodies.hub}});
     auto              fields = picture(folder.path("volume-0000.vtu"));
     const std::size_t n_rail = 8 * 3 * 4 * 2, n_all = n_rail + 8; // vertices of cells
     check.absolute("volume: places", fields["points"].size() / 3., n_all, 0.);
@@ -288,6 +309,15 @@ namespace
     check.below("volume: displacement_um of the wheel without its rolling, relative",
                 deviation(of_wheel, [](std::size_t i) { return 1e6 * beyond_rolling[i % 3]; }),
                 single_precision);
+    std::vector<double> recovered = fields["recovered_von_mises_MPa"];
+    recovered.resize(n_rail);
+    check.below("volume: recovered_von_mises_MPa of the rail, relative",
+                deviation(recovered,
+                          [&](std::size_t i) {
+                            const Point<3> p = 1e3 * place(i);
+                            return von_mises({{p[0], 2. * p[1], 3. * p[2], 4. * p[0], 5. * p[1], 6. * p[0]}});
+                          }),
+                0.05); // places are those of the deformed body
     check.below("volume: velocity_m_per_s",
                 deviation(fields["velocity_m_per_s"], [](std::size_t i) { return velocity[i % 3]; }),
                 single_precision);
@@ -378,7 +408,7 @@ namespace
     dynamics.start();
     dynamics.step();
     dynamics.time = slips ? 2e-3 : 1e-3; // one instant has one picture
-    folder.write_surface(dynamics, contact, 0);
+    folder.write_surface(dynamics, contact, nodal_stresses(mesh), 0);
     auto fields = picture(folder.path(slips ? "surface-0001.vtu" : "surface-0000.vtu"));
 
     const std::string name     = slips ? "contact that slips: " : "contact that adheres: ";
@@ -409,7 +439,7 @@ namespace
       row.wheels.resize(1);
       folder.append(row);
       bodies.dynamics.time = time;
-      folder.write_volume(bodies.dynamics, {});
+      folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {});
     };
     std::string kept; // by a checkpoint at 2.5 ms
     {
@@ -470,7 +500,7 @@ namespace
           folder.append_patch(0, time, 0., {PatchNode{}});
         }
       bodies.dynamics.time = time;
-      folder.write_volume(bodies.dynamics, {});
+      folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {});
       kept = folder.progress();
       if (with_patches)
         folder.append_patch(0, time + 1., 0., {PatchNode{}}); // after the checkpoint

@@ -51,8 +51,9 @@ with tempfile.TemporaryDirectory() as folder:
     strip = table(path("deep"), "strip.csv")
     peak = max(strip["von_mises_MPa"])
     check.relative("strip: its largest stress is the summary's", summary["strip_max_von_mises_Pa"], 1e6 * peak, 1e-8)
-    check.that("strip: the surface sees no more than all depths",
-               all(a <= b for a, b in zip(strip["surface_von_mises_MPa"], strip["von_mises_MPa"])))
+    check.that("strip: the surface, which has stresses of its own, sees most where the wheel is near and steel cannot carry more",
+               all(0. < s < 1.5 * peak for s in strip["surface_von_mises_MPa"])
+               and all(abs(w - p) < 15. for p, w in zip(strip["x_mm"], strip["surface_wheel_x_mm"]) if -85. < p < -60.))
     at = strip["x_mm"][strip["von_mises_MPa"].index(peak)]
     check.that("strip: the largest stress is at an edge of the dip or beyond", at > -60.)
     where_it_flies = [s for p, s in zip(strip["x_mm"], strip["von_mises_MPa"]) if -38. < p < -32.]

@@ -53,15 +53,14 @@ check.below("isolated nodes of adhesion in the slip area", m["isolated_adhesion_
 check.below("largest slip in adhesion, m/s, at the solver's tolerance", m["max_slip_in_adhesion_m_per_s"], 1e-6)
 check.below("ripple of the normal force over the last 10 mm", summary["normal_force_ripple_share"], 0.002)
 check.below("contact steps not converged", summary["contact_unconverged_share"], 0.)
-# Largest von Mises stress by depth. Down to the second layer stress changes by a fifth from cell to cell, and the largest of
-# all instants is that of the cells that lie best: 2 to 5 % with cells of 0.63 mm, 2 % with 0.33 mm. At the surface itself the
-# stress has a narrow peak where slip begins: 8 to 13 % of it are lost by extrapolating, 5 to 7 % by averaging over a face.
+# Largest von Mises stress by depth, recovered, beside the half-space solver with its own tractions. At the surface it has a narrow peak where slip
+# begins, which averaging over a face lowers by 5 to 7 %.
 largest = [(float(row["depth_mm"]), float(row["von_mises_MPa"])) for row in depth_rows if row["body"] == "rail" and row["line"] == "largest"]
 for row in peak_rows:
     depth = row["depth_mm"]
     above, below = max(p for p in largest if p[0] <= depth), min(p for p in largest if p[0] > depth)
     wanted = above[1] + (below[1] - above[1]) * (depth - above[0]) / (below[0] - above[0])
-    allowed = 0.15 if depth == 0. else 0.06 if depth < 1.2 else 0.02
+    allowed = 0.04 if depth == 0. else 0.025 if depth < 1.2 else 0.02
     check.relative(f"largest von Mises stress at a depth of {depth:.2f} mm, MPa", row["von_mises_MPa"], wanted, allowed)
 check.relative("largest von Mises stress of the surface from stretch and tractions, MPa",
                1e-6 * summary["peak_surface_von_mises_from_tractions_Pa"], largest[0][1], 0.08)

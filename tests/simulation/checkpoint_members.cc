@@ -112,9 +112,14 @@ namespace
       , dynamics(mesh, solid, dynamics_parameters())
       , supports(mesh, 0, {-0.3, 0.3}, track())
       , contact(mesh, contact_parameters(), std::make_shared<CoulombFriction>(0.3))
-      , strip(mesh, 0, StripExtent{-0.02, 0.02, 0., 8e-3, 8e-3, [](const Point<3> &p) {
-                                     return -p[2];
-                                   }})
+      , strip(mesh,
+              solid,
+              &contact.surfaces,
+              0,
+              ElasticMaterial(),
+              StripExtent{-0.02, 0.02, 0., 8e-3, 8e-3, [](const Point<3> &p) {
+                            return -p[2];
+                          }})
     {
       hub.place(Vector3{0., 0., axle_height, 0.});
       hub.motion.angular_velocity = speed / axle_height;
@@ -156,7 +161,7 @@ namespace
           dynamics.step();
           average.add(contact.active_nodes(), hub.motion.x, dynamics.time_step);
           if (dynamics.synchronised())
-            strip.sample(dynamics, hub.motion.x);
+            strip.sample(dynamics, {}, hub.motion.x);
         }
       dynamics.check_cells();
     }

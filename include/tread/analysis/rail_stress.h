@@ -2,6 +2,7 @@
 #ifndef tread_analysis_rail_stress_h
 #define tread_analysis_rail_stress_h
 
+#include <tread/analysis/stress_recovery.h>
 #include <tread/base/archive.h>
 #include <tread/dynamics/explicit_dynamics.h>
 
@@ -28,21 +29,28 @@ namespace tread
   /// Maxima over the cells between two cross-sections of the strip, SI units.
   struct StripColumn
   {
-    double     x;                         ///< middle of the column in the reference configuration
-    StressPeak largest, at_surface;       ///< of all its cells, and of those at the surface
-    double     y, depth, y_at_surface;    ///< centres of these cells
+    double     x;                      ///< middle of the column in the reference configuration
+    StressPeak largest, at_surface;    ///< of the centres of all its cells, and of the nodes at the surface
+    double     y, depth, y_at_surface; ///< where these are
     double     equivalent_plastic_strain; ///< present maximum
   };
 
-  /// Records for the cells of a rail under the path of the wheel the largest von Mises stress at the instants
-  /// sampled.
+  /// Records the largest von Mises stress at the instants sampled for the centres of the cells of a rail
+  /// under the path of the wheel, and for the nodes of its surface above them (StressRecovery).
   class StressStrip
   {
   public:
-    StressStrip(const Mesh &mesh, const unsigned int body, const StripExtent &extent);
+    /// @param surfaces number the nodes on which the contact acts; null: none does. Collective.
+    StressStrip(const Mesh            &mesh,
+                const Solid           &solid,
+                const ContactSurfaces *surfaces,
+                const unsigned int     body,
+                const ElasticMaterial &material,
+                const StripExtent     &extent);
 
-    /// Only cells of the strip are evaluated. Nodes must be synchronised.
-    void sample(const ExplicitDynamics &dynamics, const double wheel_x);
+    /// Only cells of the strip are evaluated. Nodes must be synchronised. @param impulses on the nodes of
+    /// all surfaces in the last step, N s. Collective.
+    void sample(const ExplicitDynamics &dynamics, const std::vector<Vector3> &impulses, const double wheel_x);
 
     /// One column for each surface cell along the path, beginning at the rear; on rank 0. Collective.
     std::vector<StripColumn> columns(const ExplicitDynamics &dynamics) const;
@@ -59,10 +67,19 @@ namespace tread
       bool         at_surface;
       StressPeak   peak;
     };
+    struct SurfaceMember
+    {
+      unsigned int site; ///< of the recovery
+      Archive::Key key;
+      double       x, y;
+      StressPeak   peak;
+    };
 
-    MPI_Comm            comm;
-    std::vector<Member> members; ///< cells of this rank
-    std::vector<char>   wanted;  ///< by cell of the mesh
+    MPI_Comm                   comm;
+    StressRecovery             recovery;
+    std::vector<Member>        members; ///< cells of this rank
+    std::vector<SurfaceMember> surface; ///< nodes of this rank
+    std::vector<char>          wanted;  ///< by cell of the mesh
   };
 
   /// Stress and plastic strain of a cell at one instant.

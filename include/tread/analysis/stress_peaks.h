@@ -2,9 +2,8 @@
 #ifndef tread_analysis_stress_peaks_h
 #define tread_analysis_stress_peaks_h
 
+#include <tread/analysis/stress_recovery.h>
 #include <tread/base/archive.h>
-#include <tread/contact/contact.h>
-#include <tread/dynamics/explicit_dynamics.h>
 
 #include <array>
 #include <functional>
@@ -45,20 +44,21 @@ namespace tread
                            const double                  shear);
 
   /// Records in every step the largest von Mises stress in each layer of cells of a region, and at the
-  /// surface, where no cell has its centre, in two ways:
-  /// - all six stresses are extrapolated along a line through the centres of a surface cell and the one below
-  ///   it;
-  /// - by von_mises_at_face(), on the body whose surface nodes have the tractions (the slave).
-  /// There the largest pressure and shear stress are recorded as well.
+  /// surface, as StressRecovery finds them: at the nodes of the surface, and in the layers of finest cells in
+  /// the middle of edges. Cells of the larger ones below them have the stress of their centres. Beside that,
+  /// on the body whose surface nodes carry the unknown tractions (the slave), von_mises_at_face() and the
+  /// largest pressure and shear stress.
   ///
-  /// Cells of higher levels of time steps, which lie below the finest ones, are looked at whenever all nodes
-  /// are at the same instant.
+  /// What rests on cells of higher levels of time steps, which lie below the finest ones, is looked at
+  /// whenever all nodes are at the same instant.
   class StressPeaks
   {
   public:
-    /// @param contact if the body is the slave, whose nodes have the tractions; otherwise null. Collective.
+    /// @param contact exerts the tractions; null: none. @param is_slave whether the body's nodes have the
+    /// tractions of which active_nodes() tells. Collective.
     StressPeaks(const ExplicitDynamics &dynamics,
                 const Contact          *contact,
+                const bool              is_slave,
                 const unsigned int      body,
                 const ElasticMaterial  &material,
                 const PeakRegion       &region);
@@ -69,10 +69,11 @@ namespace tread
       return wheel_x >= region.x_begin - region.reach && wheel_x <= region.x_end + region.reach;
     }
 
-    /// To be called after each step in which a wheel is near. @param states the nodes in contact.
-    /// Collective.
+    /// To be called after each step in which a wheel is near. @param states the nodes in contact, for the
+    /// slave. @param impulses on the nodes of all surfaces, N s. Collective.
     void sample(const ExplicitDynamics              &dynamics,
                 const std::vector<ContactNodeState> &states,
+                const std::vector<Vector3>          &impulses,
                 const double                         wheel_x);
 
     struct Layer
@@ -82,10 +83,10 @@ namespace tread
     };
     struct Answer
     {
-      Layer              surface; ///< extrapolated; value 0 where the region has no cells
+      Layer              surface;        ///< value 0 where the region has no surface
       Peak               from_tractions; ///< value 0 where steel at the surface can yield, and for the wheel
       Peak               pressure, shear;
-      std::vector<Layer> layers; ///< downwards; depths are those of the centres of the cells
+      std::vector<Layer> layers; ///< downwards; depths are half the heights of the layers
     };
 
     /// Of all ranks. Collective.
@@ -98,17 +99,13 @@ namespace tread
     struct Member
     {
       unsigned int cell, layer;
-      double       x, y, depth; ///< of its centre
-      bool         every_step;  ///< or at the end of the longest step only
     };
-    /// A cell at the surface and the one below it, of which another rank may have the stress.
-    struct Pair
+    /// A place at which stress is known.
+    struct Place
     {
-      unsigned int member;
-      int          below; ///< member; -1: on another rank, which puts its stress into the slot
-      unsigned int slot;
-      double       share; ///< stress at the surface: upper one + share * (upper - lower)
-      bool         every_step;
+      unsigned int site, slot; ///< of the recovery, or the cell; where its largest value is kept
+      double       x, y, depth;
+      bool         every_step; ///< or at the end of the longest step only
     };
     struct SurfaceFace
     {
@@ -118,7 +115,7 @@ namespace tread
     };
     enum Slot
     {
-      extrapolated,
+      surface,
       from_tractions,
       pressure,
       shear,
@@ -131,11 +128,13 @@ namespace tread
       bool   all; ///< whether all nodes are at this instant
     };
 
+    bool contains(const dealii::Point<3> &p) const;
     void find_members(const ExplicitDynamics &dynamics, const unsigned int body);
-    void find_pairs();
+    void find_places(const Mesh &mesh);
     void find_faces(const ExplicitDynamics &dynamics, const Contact &contact);
-    void sample_layers(const Instant &instant);
-    void extrapolate(const Instant &instant);
+    void sample_places(const std::vector<Place>                  &places,
+                       const std::vector<StressRecovery::Stress> &stresses,
+                       const Instant                             &instant);
     void sample_surface(const std::vector<ContactNodeState> &states,
                         const double                         time_step,
                         const Instant                       &instant);
@@ -143,21 +142,20 @@ namespace tread
     std::vector<Peak> of_all_ranks() const;
     void              keep(const unsigned int slot, const Peak &peak);
 
-    MPI_Comm                                           comm;
-    PeakRegion                                         region;
-    ElasticMaterial                                    material;
-    std::vector<Member>                                members; ///< of this rank
-    std::vector<Pair>                                  pairs;
-    std::vector<std::pair<unsigned int, unsigned int>> sent;      ///< member of this rank, slot
-    std::vector<std::array<double, 6>>                 exchanged; ///< by slot: stress, Pa
-    std::vector<SurfaceFace>                           faces;
-    std::vector<unsigned int>                          nodes;           ///< of the members
-    std::vector<std::unique_ptr<const CellGroup>>      groups;          ///< the elastic members
-    std::vector<char>                                  plastic_members; ///< by cell of the mesh; empty: none
-    NodalField                                         x;               ///< by node; those of members are set
-    std::vector<std::array<double, 6>>                 stress; ///< by cell; those of members are set, Pa
-    std::vector<Vector3> traction;                             ///< by surface node, Pa: normal, along, across
-    std::vector<Peak>    peaks;                                ///< by Slot
+    MPI_Comm                                      comm;
+    PeakRegion                                    region;
+    ElasticMaterial                               material;
+    StressRecovery                                recovery;
+    std::vector<Member>                           members; ///< of this rank
+    std::vector<Place>                            at_surface, below_surface, centres;
+    std::vector<SurfaceFace>                      faces;
+    std::vector<unsigned int>                     nodes;           ///< whose positions are needed
+    std::vector<std::unique_ptr<const CellGroup>> groups;          ///< the elastic cells
+    std::vector<char>                             plastic_members; ///< by cell of the mesh; empty: none
+    NodalField                                    x;        ///< by node; those of cells and faces are set
+    std::vector<StressRecovery::Stress>           stress;   ///< by cell; those needed are set, Pa
+    std::vector<Vector3>                          traction; ///< by surface node, Pa: normal, along, across
+    std::vector<Peak>                             peaks;    ///< by Slot
   };
 } // namespace tread
 

@@ -162,6 +162,10 @@ namespace tread
     /// Slave nodes that carry an impulse after the last step, ordered by number. Collective.
     std::vector<ContactNodeState> active_nodes() const;
 
+    /// Impulse on each surface node, of slave and masters, in the last step, by its number, N s. All ranks
+    /// know all of them.
+    std::vector<Vector3> surface_impulses() const;
+
     /// Number of steps in which the sweeps ended before the tolerance was reached, without those of the
     /// start.
     std::uint64_t n_unconverged_steps() const

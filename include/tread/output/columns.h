@@ -122,7 +122,7 @@ namespace tread
   /// rail_cells.csv: middle, von Mises stress, Cauchy stress xx, yy, zz, xy, yz, zx, plastic strain.
   const Columns<std::array<double, 11>> &rail_cell_columns();
   /// rail_surface.csv: place and displacement.
-  const Columns<std::array<double, 6>> &rail_surface_columns();
+  const Columns<std::array<double, 13>> &rail_surface_columns();
 
   /// All tables that a run can leave, with all columns that they can have: one support, 0, the second one of
   /// several wheels, and one cell stand for others.

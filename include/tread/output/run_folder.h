@@ -83,11 +83,13 @@ namespace tread
     }
 
     /// rail_cells.csv: reference position, stress and plastic strain of the cells of a body whose top is at
-    /// z = 0, down to the depth (m) and as wide as it is deep; rail_surface.csv: reference position and
-    /// displacement of the nodes of its contact surface. Collective.
-    void write_rail_tables(const ExplicitDynamics &dynamics,
-                           const unsigned int      body,
-                           const double            depth) const;
+    /// z = 0, down to the depth (m) and as wide as it is deep; rail_surface.csv: reference position,
+    /// displacement and stress of the nodes of its contact surface. Collective.
+    /// @param stresses by node of the mesh, of NodalStresses
+    void write_rail_tables(const ExplicitDynamics                    &dynamics,
+                           const std::vector<StressRecovery::Stress> &stresses,
+                           const unsigned int                         body,
+                           const double                               depth) const;
 
     /// run.h5: all tables of the folder, compressed, with the units of their columns, the summary and the
     /// parameters; through a temporary file. By HDF5's own interface, as deal.II's has no compression.
@@ -130,11 +132,17 @@ namespace tread
                       const std::vector<PatchNode> &patch);
 
     /// Write the present state of the bodies: displacement without the hubs' rigid motion, velocity, stress.
-    /// Collective. @param hubs of the bodies that are wheels
-    void write_volume(const ExplicitDynamics &dynamics, const std::map<unsigned int, const WheelHub *> &hubs);
+    /// Collective. @param stresses by node of the mesh, of NodalStresses; @param hubs of the bodies that are
+    /// wheels
+    void write_volume(const ExplicitDynamics                         &dynamics,
+                      const std::vector<StressRecovery::Stress>      &stresses,
+                      const std::map<unsigned int, const WheelHub *> &hubs);
 
-    /// Write a body's contact surface with pressure, shear, slip and state. Collective.
-    void write_surface(const ExplicitDynamics &dynamics, const Contact &contact, const unsigned int body);
+    /// Write a body's contact surface with pressure, shear, slip, state and stress. Collective.
+    void write_surface(const ExplicitDynamics                    &dynamics,
+                       const Contact                             &contact,
+                       const std::vector<StressRecovery::Stress> &stresses,
+                       const unsigned int                         body);
 
     /// Write the square elements of a half-space solution with the same fields. Collective.
     void write_surface(const std::vector<PatchNode> &elements, const double element_size);

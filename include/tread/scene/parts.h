@@ -43,6 +43,9 @@ namespace tread
   /// The cells of the rail whose largest stress is recorded, down to a depth below the maximum of the shear
   /// stress.
   StripExtent strip_extent(const Scene &scene);
+
+  /// Depth below the surface of the rail or of the first wheel, m, in the reference configuration.
+  std::function<double(const dealii::Point<3> &)> depth_in(const Scene &scene, const unsigned int body);
   /// Where the largest stresses of the rail, or of the tread of the first wheel, are looked for.
   PeakRegion         peak_region(const Scene &scene, const unsigned int body);
   WheelHubParameters hub_parameters(const Scene &scene);

@@ -109,8 +109,11 @@ namespace tread
     /// Forget what was recorded about the solution instant, which is yet to come.
     void forget_solution();
     void write_volume(RunFolder &folder) const;
-    void end_passage(RunFolder &folder);
-    void next_passage(Progress &progress);
+    void write_surface(RunFolder &folder) const;
+    /// Made when it is first asked for. Collective.
+    NodalStresses &nodal_stresses() const;
+    void           end_passage(RunFolder &folder);
+    void           next_passage(Progress &progress);
     /// How a run ends.
     enum class End
     {
@@ -231,6 +234,9 @@ namespace tread
     double               relaxation_seconds = 0., relaxation_iterations = 0.;
     double               wall_seconds   = 0.; ///< including the parts before resuming
     double               seconds_before = 0.; ///< those parts
+
+    mutable std::unique_ptr<NodalStresses>
+      stresses_at_nodes; ///< for pictures and tables; made when asked for
   };
 } // namespace tread
 

@@ -107,6 +107,11 @@ namespace tread
     /// Equivalent plastic strain by cell of the mesh, 0 outside the zones.
     std::vector<double> equivalent_plastic_strain(const PlasticHistory &history) const;
 
+    /// Largest equivalent stress of von Mises, Pa, that the yield condition allows in a cell that has
+    /// yielded, by cell of the mesh: the yield stress at its plastic strain and the equivalents of its
+    /// backstresses. 0 where no cell has yielded. Empty without zones.
+    std::vector<double> yield_limits(const PlasticHistory &history) const;
+
     /// Save and restore the histories of this rank's cells by key. Cells that are not in the list keep
     /// theirs.
     /// @returns how many were found.

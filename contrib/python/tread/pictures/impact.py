@@ -181,7 +181,7 @@ def draw_strip(run: Impact) -> Figure | None:
     yields = strip["equivalent_plastic_strain_percent"].max() > 0
     figure, axes = subplots(2 + yields, 1, figsize=(10, 5.5 + 2 * yields), sharex=True, height_ratios=(2, 1, 1)[:2 + yields])
     axes[0].plot(strip["x_mm"], strip["von_mises_MPa"], color=RED, label="at any depth")
-    axes[0].plot(strip["x_mm"], strip["surface_von_mises_MPa"], color=BLUE, label="in the cells\nat the surface")
+    axes[0].plot(strip["x_mm"], strip["surface_von_mises_MPa"], color=BLUE, label="at the surface")
     axes[0].set(ylabel="largest von Mises stress [MPa]", title="largest stress that the rail's cells under the path have seen")
     axes[1].plot(strip["x_mm"], strip["depth_mm"], color=RED)
     depth_axis(axes[1], strip["depth_mm"])

@@ -13,7 +13,7 @@ from ..runs import Run
 
 
 def draw_peaks(runs: Sequence[Run], names: Sequence[str] = (), strength: float | None = None) -> Figure:
-    """Lines and filled marks: layers of cells, and the surface by extrapolation. Open marks: the surface from stretch and tractions.
+    """Lines and filled marks: layers of cells, and the nodes of the surface. Open marks: the middles of its faces.
     @param names of the runs @param strength in MPa, a line"""
     figure, axis = subplots(figsize=(9, 4.6))
     for i, run in enumerate(runs):
@@ -30,7 +30,7 @@ def draw_peaks(runs: Sequence[Run], names: Sequence[str] = (), strength: float |
     axis.set(xlabel="depth below the rail's surface [mm]", ylabel="von Mises stress [MPa]", xlim=(0., None),
              title="largest stress of all steps in the region of 'Peak stress'")
     if any(run.summary.get("peak_surface_von_mises_from_tractions_Pa") for run in runs):
-        axis.plot([], [], marker="s", ms=7, fillstyle="none", ls="none", color=GREY, label="surface, from\nstretch and tractions")
+        axis.plot([], [], marker="s", ms=7, fillstyle="none", ls="none", color=GREY, label="surface, middles\nof its faces")
     legend_beside(axis)
     return figure
 
