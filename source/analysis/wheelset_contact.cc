@@ -2,9 +2,14 @@
 #include <tread/analysis/wheelset_contact.h>
 #include <tread/base/format.h>
 #include <tread/geometry/contact_points.h>
+#include <tread/geometry/patch_surfaces.h>
+#include <tread/reference/errors.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <new>
+#include <optional>
 #include <stdexcept>
 
 namespace tread
@@ -26,115 +31,19 @@ namespace tread
       return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     }
 
-    /// Wheel and rail as heights over the plane of a patch. One object per thread: it begins each search
-    /// where the last one ended.
-    class Heights
+    /// Where a patch can lie in its plane, from the reference point (m).
+    struct Range
     {
-    public:
-      Heights(const WheelOnRail         &surfaces,
-              const WheelsetPosition    &position,
-              const WheelOnRail::Region &region)
-        : surfaces(surfaces)
-        , position(position)
-        , origin(region.reference)
-        , cosine(std::cos(region.angle))
-        , sine(std::sin(region.angle))
-        , wheel_s(0.5 * (region.s_begin + region.s_end))
-        , wheel_angle(surfaces.outline(position, wheel_s)->angle)
-        , rail_s(surfaces.rail().parameter(region.reference[1]))
-      {
-      }
-
-      Vector3d along() const
-      {
-        return {0., cosine, sine};
-      }
-      Vector3d normal() const
-      {
-        return {0., -sine, cosine};
-      }
-
-      /// Position along s of a point of the track.
-      double along(const Vector3d &p) const
-      {
-        return (p[1] - origin[1]) * cosine + (p[2] - origin[2]) * sine;
-      }
-      double above(const Vector3d &p) const
-      {
-        return (p[2] - origin[2]) * cosine - (p[1] - origin[1]) * sine;
-      }
-
-      /// Height and inclination in the track of the rail at s.
-      std::array<double, 2> rail(const double s) const
-      {
-        const ProfileCurve &curve = surfaces.rail().curve();
-        for (unsigned int i = 0; i < 50; ++i)
-          {
-            const ProfileCurve::Place p     = curve.at(rail_s);
-            const double              error = s - ((p.y - origin[1]) * cosine + (p.z - origin[2]) * sine);
-            const double              slope = std::max(0.1, p.dy * cosine + p.dz * sine);
-            rail_s = std::clamp(rail_s + std::clamp(error / slope, -1e-3, 1e-3), 0., curve.length());
-            if (std::abs(error) < 1e-14)
-              break;
-          }
-        const ProfileCurve::Place p = curve.at(rail_s);
-        return {(p.z - origin[2]) * cosine - (p.y - origin[1]) * sine, std::atan2(p.dz, p.dy)};
-      }
-
-      double wheel(const double x, const double s) const
-      {
-        double height = 0.;
-        for (unsigned int i = 0; i < 50; ++i)
-          {
-            const WheelOnRail::SurfacePoint p = surfaces.surface(position, wheel_s, wheel_angle);
-            height                            = above(p.place);
-            const double miss_x = x - (p.place[0] - origin[0]), miss_s = s - along(p.place);
-            if (std::abs(miss_x) + std::abs(miss_s) < 1e-13)
-              break;
-            const double s_by_s      = p.by_s[1] * cosine + p.by_s[2] * sine,
-                         s_by_angle  = p.by_angle[1] * cosine + p.by_angle[2] * sine;
-            const double determinant = p.by_s[0] * s_by_angle - p.by_angle[0] * s_by_s;
-            const double step_s      = (miss_x * s_by_angle - miss_s * p.by_angle[0]) / determinant,
-                         step_angle  = (miss_s * p.by_s[0] - miss_x * s_by_s) / determinant;
-            constexpr double longest = 2e-3; // m, for profiles with corners
-            wheel_s =
-              std::clamp(wheel_s + std::clamp(step_s, -longest, longest), 0., surfaces.wheel().length());
-            wheel_angle = std::clamp(wheel_angle + step_angle, -0.5, 0.5);
-          }
-        return height;
-      }
-
-      /// The wheel's parameter at the place looked at last.
-      double last_wheel_s() const
-      {
-        return wheel_s;
-      }
-      double last_wheel_angle() const
-      {
-        return wheel_angle;
-      }
-
-      double gap(const double x, const double s) const
-      {
-        return wheel(x, s) - rail(s)[0];
-      }
-
-    private:
-      const WheelOnRail     &surfaces;
-      const WheelsetPosition position;
-      const Vector3d         origin;
-      const double           cosine, sine;
-      mutable double         wheel_s, wheel_angle, rail_s;
+      double x_low = 0., x_high = 0., s_low = 0., s_high = 0.;
     };
 
-    /// Elements over all of the overlap, one of them centred on the reference point.
-    reference::Grid grid_over(const WheelOnRail         &surfaces,
-                              const WheelRolling        &rolling,
-                              const WheelsetPosition    &position,
-                              const WheelOnRail::Region &region,
-                              const Heights             &heights)
+    /// All of the overlap.
+    Range range_of_overlap(const WheelOnRail         &surfaces,
+                           const WheelsetPosition    &position,
+                           const WheelOnRail::Region &region,
+                           const PatchSurfaces       &heights)
     {
-      double                 x_low = 0., x_high = 0., s_low = 0., s_high = 0.;
+      Range                  range;
       constexpr unsigned int n = 200;
       for (unsigned int i = 0; i <= n; ++i)
         {
@@ -143,29 +52,75 @@ namespace tread
           if (!point)
             continue;
           const double x = point->place[0] - region.reference[0], along = heights.along(point->place);
-          s_low  = std::min(s_low, along);
-          s_high = std::max(s_high, along);
+          range.s_low  = std::min(range.s_low, along);
+          range.s_high = std::max(range.s_high, along);
           // Along x the wheel's surface has the curvature cos(angle)/r.
-          const double radius = (surfaces.radius() - surfaces.wheel().at(s).z) / std::cos(region.angle);
-          const double half   = std::sqrt(2. * radius * std::max(0., -heights.gap(x, along)));
-          x_low               = std::min(x_low, x - half);
-          x_high              = std::max(x_high, x + half);
+          const double radius  = (surfaces.radius() - surfaces.wheel().at(s).z) / std::cos(region.angle);
+          const double overlap = heights.rail(along).height - heights.above(point->place);
+          const double half    = std::sqrt(2. * radius * std::max(0., overlap));
+          range.x_low          = std::min(range.x_low, x - half);
+          range.x_high         = std::max(range.x_high, x + half);
         }
+      return range;
+    }
+
+    /// Elements over the range, one of them centred on the reference point.
+    reference::Grid grid_over(const WheelRolling &rolling, const Range &range)
+    {
       // The patch is about 0.7 times as long and as wide as the overlap: 60 elements along, 40 across.
-      const double dx  = rolling.element_x > 0. ? rolling.element_x : (x_high - x_low) / 84.,
-                   ds  = rolling.element_y > 0. ? rolling.element_y : (s_high - s_low) / 56.;
+      const double dx  = rolling.element_x > 0. ? rolling.element_x : (range.x_high - range.x_low) / 84.,
+                   ds  = rolling.element_y > 0. ? rolling.element_y : (range.s_high - range.s_low) / 56.;
       const auto cells = [](const double length, const double size) {
         return static_cast<unsigned int>(std::ceil(length / size)) + 1;
       };
-      const unsigned int before_x = cells(-x_low, dx), before_s = cells(-s_low, ds);
+      const unsigned int before_x = cells(-range.x_low, dx), before_s = cells(-range.s_low, ds);
       reference::Grid    grid;
       grid.dx      = dx;
       grid.dy      = ds;
-      grid.n_x     = before_x + cells(x_high, dx) + 1;
-      grid.n_y     = before_s + cells(s_high, ds) + 1;
+      grid.n_x     = before_x + cells(range.x_high, dx) + 1;
+      grid.n_y     = before_s + cells(range.s_high, ds) + 1;
       grid.x_first = -(before_x * dx);
       grid.y_first = -(before_s * ds);
       return grid;
+    }
+
+    /// The solution on a grid that holds the patch. @throws std::runtime_error where the patch reaches the
+    /// end of a profile
+    reference::PlanarResult solve_within(reference::PlanarCase c,
+                                         const PatchSurfaces  &heights,
+                                         const WheelRolling   &rolling,
+                                         Range                 range)
+    {
+      constexpr unsigned int  most_turns = 4;
+      constexpr double        wider      = 1.3;
+      reference::PlanarResult result;
+      for (unsigned int turn = 1;; ++turn)
+        try
+          {
+            c.grid = grid_over(rolling, range);
+            result = reference::solve_planar(c);
+            break;
+          }
+        catch (const reference::ReachesBorder &)
+          {
+            if (turn == most_turns)
+              throw;
+            for (double *end : {&range.x_low, &range.x_high, &range.s_low, &range.s_high})
+              *end *= wider;
+          }
+      const reference::Grid &grid     = result.grid;
+      const auto             is_empty = [&](const std::size_t e) {
+        return result.state[e] == reference::ElementState::exterior;
+      };
+      for (unsigned int j = 1; j + 1 < grid.n_y; ++j)
+        for (unsigned int i = 0; i < grid.n_x; ++i)
+          for (const unsigned int beside : {j - 1, j + 1})
+            if (!is_empty(j * grid.n_x + i) && is_empty(beside * grid.n_x + i))
+              if (const double x = grid.x(i), s = grid.y(beside); !heights.exists(x, s))
+                throw std::runtime_error(std::string("contact reaches the end of the profile of the ") +
+                                         (heights.rail(s).exists ? "wheel" : "rail") +
+                                         ", beyond which nothing is known of it");
+      return result;
     }
 
     /// The wheelset on a straight axle on which a wheel of a flexible one would stand as it does.
@@ -194,12 +149,13 @@ namespace tread
     {
       const WheelsetPosition &position = straight.position;
       WheelPatch              patch;
-      const Heights           heights(surfaces, position, region);
+      const PatchSurfaces     heights(surfaces, position, region);
       patch.region = region;
 
       // Velocity of the wheel's undeformed surface on the normal of the reference point; the rail is at rest.
-      const double at_origin = heights.wheel(0., 0.), wheel_s = heights.last_wheel_s(),
-                   wheel_angle = heights.last_wheel_angle();
+      const PatchSurfaces::WheelPlace at_reference = heights.wheel(0., 0.);
+      const double                    at_origin = at_reference.height, wheel_s = at_reference.profile_s,
+                   wheel_angle = at_reference.angle;
       const Vector3d axle = WheelOnRail::axle(position), normal = heights.normal();
       Vector3d       arm = difference(region.reference, WheelOnRail::middle(position, surfaces.radius()));
       for (unsigned int d = 0; d < 3; ++d)
@@ -241,8 +197,7 @@ namespace tread
       patch.spin             = dot(turning, normal) / V;
 
       reference::PlanarCase c;
-      c.grid = grid_over(surfaces, rolling, position, region, heights);
-      c.gap  = [&heights](const double x, const double s) {
+      c.gap = [&heights](const double x, const double s) {
         return heights.gap(x, s);
       };
       static_cast<reference::Friction &>(c) = rolling.friction_along
@@ -258,14 +213,16 @@ namespace tread
       if (rolling.slip_follows_surface)
         c.more_slip = [&heights, at_origin, by_x = turning[0] / V, by_s = dot(turning, heights.along()) / V](
                         const double, const double s) -> std::array<double, 2> {
-          const double height = heights.wheel(0., s) - at_origin;
+          const double height = heights.wheel(0., s).height - at_origin;
           return {by_s * height, -by_x * height};
         };
-      patch.solution       = reference::solve_planar(c);
+      patch.solution =
+        solve_within(c, heights, rolling, range_of_overlap(surfaces, position, region, heights));
       patch.region.overlap = patch.solution.overlap;
       patch.wheel_radius   = surfaces.wheel().radius(wheel_s);
       patch.rail_radius    = surfaces.rail().curve().radius(surfaces.rail().parameter(region.reference[1]));
-      patch.turn = std::abs(heights.rail(patch.solution.y_end)[1] - heights.rail(patch.solution.y_begin)[1]);
+      patch.turn =
+        std::abs(heights.rail(patch.solution.y_end).angle - heights.rail(patch.solution.y_begin).angle);
       return patch;
     }
   } // namespace
@@ -345,47 +302,160 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// Seeks the depth below touching at which a wheel carries a load. A depth without an answer shortens the
+    /// step that led to it.
+    class DepthSearch
+    {
+    public:
+      /// @param load N; @param first depth, m
+      DepthSearch(const double load, const double first)
+        : load(load)
+        , wanted(linear(load))
+        , next(first)
+        , value_before(-wanted)
+      {
+      }
+
+      double depth() const
+      {
+        return next;
+      }
+      bool goes_on() const
+      {
+        return !found && turns < most && failures_in_a_row < most_failures && next < deepest && !is_at_jump();
+      }
+      const std::optional<WheelContact> &answer() const
+      {
+        return found;
+      }
+      /// Whether the force is too small on one side of a depth and too large on the other.
+      bool is_at_jump() const
+      {
+        return low > 0. && high < deepest && high - low < same_depth;
+      }
+      /// Why there was no answer at the last depth without one.
+      const std::string &reason() const
+      {
+        return why;
+      }
+
+      void add(WheelContact contact)
+      {
+        ++turns;
+        failures_in_a_row  = 0;
+        contact.turns      = turns;
+        const double force = contact.force[2];
+        const double error = std::abs(force - load);
+        if (!best || error < std::abs(best->force[2] - load))
+          best = contact;
+        const double value        = linear(force) - wanted;
+        (value < 0. ? low : high) = next;
+        if (error <= tolerance * load)
+          found = contact;
+        // Elements come and go: what jumps by less than this is the same answer.
+        else if (is_at_jump() && std::abs(best->force[2] - load) <= small_jump * load)
+          found = best;
+        // The secant through the last two, where it stays between the bounds.
+        double then = value == value_before ? high : next - value * (next - before) / (value - value_before);
+        if (!(then > low && then < high) || stays_at_one_end())
+          then = high < deepest ? 0.5 * (low + high) : 2. * next;
+        before       = next;
+        value_before = value;
+        next         = then;
+      }
+
+      void add_failure(const std::string &reason)
+      {
+        ++turns;
+        // Shares of the step, then depths beside it: what fails may be a single one.
+        constexpr std::array<double, most_failures> shares{{0.5, 0.75, 0.25, 0.9, 0.1, 1.05, 1.2, 0.02}};
+        if (failures_in_a_row == 0)
+          tried = next;
+        why  = reason;
+        next = before + shares[failures_in_a_row++] * (tried - before);
+      }
+
+    private:
+      /// By Hertz the force grows with the power 3/2 of the approach: its power 2/3 is next to linear in it.
+      static double linear(const double force)
+      {
+        return std::copysign(std::pow(std::abs(force), 2. / 3.), force);
+      }
+
+      /// Whether one bound has come nearer for several turns in a row by little: bisection is faster then.
+      bool stays_at_one_end()
+      {
+        constexpr unsigned int patience = 3;
+        const double           width    = high - low;
+        slow                            = high < deepest && width > 0.5 * width_before ? slow + 1 : 0;
+        width_before                    = width;
+        return slow >= patience;
+      }
+
+      static constexpr double       tolerance = 1e-6, small_jump = 1e-4; // of the load
+      static constexpr unsigned int most = 80, most_failures = 8;
+      static constexpr double       deepest = 3e-3, same_depth = 1e-12; // m
+
+      const double                load, wanted;
+      double                      next;                     ///< depth, m
+      double                      low = 0., high = deepest; ///< depths that carry too little, and too much
+      double                      before = 0., value_before, tried = 0., width_before = deepest;
+      unsigned int                turns = 0, failures_in_a_row = 0, slow = 0;
+      std::optional<WheelContact> best, found;
+      std::string                 why;
+    };
+  } // namespace
+
+
   WheelContact contact_under_load(const WheelOnRail  &surfaces,
                                   const WheelRolling &rolling,
                                   WheelsetPosition    position,
                                   const double        load)
   {
-    // By Hertz the force grows with the power 3/2 of the approach: its power 2/3 is next to linear in the
-    // height.
-    constexpr double   tolerance = 1e-6; // of the load
-    constexpr unsigned most      = 40;
-    constexpr double   deepest   = 3e-3; // m
-    const auto         linear    = [](const double force) {
-      return std::copysign(std::pow(std::abs(force), 2. / 3.), force);
-    };
     position.height = 0.;
     const WheelOnRail::Nearest touch =
       surfaces.nearest(straightened(surfaces, position, rolling.own).position);
     const double inclination = std::atan(surfaces.rail().slope(touch.point.place[1]));
-    const double wanted      = linear(load);
-    double       low = 0., high = deepest; // depths below touching that carry too little, and too much
-    double       before = 0., value_before = -wanted;
-    double       depth = 20e-6 * std::pow(1e-4 * load, 2. / 3.) / std::cos(inclination);
-    for (unsigned int turn = 1; turn <= most && depth < deepest; ++turn)
+    const double first       = 20e-6 * std::pow(1e-4 * load, 2. / 3.) / std::cos(inclination);
+
+    // Overlaps that are taken together are solved as one: where they meet, the force may jump over the load.
+    // There they are kept apart for a little longer, or else taken together a little sooner.
+    WheelRolling apart = rolling;
+    for (const double factor : {1., 0.85, 0.7, 0.55, 1.2, 1.5, 2., 3.})
       {
-        position.height      = -touch.gap - depth;
-        WheelContact contact = contact_at_height(surfaces, rolling, position);
-        contact.turns        = turn;
-        if (std::abs(contact.force[2] - load) <= tolerance * load)
-          return contact;
-        const double value        = linear(contact.force[2]) - wanted;
-        (value < 0. ? low : high) = depth;
-        // The secant through the last two, where it stays between the bounds.
-        double next =
-          value == value_before ? high : depth - value * (depth - before) / (value - value_before);
-        if (!(next > low && next < high))
-          next = high < deepest ? 0.5 * (low + high) : 2. * depth;
-        before       = depth;
-        value_before = value;
-        depth        = next;
+        apart.separation = factor * rolling.separation;
+        DepthSearch search(load, first);
+        while (search.goes_on())
+          {
+            position.height = -touch.gap - search.depth();
+            try
+              {
+                search.add(contact_at_height(surfaces, apart, position));
+              }
+            catch (const std::bad_alloc &)
+              {
+                throw;
+              }
+            catch (const reference::FrictionTooSteep &) // at any depth
+              {
+                throw;
+              }
+            catch (const std::exception &error)
+              {
+                search.add_failure(error.what());
+              }
+          }
+        if (search.answer())
+          return *search.answer();
+        if (!search.is_at_jump())
+          throw std::runtime_error(
+            "no height of the wheelset is found at which the wheel carries " + text_of(1e-3 * load) + " kN" +
+            (search.reason().empty() ? "" : " (the last one that was tried: " + search.reason() + ")"));
       }
     throw std::runtime_error("no height of the wheelset is found at which the wheel carries " +
-                             text_of(1e-3 * load) + " kN");
+                             text_of(1e-3 * load) + " kN: there its force jumps");
   }
 
 

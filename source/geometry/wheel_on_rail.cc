@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/wheel_on_rail.h>
 
+#include "rotation.h"
+
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
@@ -17,25 +19,6 @@ namespace tread
 
     /// Gap where there is no rail below the wheel, m.
     constexpr double no_rail = 1e3;
-
-    /// The columns of the matrix that turns a vector of the wheelset into the track: roll of yaw.
-    struct Rotation
-    {
-      Vector3d x, y, z;
-
-      explicit Rotation(const WheelsetPosition &p)
-      {
-        const double c = std::cos(p.yaw), s = std::sin(p.yaw), cr = std::cos(p.roll), sr = std::sin(p.roll);
-        x = {c, cr * s, -sr * s};
-        y = {-s, cr * c, -sr * c};
-        z = {0., sr, cr};
-      }
-      Vector3d operator()(const double a, const double b, const double c) const
-      {
-        return {a * x[0] + b * y[0] + c * z[0], a * x[1] + b * y[1] + c * z[1],
-                a * x[2] + b * y[2] + c * z[2]};
-      }
-    };
 
     struct Angle
     {

@@ -346,8 +346,9 @@ namespace tread
           for (unsigned int v = 0; v < 4; ++v)
             {
               picture.corners.push_back(picture.n_points());
-              add_point(picture, element.position + Vector3{(v % 2 - 0.5) * element_size,
-                                                            (v / 2 - 0.5) * element_size, 0., 0.});
+              add_point(picture,
+                        element.position + Vector3{(v % 2 - 0.5) * element_size,
+                                                   (v / 2 - 0.5) * element.area / element_size, 0., 0.});
             }
         }
     add_surface_fields(picture, values, false, states);

@@ -120,6 +120,104 @@ namespace
     keep_fields(solver, grid, result);
   }
 
+  /// Elements in contact that hang together.
+  struct Island
+  {
+    unsigned int i_low, i_high, j_low, j_high;
+    double       pressure = 0.; ///< sum over its elements [Pa]
+
+    unsigned int along() const
+    {
+      return i_high - i_low + 1;
+    }
+    unsigned int across() const
+    {
+      return j_high - j_low + 1;
+    }
+  };
+
+  std::vector<Island> islands(const Grid &grid, const std::vector<double> &pressure)
+  {
+    std::vector<Island>      found;
+    std::vector<bool>        seen(grid.size(), false);
+    std::vector<std::size_t> open;
+    for (std::size_t first = 0; first < grid.size(); ++first)
+      {
+        if (seen[first] || !(pressure[first] > 0.))
+          continue;
+        const unsigned int i0 = first % grid.n_x, j0 = first / grid.n_x;
+        Island             island{i0, i0, j0, j0};
+        open.push_back(first);
+        seen[first] = true;
+        while (!open.empty())
+          {
+            const std::size_t e = open.back();
+            open.pop_back();
+            const unsigned int i = e % grid.n_x, j = e / grid.n_x;
+            island.i_low  = std::min(island.i_low, i);
+            island.i_high = std::max(island.i_high, i);
+            island.j_low  = std::min(island.j_low, j);
+            island.j_high = std::max(island.j_high, j);
+            island.pressure += pressure[e];
+            for (unsigned int jj = j - std::min(j, 1u); jj <= std::min(j + 1, grid.n_y - 1); ++jj)
+              for (unsigned int ii = i - std::min(i, 1u); ii <= std::min(i + 1, grid.n_x - 1); ++ii)
+                if (const std::size_t n = std::size_t(jj) * grid.n_x + ii; !seen[n] && pressure[n] > 0.)
+                  {
+                    seen[n] = true;
+                    open.push_back(n);
+                  }
+          }
+        found.push_back(island);
+      }
+    return found;
+  }
+
+  /// Refuses answers of elements too large for the patch, as solve_rolling() refuses them for ellipses, and
+  /// gaps so steep that the bodies are no half-spaces. A strip of one row of long elements is the plane
+  /// problem of long cylinders.
+  void check_resolution(const tread_half_space_case &problem, const PlanarResult &result)
+  {
+    const Grid               &grid  = result.grid;
+    constexpr unsigned int    least = 5; // three over a semi-axis, whose ends lie anywhere in an element
+    constexpr double          long_element = 10., much = 0.5;
+    const std::vector<Island> all        = islands(grid, result.pressure);
+    const auto                too_coarse = [&](const Island &island) {
+      const bool strip = island.across() == 1 && grid.dy >= long_element * island.along() * grid.dx;
+      return island.along() < least || (island.across() < least && !strip);
+    };
+    double        sum = 0., coarse = 0.;
+    const Island *worst = nullptr;
+    for (const Island &island : all)
+      {
+        sum += island.pressure;
+        if (!too_coarse(island))
+          continue;
+        coarse += island.pressure;
+        if (!worst || island.pressure > worst->pressure)
+          worst = &island;
+      }
+    if (coarse > much * sum)
+      throw std::invalid_argument(
+        "element_x, element_y: the patch has " + std::to_string(worst->along()) + " elements along and " +
+        std::to_string(worst->across()) + " across, where at least " + std::to_string(least) +
+        " are needed in both directions: take smaller ones, and see that the gap is in m, not in mm");
+
+    constexpr double steepest = 0.3;
+    double           slope    = 0.;
+    for (std::size_t e = 0; e < grid.size(); ++e)
+      if (result.pressure[e] > 0.)
+        {
+          if (e % grid.n_x + 1 < grid.n_x && result.pressure[e + 1] > 0.)
+            slope = std::max(slope, std::abs(problem.gap[e + 1] - problem.gap[e]) / grid.dx);
+          if (e / grid.n_x + 1 < grid.n_y && result.pressure[e + grid.n_x] > 0.)
+            slope = std::max(slope, std::abs(problem.gap[e + grid.n_x] - problem.gap[e]) / grid.dy);
+        }
+    if (slope > steepest)
+      throw std::invalid_argument("gap: it rises by " + std::to_string(slope) +
+                                  " of the way from one element in contact to the next; half-spaces allow " +
+                                  std::to_string(steepest).substr(0, 3) + ": see that it is in m, not in mm");
+  }
+
   void solve_gap(tread_half_space            &solver,
                  const tread_half_space_case &problem,
                  tread_half_space_answer     &answer)
@@ -142,6 +240,7 @@ namespace
     c.wheel = c.rail    = {problem.young, problem.poisson};
     c.order             = order_of(problem);
     PlanarResult result = solve_planar(c);
+    check_resolution(problem, result);
     set_common(answer, result);
     answer.frictional_work = result.frictional_power;
     answer.iterations      = static_cast<int>(result.iterations);

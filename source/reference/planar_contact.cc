@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/reference/errors.h>
 #include <tread/reference/planar_contact.h>
 
 #include "require.h"
@@ -140,7 +141,7 @@ namespace tread::reference
                           : frictionless(c.grid, contact.normal, problem);
       }
     if (contact.normal.cut)
-      throw std::runtime_error("contact reaches the border of the grid");
+      throw ReachesBorder();
 
     PlanarResult        result;
     TangentialSolution &t     = contact.tangential;

@@ -155,6 +155,28 @@ namespace tread::reference
     };
   } // namespace
 
+  namespace
+  {
+    /// Spin of the wheel over the rail with that of its tread, as of a cone (rad/m).
+    double spin_of(const RollingCase &c, const double half_width)
+    {
+      const double of_tread =
+        c.radius_change ? (c.radius_change(half_width) - c.radius_change(-half_width)) / (2. * half_width)
+                        : 0.;
+      return c.spin + of_tread;
+    }
+
+    /// Elements of about the same number as those asked for, with as many whole ones along each semi-axis as
+    /// the coarser grid needs to have its edges at the same places of an element: `parts` of them along a,
+    /// two thirds of that across. Only then what is left of the error falls evenly from grid to grid.
+    void divide_evenly(RollingCase &c, const HertzEllipse &hertz, const unsigned int parts)
+    {
+      c.element_size   = hertz.semi_axis_x / parts;
+      c.element_size_y = hertz.semi_axis_y * 1.5 / parts;
+    }
+  } // namespace
+
+
   RollingEstimate estimate_rolling(const RollingCase &rolling_case)
   {
     const auto start = std::chrono::steady_clock::now();
@@ -176,6 +198,20 @@ namespace tread::reference
         scale(fine_case, 1. / ratio);
         scale(coarse_case, 1. / ratio);
       }
+    const double mean_axis = std::sqrt(hertz.semi_axis_x * hertz.semi_axis_y);
+    const double spin = spin_of(rolling_case, hertz.semi_axis_y), by_spin = std::abs(spin) * mean_axis;
+    // Beside a given force the creepage is not known yet: so much spin that it may matter is taken for some.
+    constexpr double some_spin = 0.05, least_spin = 2e-5;
+    const bool       spins = rolling_case.friction > 0. && by_spin > least_spin;
+    if (spins)
+      {
+        constexpr unsigned int multiple = 6, least = 12;
+        const double       asked = mean_axis / std::sqrt(rolling_case.element_size * rolling_case.edge_y());
+        const unsigned int parts =
+          std::max<long>(least, multiple * std::lround(asked / multiple)); // of the coarser grid
+        divide_evenly(coarse_case, hertz, parts);
+        divide_evenly(fine_case, hertz, parts / 2 * 3);
+      }
     Edges           fine_edges, coarse_edges;
     RollingEstimate result;
     RollingResult  &fine       = result.fields;
@@ -186,39 +222,60 @@ namespace tread::reference
     // Two grids may agree by chance, so that there are least values: with 50 elements along a patch as long
     // as wide 0.03 % of what the whole patch decides, and 0.6 % of what is read between elements, whose error
     // is a share of an element.
-    const double mean_axis = std::sqrt(fine.hertz_semi_x * fine.hertz_semi_y);
-    const double elements  = mean_axis / fine_case.element_size;
-    // Under spin, and where next to nothing slips, the error is of first order: twice the difference.
-    // Adhesion under spin alone has 2.5 % with 50 elements along a patch (that of the elements' size
-    // extrapolated from 30 to 168 of them), though two grids may agree.
-    const double by_spin       = std::abs(rolling_case.spin) * mean_axis,
-                 others        = std::hypot(fine.creepage, rolling_case.lateral_creepage),
-                 of_spin       = by_spin > 0. ? by_spin / (by_spin + others) : 0.;
-    constexpr double some_spin = 0.05, nearly_all = 0.95;
-    const double     of_difference =
-      of_spin > some_spin || f.adhesion_share > nearly_all ? 1. / (ratio - 1.) : 1.;
-    const auto set = [&](Estimate &estimate, const double fine_value, const double coarse_value,
+    const double elements = mean_axis / std::sqrt(fine_case.element_size * fine_case.edge_y());
+    // Under spin the error of creepage and forces falls with the power 1.5 of the element size, on grids that
+    // divide the patch evenly: the limit is extrapolated, and known to a half of what that adds, but not to
+    // less than 0.1 %, by which single grids scatter. Adhesion has an error of first order. Where next to
+    // nothing slips, all errors are of first order: twice the difference.
+    const double others         = std::hypot(fine.creepage, rolling_case.lateral_creepage),
+                 of_spin        = by_spin > 0. ? by_spin / (by_spin + others) : 0.;
+    constexpr double nearly_all = 0.95, spin_order = 1.5, sure = 0.5, least_under_spin = 1e-3;
+    const bool       extrapolates  = spins && of_spin > some_spin;
+    const double     first_order   = 1. / (ratio - 1.);
+    const double     of_difference = extrapolates                    ? 1.5 * first_order
+                                     : f.adhesion_share > nearly_all ? first_order
+                                                                     : 1.;
+    const auto       set = [&](Estimate &estimate, const double fine_value, const double coarse_value,
                          const bool between_elements = false) {
-      const double least = between_elements ? 0.15 / elements : 0.2 / (elements * elements);
-      estimate.value     = fine_value;
+      const double least =
+        between_elements ? (extrapolates ? 0.25 : 0.15) / elements : 0.2 / (elements * elements);
+      estimate.value = fine_value;
       estimate.uncertainty =
         std::max(of_difference * std::abs(fine_value - coarse_value), least * std::abs(fine_value));
+    };
+    const auto set_limit = [&](Estimate &estimate, const double fine_value, const double coarse_value) {
+      if (!extrapolates)
+        return set(estimate, fine_value, coarse_value);
+      const double added   = (fine_value - coarse_value) / (std::pow(ratio, spin_order) - 1.);
+      estimate.value       = fine_value + added;
+      estimate.uncertainty = std::max(sure * std::abs(added), least_under_spin * std::abs(estimate.value));
     };
     set(result.max_pressure, f.max_pressure, g.max_pressure);
     if (f.max_pressure == fine.hertz_pressure)
       result.max_pressure.uncertainty = 0.; // exact
-    set(result.creepage, fine.creepage, coarse.creepage);
-    set(result.longitudinal_force, fine.longitudinal_force, coarse.longitudinal_force);
-    set(result.lateral_force, fine.lateral_force, coarse.lateral_force);
-    set(result.traction_coefficient, fine.traction_coefficient, coarse.traction_coefficient);
+    set_limit(result.creepage, fine.creepage, coarse.creepage);
+    set_limit(result.longitudinal_force, fine.longitudinal_force, coarse.longitudinal_force);
+    set_limit(result.lateral_force, fine.lateral_force, coarse.lateral_force);
+    set_limit(result.traction_coefficient, fine.traction_coefficient, coarse.traction_coefficient);
     (rolling_case.prescribe_force ? result.traction_coefficient : result.creepage).uncertainty = 0.;
     if (rolling_case.prescribe_force)
       result.longitudinal_force.uncertainty = 0.;
+    // A sum of shear that nearly cancels is as inaccurate as what it is a sum of.
+    if (extrapolates)
+      result.lateral_force.uncertainty =
+        std::max(result.lateral_force.uncertainty,
+                 0.25 * least_under_spin * rolling_case.friction * fine.normal_force);
     set(result.area, f.area, g.area);
     // Read between elements it may exceed the whole patch.
-    set(result.adhesion_share, std::min(f.adhesion_share, 1.), std::min(g.adhesion_share, 1.), true);
-    result.adhesion_share.uncertainty =
-      std::max(result.adhesion_share.uncertainty, 0.65 * of_spin / elements * result.adhesion_share.value);
+    const double adhesion[2] = {std::min(f.adhesion_share, 1.), std::min(g.adhesion_share, 1.)};
+    set(result.adhesion_share, adhesion[0], adhesion[1], true);
+    if (extrapolates)
+      {
+        const double added                = first_order * (adhesion[0] - adhesion[1]);
+        result.adhesion_share.value       = std::clamp(adhesion[0] + added, 0., 1.);
+        result.adhesion_share.uncertainty = std::max(
+          {std::abs(added), 0.65 * of_spin / elements * result.adhesion_share.value, 0.1 / elements});
+      }
     set(result.max_shear, f.max_shear, g.max_shear, true);
     set(result.max_slip, f.max_slip, g.max_slip, true);
     set(result.frictional_power, fine.power_balance, coarse.power_balance);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "slip_friction.h"
 
+#include <tread/reference/errors.h>
+
 #include "require.h"
 
 #include <algorithm>
@@ -42,6 +44,32 @@ namespace tread::reference
         }
       return share;
     }
+
+    /// How much the slip of an element changes friction, over the change of friction that this slip follows
+    /// from: far above 1 a patch of such elements sticks and slips in turns and has no steady state. Slip of
+    /// an element grows by about its shear stress over the shear modulus.
+    double steepness(const Grid                   &grid,
+                     const double                  shear_modulus,
+                     const double                  max_pressure,
+                     const Friction::SlipFriction &law,
+                     const double                  speed)
+    {
+      constexpr double slowest = 1e-9, fastest = 100., ratio = 1.1; // m/s
+      double           largest = 0., before = law.coefficient(slowest);
+      for (double slip = slowest; slip < fastest; slip *= ratio)
+        {
+          const double next  = law.coefficient(slip * ratio);
+          const double slope = (before - next) / (slip * (ratio - 1.));
+          // A memory lets friction follow by so much over one element.
+          const double follows =
+            law.memory_distance > 0.
+              ? 1. - std::exp(-std::max(slip, law.memory_speed) / law.memory_distance * grid.dx / speed)
+              : 1.;
+          largest = std::max(largest, slope * follows);
+          before  = next;
+        }
+      return largest * max_pressure * speed / shear_modulus;
+    }
   } // namespace
 
   TangentialSolution solve_with_friction(const Grid                &grid,
@@ -61,6 +89,19 @@ namespace tread::reference
       }
     constexpr double       tolerance  = 1e-5;
     constexpr unsigned int most_turns = 200;
+    // From 1 on the turns need small steps, and they lead nowhere from 3 on
+    // (tests/reference/slip_friction.cc).
+    constexpr double too_steep = 30.;
+    if (const double found = steepness(grid, pair.shear, *std::max_element(pressure.begin(), pressure.end()),
+                                       *friction.slip_friction, speed);
+        found > too_steep)
+      throw FrictionTooSteep("it falls " + std::to_string(std::lround(found)) +
+                             " times as steeply as the bodies can follow");
+    // What does not come nearer by a half in so many turns needs more of them than there are.
+    constexpr unsigned int patience = 30;
+    constexpr double       nearer   = 0.5;
+    double                 least    = 1.;
+    unsigned int           at_least = 0;
     // Halved when the turns go to and fro, as they do where a law is steep.
     double followed = 1., last_change = 1.;
     problem.friction_share.assign(grid.size(), 1.);
@@ -77,6 +118,13 @@ namespace tread::reference
           change = std::max(change, std::abs(wanted[e] - problem.friction_share[e]));
         if (change <= tolerance)
           return solution;
+        if (change < nearer * least)
+          {
+            least    = change;
+            at_least = turn;
+          }
+        if (turn - at_least > patience)
+          break;
         if (change > 0.8 * last_change)
           followed = std::max(0.5 * followed, 0.05);
         last_change = change;
@@ -89,9 +137,7 @@ namespace tread::reference
         if (problem.prescribe_lateral_force)
           problem.lateral = solution.lateral;
       }
-    throw std::runtime_error(
-      "tangential contact: friction and slip did not settle in " + std::to_string(most_turns) +
-      " turns; the law falls steeply for these elements: a longer memory or larger elements help");
+    throw FrictionTooSteep("friction and slip do not settle");
   }
 
 

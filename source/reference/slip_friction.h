@@ -13,7 +13,7 @@ namespace tread::reference
   /// least slip that the turns find.
   /// Friction that depends on the pressure is known with it.
   /// @param speed of rolling [m/s]
-  /// @pre !friction.is_coulomb() Throws std::runtime_error if the turns do not settle.
+  /// @pre !friction.is_coulomb() Throws FrictionTooSteep if the turns do not settle.
   TangentialSolution solve_with_friction(const Grid                &grid,
                                          const ElasticPair         &pair,
                                          const std::vector<double> &pressure,

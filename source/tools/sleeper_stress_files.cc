@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/sleeper_stress.h>
 #include <tread/base/csv_table.h>
+#include <tread/base/format.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/scene.h>
 #include <tread/tools/sleeper_stress_files.h>
@@ -170,6 +171,18 @@ namespace tread
       return p;
     }
 
+    /// What is to be said of a solid sleeper that is not as heavy as the one that the run moved.
+    std::string other_mass(const double mass, const double of_scene)
+    {
+      constexpr double same = 0.01;
+      return std::abs(mass - of_scene) <= same * of_scene
+               ? ""
+               : format(
+                   " by shape and density ('Track/Sleeper mass (kg)' of the run is %g: the static stress "
+                   "does not depend on either)",
+                   of_scene);
+    }
+
     nlohmann::ordered_json place_of(const dealii::Point<3> &p)
     {
       return {p[0], p[1], p[2]};
@@ -209,6 +222,8 @@ namespace tread
       }
     const SleeperShape shape = SleeperShape::ns90();
     const double       mass  = shape.volume() * parameters.number("Track/Sleeper density (kg per m3)");
+
+    const double of_scene = parameters.number("Track/Sleeper mass (kg)");
 
     const RunFolder folder(request.output.empty() ? request.run : request.output, comm);
     SleeperStress   s;
@@ -252,6 +267,7 @@ namespace tread
       }
     json["mean_seat_settlement_m"] = s.mean_seat_settlement;
     json["half_sleeper_mass_kg"]   = mass;
+    json["scene_sleeper_mass_kg"]  = of_scene;
     json["young_modulus_Pa"]       = p.young_modulus;
     json["poisson_ratio"]          = p.poisson_ratio;
     json["order_of_elements"]      = p.degree;
@@ -266,16 +282,17 @@ namespace tread
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       std::printf(
         "%ssupport %d of %s at %.6g s, wheel at %.2f mm: %.4g kN on the rail seat, %.4g to %.4g MPa\n"
-        "half a sleeper of %.1f kg, bottom %s: %zu cells, %zu unknowns, %u iterations\n"
+        "half a sleeper of %.1f kg%s, bottom %s: %zu cells, %zu unknowns, %u iterations\n"
         "largest von Mises stress %.4g MPa at (%.1f, %.1f, %.1f) mm from the middle of the seat\n"
         "largest tension          %.4g MPa at (%.1f, %.1f, %.1f) mm\n"
         "force on the bottom %.6g kN\n"
         "Results in %s: sleeper_stress.json; for ParaView: sleeper_stress.vtu\n",
         doubts(summary, seat, parameters.number("Motion/Start (mm)", 1e-3)).c_str(), seat.support,
         request.run.c_str(), seat.time, 1e3 * seat.wheel_x, 1e-3 * pressures.force(), 1e-6 * *least,
-        1e-6 * *largest, mass, request.bottom == "fixed" ? "fixed" : "on ballast", s.cells, s.unknowns,
-        s.iterations, 1e-6 * s.max_von_mises, 1e3 * s.place[0], 1e3 * s.place[1], 1e3 * s.place[2],
-        1e-6 * s.max_tension, 1e3 * s.tension_place[0], 1e3 * s.tension_place[1], 1e3 * s.tension_place[2],
-        1e-3 * s.bottom_force, folder.path("").c_str());
+        1e-6 * *largest, mass, other_mass(mass, of_scene).c_str(),
+        request.bottom == "fixed" ? "fixed" : "on ballast", s.cells, s.unknowns, s.iterations,
+        1e-6 * s.max_von_mises, 1e3 * s.place[0], 1e3 * s.place[1], 1e3 * s.place[2], 1e-6 * s.max_tension,
+        1e3 * s.tension_place[0], 1e3 * s.tension_place[1], 1e3 * s.tension_place[2], 1e-3 * s.bottom_force,
+        folder.path("").c_str());
   }
 } // namespace tread

@@ -107,6 +107,20 @@ namespace
          c.spin             = 0.2;
        },
        0.31, 0.13, 2e-3, 0.4, 2e-2},
+      {"spin alone",
+       [](RollingCase &c) {
+         c.prescribe_force = false;
+         c.spin            = 0.4;
+       },
+       0.31, 0.15, 2e-3, 1.2, 2e-2},
+      {"traction and the spin of a cone",
+       [](RollingCase &c) {
+         c.traction_coefficient = 0.2;
+         c.radius_change        = [](const double y) {
+           return 0.15 * y;
+         };
+       },
+       0.31, 0.15, 1e-3, 0.8, 1e-2},
       {"wide patch", [](RollingCase &c) { c.curvature_y = 0.3; }, 0.31, 0.15, 1e-3, 1., 5e-3},
       {"unlike bodies",
        [](RollingCase &c) {

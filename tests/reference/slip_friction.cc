@@ -2,6 +2,7 @@
 // Friction that falls with slip in the half-space solver: creep curves of a locomotive, published with
 // CONTACT (E. Vollebregt, example "Eurosprinter", CONTACT 25; measured by Engel, Beck & Alders 1998; law of
 // Polach 2005), and what must hold of any law.
+#include <tread/reference/errors.h>
 #include <tread/reference/hertz.h>
 #include <tread/reference/rolling_case.h>
 
@@ -9,6 +10,8 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
 
 using namespace tread::reference;
 
@@ -47,6 +50,36 @@ namespace
 
 void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
+  // A law that falls within some micrometres per second has no steady state without a memory, which is known
+  // before anything is solved; with a memory it has. One that falls 50 times more slowly is given up early.
+  for (const auto &[speed, most_calls] : {std::pair(2e-5, 2e3), {1e-3, 6e4}})
+    {
+      RollingCase   c       = locomotive(0.0012, 0.33);
+      unsigned long n_calls = 0;
+      const auto    law     = [&n_calls, speed = speed](const double s) {
+        ++n_calls;
+        return 0.14 + 0.19 * std::exp(-s / speed);
+      };
+      c.element_size  = 0.6e-3;
+      c.slip_friction = std::make_shared<RollingCase::SlipFriction>(RollingCase::SlipFriction{law, 0., 0.});
+      std::string said;
+      try
+        {
+          solve_rolling(c);
+        }
+      catch (const FrictionTooSteep &error)
+        {
+          said = error.what();
+        }
+      check.that("steep law refused: " + said, said.find("memory") != std::string::npos);
+      std::printf("evaluations of the law: %lu\n", n_calls);
+      check.below("evaluations of the law over those allowed", n_calls / most_calls, 1.);
+      c.slip_friction =
+        std::make_shared<RollingCase::SlipFriction>(RollingCase::SlipFriction{law, 1e-4, 1e-3});
+      const double traction = -solve_rolling(c).traction_coefficient;
+      check.that("with a memory it has an answer", traction > 0.14 && traction < 0.33);
+    }
+
   // Friction that falls with the pressure, 1 - p/p_1: what slides carries is that of the mean of p^2, three
   // quarters of the largest pressure times the force, and no element carries more than its own bound.
   {

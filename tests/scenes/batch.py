@@ -104,6 +104,43 @@ check.that("broadcast: a table of 2 by 3", half_space.solve(**{**drawn, **{k: v[
 # A gap by points.
 single = {name: float(np.broadcast_to(value, (N,))[0]) for name, value in drawn.items()}
 size = {"element_x": semi_axes[0][0] / 12.3, "element_y": semi_axes[1][0] / 12.3}
+# Gaps on elements that are too large for the patch, and gaps in mm, are refused as coarse ellipses are.
+def refused(what, words, error=half_space.HalfSpaceError, **settings):
+    try:
+        half_space.solve_patch(**{"normal_force": 9e4, "friction": 0.3, "creepage": -1e-3, **settings})
+        said = ""
+    except error as complaint:
+        said = str(complaint)
+    check.that(f"{what} is refused: {said}", all(word in said for word in words))
+
+
+def bowl(edge, n_x, n_y, unit=1.):
+    places = [edge * (np.arange(n) - 0.5 * (n - 1)) for n in (n_x, n_y)]
+    return {"gap": unit * (0.9 * places[0] ** 2 + 1.4 * places[1][:, None] ** 2), "x_first": places[0][0], "y_first": places[1][0],
+            "element_x": edge, "element_y": edge}
+
+
+for what, settings in (("one element in contact", bowl(12e-3, 9, 9)), ("three elements in contact", bowl(6e-3, 9, 9)), ("a grid of 1 x 1", bowl(1e-3, 1, 1)),
+                       ("a grid of 1 x 29", bowl(1e-3, 1, 29)), ("a grid of 29 x 1", bowl(1e-3, 29, 1)), ("a gap in mm", bowl(1e-3, 29, 29, 1e3))):
+    refused(what, ("element_x, element_y", "at least 5", "in m, not in mm"), **settings)
+refused("a gap in mm on small elements", ("gap", "in m, not in mm"), **bowl(1e-4, 29, 29, 1e3))
+right = half_space.solve_patch(normal_force=9e4, friction=0.3, **bowl(1e-3, 29, 29))
+hertz = half_space.solve_patch(normal_force=9e4, friction=0.3, curvature_x=0.9, curvature_y=1.4)
+check.relative("the same gap in m: largest pressure, MPa", 1e-6 * right["max_pressure"], 1e-6 * hertz["max_pressure"], 0.01)
+# A row of long elements is the plane problem of two cylinders: p0 = sqrt(E* q/(pi R)), q the load over the length.
+edge, length, radius = 0.2e-3, 0.5, 0.25
+x = edge * (np.arange(41) - 20)
+strip = half_space.solve_patch(gap=0.5 / radius * x[None, :] ** 2, x_first=x[0], element_x=edge, element_y=length, normal_force=2e5, friction=0.)
+check.relative("a strip of long elements: largest pressure, MPa", 1e-6 * strip["max_pressure"],
+               1e-6 * np.sqrt(0.5 * 210e9 / (1. - 0.3 ** 2) * 2e5 / length / (np.pi * radius)), 0.01)
+for what, call in (("solve_patch()", half_space.solve_patch), ("solve()", half_space.solve)):
+    try:
+        call(curvature_x=1., curvature_y=1., normal_force=1e4, friction=0.3, spin=0.1, contact_sixth=True)
+        said = ""
+    except TypeError as complaint:
+        said = str(complaint)
+    check.that(f"{what}: contact_sixth without element_x is an error: {said}", "element_x" in said)
+
 ellipse = half_space.solve_patch(slip_order=1, **single, **size)
 x, y = ellipse["x"], ellipse["y"]
 rest = {name: value for name, value in single.items() if not name.startswith("curvature")}

@@ -133,6 +133,9 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("seat force over the largest of the history's rows", stress["seat_force_N"] / largest, 1., 2e-3)
     check.that("not below it", stress["seat_force_N"] >= largest * (1. - 1e-7))
     check.that("von Mises stress of some MPa", 0.3e6 < stress["max_von_mises_Pa"] < 20e6)
+    # The mass of the solid sleeper and the one that the run moved are two numbers, and that they differ is said.
+    check.relative("mass of the run's sleeper, kg", stress["scene_sleeper_mass_kg"], 200., 1e-12)
+    check.that("another mass than the run's is said", "of the run is 200:" in solved.stdout)
     check.that("3 ranks", sleeper("--cell-size", "30", "--output", path("sleeper"), ranks=3).returncode == 0)
     with open(os.path.join(path("sleeper"), "sleeper_stress.json"), encoding="utf-8") as stream:
         check.relative("3 ranks against 1: largest von Mises stress", json.load(stream)["max_von_mises_Pa"], stress["max_von_mises_Pa"], 1e-7)

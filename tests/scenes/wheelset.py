@@ -109,6 +109,15 @@ with tempfile.TemporaryDirectory() as folder:
                    ["patches"][0]["y_rail_m"], points["own_y_rail_mm"][40], 2.)
     check.absolute("flange angle at 8 mm, degrees", math.degrees(points["own_angle_rad"][72]), 57., 3.)
 
+    # Equivalent conicity: the integral over a harmonic motion to both sides, the same in rows of both.
+    shifts, conicity = np.array(points["lateral_shift_mm"]), np.array(points["equivalent_conicity"])
+    angles = 2. * np.pi * (np.arange(720) + 0.5) / 720
+    for amplitude in (2., 4.):
+        integral = np.mean(np.interp(amplitude * np.sin(angles), shifts, difference) * np.sin(angles)) / amplitude
+        for side in (-1., 1.):
+            check.relative(f"equivalent conicity, row {side * amplitude:g} mm", conicity[list(shifts).index(side * amplitude)], integral, 0.02)
+    check.that("a conicity in each row but the middle one", list(np.isnan(conicity)) == [shift == 0. for shift in shifts])
+
     # Steep cones on short profiles touch at several rolls: both sides of the track have the same, that of the way out of the middle.
     klingel = os.path.join(ROOT, "prm", "curves", "klingel.prm")
     check.that("contact points of steep cones", execute([klingel, "--contact-points", "--output", path("steep")], program=program).returncode == 0)
@@ -129,6 +138,7 @@ with tempfile.TemporaryDirectory() as folder:
     reference = "--reference-only"
     must_fail("yaw beyond 5 degrees", [reference, "-s", "Wheelset/Yaw (mrad)=90"], "Wheelset/Yaw (mrad)", "5 degrees")
     must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "Wheelset/Lateral shift (mm)' -90", "falls between the rails")
+    must_fail("the other flange in the other rail", [reference, "-s", "Wheelset/Lateral shift (mm)=-27"], "Wheelset/Lateral shift (mm)' -27", "other wheel", "deep")
     must_fail("profiles that do not meet", [reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
     must_fail("a rail without gauge face", [reference, "-s", "Rail/Shape=block", "-s", "Rail/Measured head="], "Rail/Shape", "block")
     with open(path("flat.txt"), "w", encoding="utf-8") as stream:

@@ -90,6 +90,8 @@ def _cases(settings: Mapping[str, ArrayLike], slip_order: ArrayLike, contact_six
     for name, values in zip([*settings, "slip_order"], arrays):
         cases[name] = values
     if contact_sixth:
+        if not (cases["element_x"] > 0.).all():
+            raise TypeError("contact_sixth needs element_x above 0: what CONTACT adds is a sixth of its own element")
         cases["lateral_creepage"] += cases["spin"] * cases["element_x"] / 6.
     return np.ascontiguousarray(cases.reshape(-1)), arrays[0].shape
 
