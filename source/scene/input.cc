@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/quiet_boost.h>
 #include <tread/scene/scene.h>
 
 #include <boost/property_tree/json_parser.hpp>
