@@ -71,6 +71,10 @@ namespace
     app.add_option("--up-to", line.modes.up_to, "highest frequency of the modes, Hz (2000)")->needs(modes);
     app.add_option("--shift-to", line.points.to_mm, "largest lateral shift, mm (10)")->needs(points);
     app.add_option("--shift-step", line.points.step_mm, "between lateral shifts, mm (0.25)")->needs(points);
+    app
+      .add_option("--other-side", line.points.other_side,
+                  "scene whose wheel and rail stand on the other side of the track (the same, mirrored)")
+      ->needs(points);
     CLI::Option *defect = app.add_option("--dynamic-force", line.dynamic.run,
                                          "folder of a run: what the defect adds to its forces, with spectra"),
                 *smooth = app.add_option("--smooth-twin", line.dynamic.smooth_twin,

@@ -56,6 +56,7 @@ _tread()
     -s) _tread_setting "$program" "$typed" ;;
     --output | --dynamic-force | --smooth-twin | --sleeper-stress) _tread_paths '' folders "$typed" ;;
     --batch) _tread_paths .csv files "$typed" ;;
+    --other-side) _tread_paths .prm files "$typed" ;;
     --window) mapfile -t COMPREPLY < <(compgen -W 'rectangular Hann' -- "$typed") ;;
     --bottom) mapfile -t COMPREPLY < <(compgen -W 'fixed ballast' -- "$typed") ;;
     --up-to | --shift-to | --shift-step | --from | --to | --support | --cell-size) ;;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/quiet_boost.h>
 #include <tread/contact/mortar.h>
 
 #include <deal.II/base/mpi.h>

@@ -195,6 +195,12 @@ namespace tread
       {"cell_1_x_m", "Middle of the cell of the rail that 'Output/Cells' names, along the rail"},
       {"cell_1_y_m", "The same across"},
       {"cell_1_depth_m", "The same below the surface"},
+      {"largest_plastic_strain", "Largest equivalent plastic strain of the rail's cells, at the end"},
+      {"largest_plastic_strain_x_m", "Where it is: middle of its cell as meshed, along the rail"},
+      {"largest_plastic_strain_y_m", "The same across"},
+      {"largest_plastic_strain_depth_m", "The same below the surface"},
+      {"wheel_largest_plastic_strain",
+       "Largest equivalent plastic strain of the first wheel's cells, at the end"},
       {"history_crc32", "CRC-32 of history.csv as the run wrote it"}};
 
     /// Of the half-space's answer alone.

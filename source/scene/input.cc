@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/quiet_boost.h>
 #include <tread/scene/scene.h>
 
 #include <boost/property_tree/json_parser.hpp>
@@ -252,6 +253,8 @@ namespace tread
       parse(file);
     for (const std::string &setting : settings)
       set(setting);
+    require(!vehicle.wheel_load || !vehicle.axle_load,
+            "'Vehicle/Wheel load (kN)' and 'Vehicle/Axle load (t)' both set the load: give one of them");
     if (vehicle.wheel_load)
       {
         require(vehicle.gravity > 0., "'Vehicle/Wheel load (kN)' needs 'Vehicle/Gravity (m per s2)' above 0");
@@ -260,6 +263,13 @@ namespace tread
                 "'Vehicle/Wheel load (kN)' " + text_of(1e-3 * *vehicle.wheel_load) +
                   " is less than the weight of 'Wheel/Mass (kg)', " + text_of(1e-3 * weight) + " kN");
         vehicle.sprung_mass = *vehicle.wheel_load / vehicle.gravity - wheel.mass;
+      }
+    if (vehicle.axle_load)
+      {
+        require(*vehicle.axle_load >= 2. * wheel.mass,
+                "'Vehicle/Axle load (t)' " + text_of(1e-3 * *vehicle.axle_load) +
+                  " is less than twice 'Wheel/Mass (kg)', " + text_of(2e-3 * wheel.mass) + " t");
+        vehicle.sprung_mass = 0.5 * *vehicle.axle_load - wheel.mass;
       }
     constexpr double largest_load = 1e8; // N
     require(static_load() <= largest_load,

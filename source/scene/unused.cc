@@ -128,6 +128,7 @@ namespace tread
        friction_law()->memory().distance > 0.,
        "above 0"},
       {"Vehicle", {"Sprung mass (kg)"}, "Wheel load (kN)", !vehicle.wheel_load, "masses"},
+      {"Vehicle", {"Sprung mass (kg)"}, "Axle load (t)", !vehicle.axle_load, "none"},
       {"Mesh", {"Longest row (mm)"}, "Rail/Shape", rail.shape == RailShape::full_section, "full section"},
       {"Track",
        {},

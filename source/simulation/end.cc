@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <tuple>
 
 namespace tread
 {
@@ -35,6 +37,61 @@ namespace tread
     {
       return format("%-46s %7.1f MPa at x = %.2f mm, y = %.2f mm, depth %.2f mm\n", what.c_str(),
                     1e-6 * stress, 1e3 * x, 1e3 * y, 1e3 * depth);
+    }
+
+    /// The largest plastic strain of the rail's and the first wheel's cells.
+    /// @returns a line for the screen, empty if nothing can yield.
+    std::string add_plastic_strain(Summary                                               &summary,
+                                   const ExplicitDynamics                                &dynamics,
+                                   const unsigned int                                     wheel,
+                                   const std::function<double(const dealii::Point<3> &)> &depth_in_rail,
+                                   const MPI_Comm                                         comm)
+    {
+      using dealii::Utilities::MPI::max;
+      const Mesh  &mesh  = dynamics.mesh;
+      const Solid &solid = dynamics.solid;
+      if (dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm) == 0)
+        return "";
+      const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
+      std::string               line;
+      for (const auto &[body, key, name] : {std::tuple(rail_body, "largest_plastic_strain", "rail"),
+                                            std::tuple(wheel, "wheel_largest_plastic_strain", "wheel")})
+        {
+          std::vector<unsigned int> cells;
+          double                    own = -1.; // of this rank
+          for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+            if (mesh.cells[c].body == body && solid.plastic().contains(c))
+              {
+                cells.push_back(c);
+                own = std::max(own, strains[c]);
+              }
+          const double largest = max(own, comm);
+          if (largest < 0.) // no cell of this body can yield
+            continue;
+          summary.set(key, largest);
+          line += format("%s %.3f %% in the %s", line.empty() ? "largest equivalent plastic strain" : ",",
+                         100. * largest, name);
+          if (body != rail_body || largest == 0.)
+            continue;
+          // Of equal cells, such as a row along the path, the foremost, whatever rank has it.
+          constexpr double      far = 1e30;
+          std::array<double, 3> place{{-far, -far, -far}};
+          for (const unsigned int c : cells)
+            if (strains[c] == largest)
+              {
+                dealii::Point<3> centre;
+                for (const unsigned int i : mesh.cells[c].nodes)
+                  centre += mesh.nodes[i] / 8.;
+                place = std::max(place, {{centre[0], centre[1], depth_in_rail(centre)}});
+              }
+          const auto places = dealii::Utilities::MPI::all_gather(comm, place);
+          place             = *std::max_element(places.begin(), places.end());
+          for (unsigned int d = 0; d < 3; ++d)
+            summary.set(std::string(key) + std::array{"_x_m", "_y_m", "_depth_m"}[d], place[d]);
+          line += format(" (x = %.2f mm, y = %.2f mm, depth %.2f mm)", 1e3 * place[0], 1e3 * place[1],
+                         1e3 * place[2]);
+        }
+      return line.empty() ? line : line + "\n";
     }
   } // namespace
 
@@ -544,7 +601,10 @@ namespace tread
         warnings.push_back(warning);
     if (completed)
       add_doubts(warnings);
-    const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
+    const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
+    const std::string plastic_strain = add_plastic_strain(
+      summary, dynamics, wheels.front().body,
+      [&](const dealii::Point<3> &place) { return scene.depth_in_rail(place); }, comm);
     summary.set("warnings", warnings);
     summary.set("history_crc32", folder.history_checksum());
     if (averaged)
@@ -572,8 +632,8 @@ namespace tread
           std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
                       scene.is_positioned() ? "vertical" : "normal", 1e-3 * normal, 100. * normal_ripple,
                       traction, by_patch.c_str(), summary.table().c_str());
-        std::printf("\n%s%s%s%s", further_wheels.c_str(), quality.lines().c_str(), note.c_str(),
-                    note.empty() ? "" : "\n");
+        std::printf("\n%s%s%s%s%s", further_wheels.c_str(), plastic_strain.c_str(), quality.lines().c_str(),
+                    note.c_str(), note.empty() ? "" : "\n");
         for (const std::string &warning : warnings)
           std::printf("WARNING: %s\n", warning.c_str());
         if (completed && !scene.has_defect() && !rolled.long_enough())

@@ -17,11 +17,22 @@ namespace tread
 {
   namespace
   {
+    /// Amplitude for which EN 15302 and vehicle standards state a conicity, m.
+    constexpr double usual_amplitude = 3e-3;
+
+    /// What a motion of the wheelset is about.
+    struct Motion
+    {
+      double equilibrium;              ///< shift with like rolling radii, m
+      double conicity, level_conicity; ///< with and without roll, at the usual amplitude
+    };
+
     struct Row
     {
       int              number; ///< of steps from the middle
       TouchingWheelset wheelset;
-      double           conicity; ///< NaN where the table does not reach to both sides
+      TouchingWheelset level;                    ///< without roll; not a number where a wheel meets no rail
+      double conicity, harmonic, level_conicity; ///< NaN where the table does not reach to both sides
     };
 
     Columns<Row> columns(const double rail_y)
@@ -44,8 +55,25 @@ namespace tread
            return r.wheelset.radius_difference();
          }},
         {"equivalent_conicity", "",
-         "For a lateral motion with this amplitude; nan where a side is not reached", [](const Row &r) {
+         "Of EN 15302: of cones with the same wavelength of the wheelset's motion with this amplitude; nan "
+         "where "
+         "a side is not reached",
+         [](const Row &r) {
            return r.conicity;
+         }},
+        {"harmonic_conicity", "",
+         "The same by harmonic linearisation of the radius difference over a motion with this amplitude",
+         [](const Row &r) {
+           return r.harmonic;
+         }},
+        {"radius_difference_without_roll", "mm",
+         "Rolling radius of the own wheel less that of the other one under an axle that stays level",
+         [](const Row &r) {
+           return r.level.radius_difference();
+         }},
+        {"equivalent_conicity_without_roll", "", "Equivalent conicity of that radius difference",
+         [](const Row &r) {
+           return r.level_conicity;
          }}};
       for (const auto &[name, wheel] :
            {std::pair("own", &TouchingWheelset::own), std::pair("other", &TouchingWheelset::other)})
@@ -114,10 +142,11 @@ namespace tread
     }
 
     /// One row for each shift at which both wheels meet their rails. @returns the first complaint otherwise.
-    std::string make_rows(const WheelOnRail          &surfaces,
+    std::string make_rows(const WheelsetSurfaces     &surfaces,
                           const Scene                &scene,
                           const ContactPointsRequest &request,
-                          std::vector<Row>           &rows)
+                          std::vector<Row>           &rows,
+                          Motion                     &about)
     {
       std::string complaint;
       const int   n = static_cast<int>(std::floor(request.to_mm / request.step_mm * (1. + 1e-9)));
@@ -132,7 +161,8 @@ namespace tread
                 WheelsetPosition position = scene.wheelset.position();
                 position.shift            = 1e-3 * i * request.step_mm;
                 position.roll             = roll;
-                rows.push_back({i, touching_wheelset(surfaces, position), 0.});
+                rows.push_back({i, touching_wheelset(surfaces, position),
+                                touching_wheelset(surfaces, position, Roll::none), 0., 0., 0.});
                 roll = rows.back().wheelset.position.roll;
               }
             catch (const std::exception &error)
@@ -142,10 +172,37 @@ namespace tread
               }
         }
       std::sort(rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a.number < b.number; });
-      const RadiusDifferences differences(surfaces, scene.wheelset.position(), 1e-3 * n * request.step_mm);
+      const double            largest = 1e-3 * n * request.step_mm;
+      const RadiusDifferences differences(surfaces, scene.wheelset.position(), largest),
+        level(surfaces, scene.wheelset.position(), largest, Roll::none);
+      const LateralMotion motion = differences.motion(), level_motion = level.motion();
       for (Row &row : rows)
-        row.conicity = differences.conicity(std::abs(row.wheelset.position.shift));
+        {
+          const double amplitude = std::abs(row.wheelset.position.shift);
+          row.conicity           = motion.conicity(amplitude);
+          row.harmonic           = differences.harmonic(amplitude);
+          row.level_conicity     = level_motion.conicity(amplitude);
+        }
+      about = {motion.equilibrium(), motion.conicity(usual_amplitude),
+               level_motion.conicity(usual_amplitude)};
       return complaint;
+    }
+  } // namespace
+
+
+  namespace
+  {
+    WheelOnRail other_side(const Scene &own, const std::string &file)
+    {
+      Scene scene;
+      scene.read_surfaces(file, {});
+      const TrackGauge &a = own.wheelset.track, &b = scene.wheelset.track;
+      require(a.gauge == b.gauge && a.measuring_depth == b.measuring_depth &&
+                a.back_distance == b.back_distance,
+              "--other-side " + file +
+                ": its track gauge, the depth at which that is measured or the distance of the wheels' backs "
+                "('Wheelset') is not that of the scene, but both sides are of one track and one wheelset");
+      return scene.wheel_on_rail();
     }
   } // namespace
 
@@ -171,8 +228,10 @@ namespace tread
                    request.step_mm, most_rows, request.to_mm, 2.1 * request.to_mm / most_rows));
     Progress          progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const WheelOnRail surfaces = scene.wheel_on_rail();
+    const WheelOnRail other = request.other_side.empty() ? surfaces : other_side(scene, request.other_side);
     std::vector<Row>  rows;
-    const std::string complaint = make_rows(surfaces, scene, request, rows);
+    Motion            about{};
+    const std::string complaint = make_rows({surfaces, other}, scene, request, rows, about);
     require(!rows.empty(), "wheel and rail do not meet: " + complaint);
 
     RunFolder folder(path, comm);
@@ -204,6 +263,18 @@ namespace tread
                             1e3 * other.rolling_radius, 1e3 * row.wheelset.radius_difference(),
                             row.conicity));
       }
+    if (!std::isnan(about.conicity))
+      progress.say(
+        format("\nequivalent conicity at an amplitude of %g mm (EN 15302): %.3f, without roll %.3f",
+               1e3 * usual_amplitude, about.conicity, about.level_conicity));
+    constexpr double beside = 1e-6; // m
+    if (std::abs(about.equilibrium) > beside)
+      progress.say(format(
+        "the sides are unlike: both rolling radii are equal at a lateral shift of %.3f mm, about which the "
+        "motions of the equivalent conicity are",
+        1e3 * about.equilibrium));
+    else if (std::isnan(about.equilibrium))
+      progress.say("the rolling radii are unlike at all shifts: there is no equivalent conicity");
     if (!complaint.empty())
       progress.say("warning: rows are missing: " + complaint);
     double least = std::numeric_limits<double>::infinity();

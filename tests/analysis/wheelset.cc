@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A wheelset in any position: where it touches, how it rolls, its half-space answer; against closed forms.
 #include <tread/analysis/wheelset_contact.h>
+#include <tread/base/format.h>
 #include <tread/geometry/contact_points.h>
 #include <tread/geometry/patch_surfaces.h>
 #include <tread/geometry/rail_profile.h>
@@ -126,9 +127,104 @@ namespace
               shifts.push_back(position.shift);
               differences.push_back(touching_wheelset(surfaces, position).radius_difference());
             }
-          check.relative("cone: equivalent conicity at 3 mm", equivalent_conicity(shifts, differences, 3e-3),
+          check.relative("cone: equivalent conicity at 3 mm", harmonic_conicity(shifts, differences, 3e-3),
                          beside.radius_difference() / (2. * shift), 1e-3);
         }
+  }
+
+  /// Radius differences and conicities that EN 15302:2008+A1:2010 tabulates for reference combination E.1, in
+  /// steps of 0.1 mm and with three decimals.
+  const std::vector<double> tabulated_mm{
+    0.,    0.032, 0.051, 0.071, 0.092, 0.116, 0.142, 0.167, 0.197, 0.227, 0.257, 0.292, 0.328, 0.361,
+    0.402, 0.443, 0.481, 0.527, 0.574, 0.616, 0.667, 0.719, 0.766, 0.822, 0.879, 0.931, 0.992, 1.055,
+    1.111, 1.177, 1.236, 1.299, 1.346, 1.407, 1.471, 1.539, 1.598, 1.673, 1.752, 1.834, 1.906, 1.995,
+    2.088, 2.185, 2.286, 2.373, 2.481, 2.593, 2.709, 2.808, 2.931, 3.058, 3.189, 3.324, 3.44,  3.582,
+    3.729, 3.879, 4.008, 4.166, 4.328, 4.494, 4.636, 5.064, 5.692, 6.521, 7.597, 9.01,  10.954};
+  const std::vector<std::pair<double, double>> tabulated_conicities{
+    {1., 0.125}, {2., 0.155}, {3., 0.188}, {4., 0.216}, {5., 0.254}, {6., 0.303}, {6.5, 0.348}, {6.8, 0.427}};
+
+  /// @param beside by how much the table is moved, m
+  LateralMotion standard_motion(const double beside = 0., const double factor = 1.)
+  {
+    std::vector<double> shifts, differences;
+    const int           n = tabulated_mm.size() - 1;
+    for (int i = -n; i <= n; ++i)
+      {
+        shifts.push_back(1e-4 * i + beside);
+        differences.push_back(factor * std::copysign(1e-3 * tabulated_mm[std::abs(i)], i));
+      }
+    return {shifts, differences};
+  }
+
+  void check_lateral_motion(tests::Check &check)
+  {
+    const LateralMotion standard = standard_motion(), beside = standard_motion(0.4e-3),
+                        away = standard_motion(0., -1.);
+    for (const auto &[amplitude, conicity] : tabulated_conicities)
+      {
+        const std::string at = format(" at %.1f mm", amplitude);
+        // half of the last digit, and as much for the digits of the differences
+        check.absolute("EN 15302, E.1: conicity" + at, standard.conicity(1e-3 * amplitude), conicity, 6e-4);
+        check.relative("unlike sides: the motion is about its equilibrium" + at,
+                       beside.conicity(0.999e-3 * amplitude), standard.conicity(0.999e-3 * amplitude), 1e-6);
+        check.relative("a difference that drives outwards: negative" + at, away.conicity(1e-3 * amplitude),
+                       -standard.conicity(1e-3 * amplitude), 1e-9);
+      }
+    check.absolute("unlike sides: shift of equal radii, mm", 1e3 * beside.equilibrium(), 0.4, 1e-9);
+    check.that("no conicity beyond the table", std::isnan(standard.conicity(6.9e-3)) &&
+                                                 std::isnan(beside.conicity(6.81e-3)) &&
+                                                 std::isnan(standard.conicity(0.)));
+    // Cones on one side, cylinders on the other, and wheels of unlike radius: straight lines.
+    const LateralMotion cone({-5e-3, 0., 5e-3}, {-5e-3 * 0.1 + 2e-4, 2e-4, 5e-3 * 0.1 + 2e-4});
+    check.absolute("unlike radii: shift of equal radii, mm", 1e3 * cone.equilibrium(), -2., 1e-9);
+    check.relative("unlike radii on cones: conicity", cone.conicity(2.9e-3), 0.05, 1e-6);
+    check.that("unlike radii: the table ends first at one side", std::isnan(cone.conicity(3.1e-3)));
+    const LateralMotion none({-1e-3, 0., 1e-3}, {0., 0., 0.}), apart({-1e-3, 1e-3}, {1e-4, 1e-4});
+    check.that("cylinders: no conicity", none.conicity(0.5e-3) == 0. && std::isnan(none.conicity(1.5e-3)));
+    check.that("no shift of equal radii",
+               std::isnan(apart.equilibrium()) && std::isnan(apart.conicity(0.5e-3)));
+    // Steeper beyond 1 mm: by hand, half a period is that of a sine, and arcs of the steeper one.
+    const double        a = 0.05, b = 0.2, y0 = 1e-3, y1 = 2e-3;
+    const LateralMotion bent({-y1, -y0, y0, y1}, {-2. * (a * y0 + b * (y1 - y0)), -2. * a * y0, 2. * a * y0,
+                                                  2. * (a * y0 + b * (y1 - y0))});
+    const double        w = std::sqrt(2. * a), u = std::sqrt(2. * b), centre = y0 - a / b * y0,
+                 v1    = u * std::sqrt((y1 - centre) * (y1 - centre) - (y0 - centre) * (y0 - centre)),
+                 inner = std::atan(w * y0 / v1) / w, outer = std::acos((y0 - centre) / (y1 - centre)) / u;
+    check.relative("differences with a bend: conicity", bent.conicity(y1),
+                   dealii::numbers::PI * dealii::numbers::PI / 8. / ((inner + outer) * (inner + outer)),
+                   1e-5);
+  }
+
+  /// Contact points of unlike sides, and without roll, beside those of like ones.
+  void check_unlike_sides(tests::Check &check)
+  {
+    const TrackGauge  gauge{1.46, 3e-3, 1.36, -70e-3};
+    const WheelOnRail steep(straight_cone(0.05), round_rail(300e-3), radius, gauge),
+      flat(straight_cone(0.025), round_rail(300e-3), radius, gauge),
+      larger(straight_cone(0.05), round_rail(300e-3), radius + 1e-3, gauge);
+    WheelsetPosition position;
+    position.shift = 2e-3;
+    // Without roll each wheel stands where its cone touches the crown, whatever the shift.
+    const auto on_wheel = [](const WheelOnRail &side, const double slope) {
+      return side.rail_origin_y() - 300e-3 * std::sin(std::atan(slope)) - side.wheel_origin_y();
+    };
+    const TouchingWheelset level = touching_wheelset({steep, flat}, position, Roll::none);
+    check.relative("without roll, unlike cones: radius difference, um", 1e6 * level.radius_difference(),
+                   1e6 * (0.05 * (position.shift - on_wheel(steep, 0.05)) +
+                          0.025 * (position.shift + on_wheel(flat, 0.025))),
+                   2e-3);
+    check.absolute("without roll: roll, mrad", 1e3 * level.position.roll, 0., 0.);
+    const TouchingWheelset like    = touching_wheelset({steep, steep}, position, Roll::none),
+                           shifted = touching_wheelset({larger, steep}, position, Roll::none);
+    check.absolute("without roll, unlike radii: added to the difference, mm",
+                   1e3 * (shifted.radius_difference() - like.radius_difference()), 1., 1e-6);
+    const TouchingWheelset rolled = touching_wheelset({larger, steep}, position);
+    check.absolute("with roll, unlike radii: roll, mrad",
+                   1e3 * (rolled.position.roll - touching_wheelset(steep, position).position.roll),
+                   -1. / (rolled.own.y + rolled.other.y - 2. * radius * std::atan(0.05)), 2e-3);
+    check.relative("with roll, both sides by themselves",
+                   touching_wheelset({steep, steep}, position).radius_difference(),
+                   touching_wheelset(steep, position).radius_difference(), 1e-12);
   }
 
   /// A yawed cylinder: lateral creepage -2 tan(yaw/2); a cone: spin sin(angle)/r; and forces by Hertz.
@@ -443,6 +539,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   check_curves(check);
   check_conicity(check);
+  check_lateral_motion(check);
+  check_unlike_sides(check);
   check_rolling(check);
   check_mirror(check);
   check_two_patches(check);

@@ -18,6 +18,7 @@ namespace
     double area, centroid, inertia_y, inertia_z;
     double head_depth, head_half_width; ///< mm
     double gauge_y, gauge_z;            ///< end of the gauge corner arc, mm
+    double gauge_tolerance_um = 1.;     ///< of its height
   };
 
   void check_profile(tread::tests::Check &check, const RailProfile &profile, const Published &published)
@@ -75,8 +76,14 @@ namespace
     check.below(name + " z_top against the outline, mm", 1e3 * apart, 1e-8);
     check.below(name + " step of z_top to |y| = 31.5 mm, mm", 1e3 * jump, 3e-3);
     check.below(name + " step of the slope of z_top", largest_slope_jump, 2e-3);
-    check.absolute(name + " z_top on the crown against the circle, nm", 1e9 * profile.z_top(9e-3),
-                   1e9 * tread::crown_height(9e-3, 0.3), 1e-3);
+    check.absolute(name + " z_top on the crown against the circle, nm", 1e9 * profile.z_top(7e-3),
+                   1e9 * tread::crown_height(7e-3, 0.3), 1e-3);
+    // The drawing's own check: the arcs end on the flank at the nominal width of the head.
+    const auto &corner = profile.half_outline().at(2).end;
+    check.absolute(name + " half of the head's width at the end of the gauge corner, um", 1e6 * corner[0],
+                   1e3 * published.gauge_y, 1.);
+    check.absolute(name + " depth of that point, um", -1e6 * corner[1], -1e3 * published.gauge_z,
+                   published.gauge_tolerance_um);
     check.that(name + " z_top is even", profile.z_top(0.02) == profile.z_top(-0.02));
   }
 } // namespace
@@ -88,6 +95,12 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                 {69.77, 75.1, 2337.9, 419.2, 159. - 122.73, 36.108, 35., 144.9 - 159.});
   check_profile(check, RailProfile::rail_60e1(),
                 {76.70, 80.9, 3038.3, 512.3, 172. - 134.51, 37.16, 36., 157.7 - 172.});
+
+  // Where flank (1:17.2, 1:20) and underside (1:3) meet, by hand: the drawings have 39.8 mm for the head of
+  // S49, and 73 mm for the largest width of CN60, 70.8 mm at a depth of 14.2 mm.
+  check_profile(check, RailProfile::rail_49e1(), {62.92, 73.3, 1816., 319.1, 39.8327, 35.0019, 33.5, -14.});
+  check_profile(check, RailProfile::rail_cn60(),
+                {77.45, 81.2, 3217., 524., 36.3310, 0.5 * 73.01, 35.4, -14.2, 50.});
 
   check.absolute("54E1 height at the end of the crown arc, mm",
                  1e3 * RailProfile::rail_54e1().z_top(10.012e-3), 158.833 - 159., 1e-3);

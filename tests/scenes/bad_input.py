@@ -46,6 +46,8 @@ SETTINGS = [
     ("Vehicle/Sprung mass (kg)=1e-9", ["Vehicle/Sprung mass (kg)", "Suspension stiffness", "no suspension does"]),
     ("Vehicle/Gravity (m per s2)=0", ["Vehicle/Gravity (m per s2)", "above 0"]),
     ("Vehicle/Wheel load (kN)=5", ["Vehicle/Wheel load (kN)", "less than the weight", "Wheel/Mass (kg)", "8.829"]),
+    ("Vehicle/Axle load (t)=1.7", ["Vehicle/Axle load (t)", "less than twice", "Wheel/Mass (kg)", "1.8 t"]),
+    (["Vehicle/Axle load (t)=20", "Vehicle/Wheel load (kN)=98.1"], ["Vehicle/Axle load (t)", "Vehicle/Wheel load (kN)", "one of them"]),
     ("Vehicle/Wheel load (kN)=heavy", ["Vehicle/Wheel load (kN)", "masses"]),
     ("Rail/Poisson's ratio=0.7", ["Rail/Poisson's ratio", "allowed", "0.49"]),
     ("Rail/Yield stress (MPa)=-500", ["Rail/Yield stress (MPa)", "allowed", "0"]),

@@ -74,6 +74,12 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"cell {i}: and has yielded no less",
                    strip["equivalent_plastic_strain_percent"][nearest] >= (1. - 1e-9) * 100. * strain[-1])
     check.that("the rail has yielded", max(strip["equivalent_plastic_strain_percent"]) > 0.01)
+    # The strip is as wide as the path's finest cells, where the largest strain is.
+    most = max(range(len(strip["x_mm"])), key=lambda k: strip["equivalent_plastic_strain_percent"][k])
+    check.relative("largest plastic strain: that of the strip, %", 100. * summary["largest_plastic_strain"],
+                   strip["equivalent_plastic_strain_percent"][most], 1e-8)
+    check.absolute("largest plastic strain: its place along the rail, mm", 1e3 * summary["largest_plastic_strain_x_m"], strip["x_mm"][most], 0.01)
+    check.that("largest plastic strain: it is in the plastic zone", 0. < summary["largest_plastic_strain_depth_m"] < 8e-3)
 
     pictures = script("plot/plot-impact.py", path("deep"), "--program", program)
     if not check.that("strip and cells are drawn", pictures.returncode == 0 and

@@ -145,6 +145,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("torque: its traction, whatever the start", torque["creepage"], base["creepage"], 1e-9)
     loaded = reference_only("Vehicle/Wheel load (kN)=100")
     check.relative("a given wheel load, N", loaded["normal_force_N"], 100e3, 1e-9)
+    axle = reference_only("Vehicle/Axle load (t)=22.5", "Vehicle/Gravity (m per s2)=9.8")
+    check.relative("a given axle load: half of it on each wheel, N", axle["normal_force_N"], 110.25e3, 1e-9)
     brake = reference_only("Motion/Traction coefficient=-0.3")
     check.relative("braking: the opposite creepage", brake["creepage"], -base["creepage"], 1e-5)
     slide = reference_only("Motion/Creepage=0.1")

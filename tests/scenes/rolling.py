@@ -485,6 +485,10 @@ with tempfile.TemporaryDirectory() as folder:
         ranks = run(program, "smooth-rolling.prm", path("ranks"), settings, 3)
         same("3 ranks against 1", ranks, whole, 1e-6, 3e-3)
         check.relative("3 ranks against 1: plastic_work_J", ranks["plastic_work_J"], whole["plastic_work_J"], 1e-6)
+        for key in ("largest_plastic_strain", "wheel_largest_plastic_strain", "largest_plastic_strain_depth_m"):
+            check.relative(f"3 ranks against 1: {key}", ranks[key], whole[key], 1e-5)
+        check.that("some cell has the largest strain of the middle, or more",
+                   100. * whole["largest_plastic_strain"] >= (1. - 1e-9) * second["equivalent_plastic_strain_percent"])
         levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=1"])  # instead of 3
         check.energy("one level of time steps against three: ", levels, 0.01)
         check.relative("one level of time steps against three: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 1e-3)

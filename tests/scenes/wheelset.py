@@ -4,6 +4,7 @@
 
 import math
 import os
+import re
 import sys
 import tempfile
 
@@ -16,6 +17,7 @@ from tread_runner import Check, rows_of, run, table
 program = sys.argv[1]
 check = Check()
 RIGHT = os.path.join(ROOT, "prm", "curves", "manchester-a22-right.prm")
+HEAD = "profiles/uic60-manchester.txt"
 
 
 def position(side, shift):
@@ -103,6 +105,32 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("81 shifts from -10 to 10 mm", len(points["lateral_shift_mm"]) == 81 and points["lateral_shift_mm"][0] == -10.)
     difference = points["radius_difference_mm"]
     check.absolute("radius difference is odd, um", 1e3 * max(abs(a + b) for a, b in zip(difference, reversed(difference))), 0., 0.01)
+    # The conicity of EN 15302 from the wavelength of y'' = -dr(y), stepped through time from the extreme to the middle.
+    by_shift = {shift: row for row, shift in enumerate(points["lateral_shift_mm"])}
+    for amplitude in (2., 3., 4.):
+        row, y, v, time, step = by_shift[amplitude], amplitude, 0., 0., 2e-3
+        while y > 0.:
+            v -= step * np.interp(y, points["lateral_shift_mm"], points["radius_difference_mm"])
+            y, time = y + step * v, time + step
+        time += y / -v
+        check.relative(f"equivalent conicity at {amplitude:g} mm", points["equivalent_conicity"][row], math.pi ** 2 / (8. * time ** 2), 0.01)
+        check.absolute(f"equivalent conicity at {amplitude:g} mm without roll", points["equivalent_conicity_without_roll"][row], points["equivalent_conicity"][row], 0.01)
+        check.relative(f"harmonic conicity at {amplitude:g} mm", points["harmonic_conicity"][row], points["equivalent_conicity"][row], 0.02)
+    check.that("the conicity at 3 mm is printed", f"amplitude of 3 mm (EN 15302): {points['equivalent_conicity'][by_shift[3.]]:.3f}" in result.stdout)
+    # The other side from another scene: the same one changes nothing, a larger wheel there moves the middle of the motion to where radii are equal.
+    head = f"subsection Rail\n set Measured head = {os.path.join(ROOT, 'prm', 'curves', HEAD)}\nend\n"
+    with open(path("larger.prm"), "w", encoding="utf-8") as stream:
+        stream.write(f"include {RIGHT}\n{head}subsection Wheel\n set Radius (mm) = 460.2\nend\n")
+    with open(path("wide.prm"), "w", encoding="utf-8") as stream:
+        stream.write(f"include {RIGHT}\n{head}subsection Wheelset\n set Track gauge (mm) = 1440\nend\n")
+    same = execute([RIGHT, "--contact-points", "--other-side", RIGHT, "--output", path("same")], program=program)
+    check.that("the other side by the same scene", same.returncode == 0 and table(path("same"), "contact_points.csv") == points)
+    unlike = execute([RIGHT, "--contact-points", "--other-side", path("larger.prm"), "--output", path("unlike")], program=program)
+    unlike_points = table(path("unlike"), "contact_points.csv")
+    check.absolute("a larger other wheel: radius difference in the middle without roll, mm", unlike_points["radius_difference_without_roll_mm"][by_shift[0.]], -0.2, 1e-6)
+    shift = float(re.search(r"equal at a lateral shift of (\S+) mm", unlike.stdout)[1])
+    check.absolute("a larger other wheel: there the radii are equal, mm", np.interp(shift, unlike_points["lateral_shift_mm"], unlike_points["radius_difference_mm"]), 0., 0.01)
+    check.that("a larger other wheel: the middle of the motion is on the own side", 0.1 < shift < 1.5)
     for wheel in ("own", "other"):
         check.below(f"{wheel} wheel in the middle: its contact from the middle of its rail head, mm", points[f"{wheel}_y_rail_mm"][40], 10.)
     check.absolute("own wheel: centre of the patch near that of rigid contact, mm", 1e3 * solve("right", position("right", 0)[0], program)
@@ -148,6 +176,7 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("no angular velocity", [reference, "-s", "Motion/Angular velocity (rad per s)=by the drive"], "Motion/Angular velocity (rad per s)")
     must_fail("torque and angular velocity", [reference, "-s", "Motion/Drive=torque"], "Motion/Drive", "torque")
     must_fail("contact points of a gauge too wide", ["--contact-points", "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
+    must_fail("another gauge on the other side", ["--contact-points", "--other-side", path("wide.prm")], "--other-side", "track gauge")
     must_fail("shifts without a step", ["--contact-points", "--shift-step", "0"], "--shift-step")
 
 check.exit()

@@ -40,13 +40,15 @@ namespace tread
     double inertia_z;       ///< second moment about the vertical axis: lateral bending (m^4)
   };
 
-  /// The section of a flat-bottom rail (EN 13674-1), made of lines and arcs that meet tangentially. y is
+  /// The section of a flat-bottom rail, made of lines and arcs that meet tangentially. y is
   /// lateral, z up and zero on the rail top. Only the right half (y >= 0) is stored.
   class RailProfile
   {
   public:
     static RailProfile rail_54e1(); ///< 54 kg/m
     static RailProfile rail_60e1(); ///< 60 kg/m
+    static RailProfile rail_49e1(); ///< 49 kg/m, the S49 of before
+    static RailProfile rail_cn60(); ///< 60 kg/m, of TB/T 2344 (CHN60)
 
     const std::string &name() const;
     double             height() const; ///< foot base to rail top (m)

@@ -18,6 +18,8 @@ namespace tread
     bool   wanted  = false;
     double to_mm   = 10.;  ///< largest lateral shift to both sides
     double step_mm = 0.25; ///< between shifts
+    /// Scene whose wheel and rail stand on the other side; empty: those of the scene, mirrored.
+    std::string other_side;
   };
 
   /// Those that write_contact_points() leaves.

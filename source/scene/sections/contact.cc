@@ -23,20 +23,23 @@ namespace tread
       "Where along the rail the friction coefficient is multiplied by 'Friction factors': x, ascending, "
       "separated by commas; linear in between, constant beyond. As for leaves or a lubricated spot.",
       Double(-1e6, 1e6), 10000);
-    section.add("Friction factors", friction_factors, "At these places, one for each.", Double(0., 100.),
+    section.add("Friction factors", friction_factors,
+                "Factors on the friction coefficient at these places, one for each.", Double(0., 100.),
                 10000);
     section.add("Friction pressures (MPa)", friction_pressures,
                 "Pressures of a node at which its friction coefficient is multiplied by 'Friction pressure "
                 "factors': ascending, separated by commas; linear in between, constant beyond. As for layers "
                 "that shear at a limit, or elastic asperities.",
                 Double(0., 1e6), 10000);
-    section.add("Friction pressure factors", pressure_factors, "At these pressures, one for each.",
-                Double(0., 100.), 10000);
+    section.add("Friction pressure factors", pressure_factors,
+                "Factors on the friction coefficient at these pressures, one for each.", Double(0., 100.),
+                10000);
     section.add(
       "Tolerance", tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
       Double(1e-15, 0.1));
-    section.add("Largest number of sweeps", max_sweeps, "In one time step.", Integer(1, 100000));
+    section.add("Largest number of sweeps", max_sweeps, "Limit of the sweeps in one time step.",
+                Integer(1, 100000));
   }
 
 

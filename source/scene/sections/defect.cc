@@ -178,29 +178,35 @@ namespace tread
     Section section(handler, "Defect");
 
     section.choose("Shape", shape, defect_shapes());
+    section.add("Position (mm)", position,
+                "x of the leading edge of the defect. 'Motion/Start' and 'Rolled distance' say where the "
+                "wheel starts and ends.",
+                Double(-1e5, 1e5));
     section.add(
-      "Position (mm)", position,
-      "x of the leading edge. Where the wheel starts and ends: 'Motion/Start' and 'Rolled distance'.",
-      Double(-1e5, 1e5));
-    section.add("Length (mm)", length,
-                "Along the rail. A profile or a map is stretched to it; 0: as in the file.", Double(0., 1e4));
-    section.add("Width (mm)", width,
-                "Lateral. 0: as long as it is wide, for a dip; as in the file, for a map.", Double(0., 200.));
+      "Length (mm)", length,
+      "Length of the defect along the rail. A profile or a map is stretched to it; 0: as in the file.",
+      Double(0., 1e4));
     section.add(
-      "Depth (mm)", depth,
-      "Of the deepest point; of corrugation, from crests to troughs. A profile or a map is scaled to "
-      "it; 0: as in the file.",
-      Double(0., 1e3 * deepest));
+      "Width (mm)", width,
+      "Width of the defect across the rail. 0: a dip is as wide as it is long, a map as in its file.",
+      Double(0., 200.));
+    section.add("Depth (mm)", depth,
+                "Depth of the deepest point; of corrugation, from crests to troughs. A profile or a map is "
+                "scaled to it; 0: as in the file.",
+                Double(0., 1e3 * deepest));
     section.add("Lateral position (mm)", lateral_position,
-                "y of its middle, along the rail's top; the gauge side is y < 0.", Double(-50., 50.));
+                "y of the middle of the defect, along the rail's top; the gauge side is y < 0.",
+                Double(-50., 50.));
     section.add("Rounded leading edge (mm)", leading_rounding,
-                "Of a dip: the kink at its beginning is rounded over so much of the path. 0: sharp.",
+                "Length over which the kink at the beginning of a dip is rounded. 0: a sharp edge.",
                 Double(0., 1000.));
-    section.add("Rounded trailing edge (mm)", trailing_rounding, "The same at its end.", Double(0., 1000.));
-    section.add("Wavelength (mm)", wavelength, "Of corrugation.", Double(0., 1000.));
+    section.add("Rounded trailing edge (mm)", trailing_rounding,
+                "Length over which the kink at the end of a dip is rounded. 0: a sharp edge.",
+                Double(0., 1000.));
+    section.add("Wavelength (mm)", wavelength, "Wavelength of corrugation.", Double(0., 1000.));
     section.add("Ramp (mm)", ramp,
-                "Of a profile, a map or corrugation: heights grow from 0 over so much of the path at its "
-                "beginning, and fade to 0 at its end. 0: none.",
+                "Length over which the heights of a profile, a map or corrugation grow from 0 at the "
+                "beginning and fade to 0 at the end. 0: none.",
                 Double(0., 1e4));
     section.add(
       "Profile file", profile_file,
@@ -212,10 +218,10 @@ namespace tread
       "beside the parameter file.",
       dealii::Patterns::Anything());
     section.choose("Lateral law", lateral_law, "Of a profile or corrugation.");
-    section.add("Reversed", reversed, "A profile or a map is rolled over from its other end.");
+    section.add("Reversed", reversed, "true: a profile or a map is rolled over from its other end.");
     section.add("Repeated at (mm)", repeated_at,
-                "x of the leading edges of further defects like this one, separated by commas, at least its "
-                "length from each other. Defects that are unlike fit into one map.",
+                "x of the leading edges of further defects of the same shape, separated by commas, at least "
+                "the defect's length apart. Defects that differ fit into one map.",
                 Double(-1e5, 1e5), 1000);
   }
 

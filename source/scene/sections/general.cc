@@ -10,17 +10,17 @@ namespace tread
 
     section.add("Title", title, "What the scene shows; printed and kept in the summary.");
     section.add("Quasi-static", quasi_static,
-                "Whether inertia is no part of the answer. Only then may the density be scaled.");
+                "true: inertia is negligible in the answer, as in steady rolling, and the density may be "
+                "scaled. false: inertia counts.");
     section.add(
       "Density scale", density_scale,
       "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
       "inertia like (speed / wave speed)^2. 1 to 100; above 1 only for quasi-static scenes.",
       Double(1., 100.));
-    section.add(
-      "Reproducible", reproducible,
-      "Whether all results are the same to the last bit on any number of ranks, also after a run is "
-      "resumed on others. Forces are then rounded to 1.5e-8 N, and every rank solves the whole contact "
-      "instead of a strip of it.");
+    section.add("Reproducible", reproducible,
+                "true: all results are the same to the last bit on any number of ranks, also when a run is "
+                "resumed on another number. Forces are then rounded to 1.5e-8 N, and every rank solves the "
+                "whole contact instead of its share.");
   }
 
 

@@ -28,16 +28,23 @@ namespace tread
       "What it has takes the place of the parameter of that name. At least four rows, as long as the "
       "run; in between it is interpolated smoothly and without overshoot.");
     section.add("Lateral stiffness (MN per m)", springs.stiffness,
-                "Between wheelset and a frame that runs along, from the position at the start.", Double(0.));
-    section.add("Lateral damping (kN s per m)", springs.damping, "Of the speed across.", Double(0.));
-    section.add("Lateral force (kN)", springs.force, "balance",
-                "Constant force on the wheelset to its own side. balance: what holds it in its place at the "
-                "start.",
-                Double());
-    section.add("Yaw stiffness (MN m per rad)", springs.yaw_stiffness, "From the yaw at the start.",
+                "Lateral stiffness between the wheelset and a frame that runs along with it; the force "
+                "counts from the position at the start.",
                 Double(0.));
-    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Of the yaw rate.", Double(0.));
-    section.add("Yaw moment (kN m)", springs.moment, "balance", "Constant, likewise.", Double());
+    section.add("Lateral damping (kN s per m)", springs.damping,
+                "Damping of the lateral velocity relative to that frame.", Double(0.));
+    section.add("Lateral force (kN)", springs.force, "balance",
+                "Constant lateral force on the wheelset, positive towards the side of the modelled wheel. "
+                "balance: the force that holds the wheelset in place at the start.",
+                Double());
+    section.add("Yaw stiffness (MN m per rad)", springs.yaw_stiffness,
+                "Yaw stiffness relative to that frame; the moment counts from the yaw at the start.",
+                Double(0.));
+    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Damping of the yaw rate.", Double(0.));
+    section.add("Yaw moment (kN m)", springs.moment, "balance",
+                "Constant yaw moment on the wheelset. balance: the moment that holds the wheelset in place "
+                "at the start.",
+                Double());
     section.add(
       "Yaw inertia (kg m2)", yaw_inertia,
       "Of the wheelset about the vertical, and about x where both wheels are meshed, without the wheels' "

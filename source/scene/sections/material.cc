@@ -22,12 +22,14 @@ namespace tread
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
     constexpr double tiny = 1e-12; // for "above 0"
-    section.add("Young's modulus (GPa)", young_modulus, "Above 0.", Double(1e-3, 1e4));
-    section.add("Poisson's ratio", poisson_ratio, "From 0 to 0.49.", Double(0., 0.49));
-    section.add("Density (kg per m3)", density, "Above 0. Inertia of the cells.", Double(1., 1e5));
-    section.add("Yield stress (MPa)", yield_stress,
-                "Of von Mises, at first yield. 0: elastic. The static load may well be above yield.",
-                Double(0.));
+    section.add("Young's modulus (GPa)", young_modulus, "Young's modulus.", Double(1e-3, 1e4));
+    section.add("Poisson's ratio", poisson_ratio, "Poisson's ratio, from 0 to 0.49.", Double(0., 0.49));
+    section.add("Density (kg per m3)", density, "Density, which gives the cells their inertia.",
+                Double(1., 1e5));
+    section.add(
+      "Yield stress (MPa)", yield_stress,
+      "Von Mises stress at which the material first yields. 0: elastic. The static load may well exceed it.",
+      Double(0.));
     section.add("Tangent modulus (GPa)", tangent_modulus,
                 "Slope of the uniaxial stress over strain beyond yield, for isotropic and kinematic "
                 "hardening. From 0 "
@@ -35,18 +37,20 @@ namespace tread
                 Double(0.));
     section.choose("Hardening", hardening);
     section.add("Backstress moduli (GPa)", backstress_moduli,
-                "Of Armstrong-Frederick hardening: C of each backstress, separated by commas; da = 2/3 C de "
-                "- gamma a dp.",
+                "For Armstrong-Frederick hardening: modulus C of each backstress, separated by commas, in da "
+                "= 2/3 C de - gamma a dp.",
                 Double(0.), PlasticMaterial::max_backstresses);
     section.add("Backstress recoveries", backstress_recoveries,
-                "Of the same: gamma of each backstress, no unit; it saturates at C/gamma.", Double(0.),
-                PlasticMaterial::max_backstresses);
+                "For Armstrong-Frederick hardening: recovery gamma of each backstress, without a unit; the "
+                "backstress saturates at C/gamma.",
+                Double(0.), PlasticMaterial::max_backstresses);
     section.add("Plastic depth (mm)", plastic_depth,
-                "Cells under the contact path yield down to here; those below stay elastic and cost "
-                "less. A patch length is enough.",
+                "Depth under the contact path down to which cells can yield; those below stay elastic and "
+                "cost less. One patch length is enough.",
                 Double(tiny));
     section.add("Plastic half width (mm)", plastic_half_width,
-                "Cells yield from the middle of the path to here, at both sides.", Double(tiny));
+                "Distance from the middle of the path, to both sides, within which cells can yield.",
+                Double(tiny));
     section.add(
       "Plastic zones", plastic_zones,
       "Parts with another yield stress, such as a weld or a hardened layer: begin and end along the path "

@@ -13,17 +13,16 @@ namespace tread
                 "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
                 "pressure's error shrinks in proportion to it, or a little faster.",
                 Double(0.02, 20.));
-    section.add(
-      "Fine half width (mm)", fine_half_width,
-      "Finest cells reach from the middle of the patch to here; contact must stay inside. 0: as far "
-      "as the patch under the static load needs, and 1.35 times as far in a scene that is not "
-      "quasi-static, whose load may double.",
-      Double(0., 500.));
+    section.add("Fine half width (mm)", fine_half_width,
+                "Half width of the zone of finest cells, from the middle of the patch; contact must stay "
+                "inside. 0: as wide as the patch under the static load needs, and 1.35 times as wide in a "
+                "scene that is not quasi-static, whose load may double.",
+                Double(0., 500.));
     section.add("Fine layers", fine_layers,
-                "Layers of finest cells under the surface; even numbers fit the octree.", Integer(1, 64));
+                "Number of layers of finest cells under the surface; even numbers fit the octree.",
+                Integer(1, 64));
     section.add("Cells per level", cells_per_level,
-                "How many cells of each larger size follow before the next doubling, at least.",
-                Double(1., 32.));
+                "Least number of cells of each larger size before the size doubles again.", Double(1., 32.));
     section.add("Level depth (semi-axes)", level_depth,
                 "Least thickness of the layers of larger cells below the finest ones, over Hertz's mean "
                 "semi-axis: of cells of twice the size, four times the size, and so on. So the error of the "
@@ -40,7 +39,7 @@ namespace tread
       "From here to 'Fine to', counted from the leading edge of the defect ('Defect/Position'), cells under "
       "the path are cubes; elsewhere they are as long as 'Path cell' says. Both 0: the whole path.",
       Double(-1e5, 1e5));
-    section.add("Fine to (mm)", fine_to, "See 'Fine from (mm)'.", Double(-1e5, 1e5));
+    section.add("Fine to (mm)", fine_to, "End of that range; see 'Fine from (mm)'.", Double(-1e5, 1e5));
     section.add("Path cell (mm)", path_cell,
                 "Largest length along the path of cells outside 'Fine from' to 'Fine to'; from twice the "
                 "finest cell on they are as many levels of the octree coarser. Saves cells and time steps "
@@ -48,8 +47,7 @@ namespace tread
                 "large cells: at most half a semi-axis. 0: the finest cell.",
                 Double(0., 100.));
     section.add("Longest row (mm)", longest_row,
-                "Full section: largest length of the coarse cells of the rail beside the path.",
-                Double(1., 1000.));
+                "Largest length of the coarse cells of a full section beside the path.", Double(1., 1000.));
   }
 
 

@@ -26,7 +26,7 @@ namespace tread
     constexpr double tiny = 1e-12; // for "above 0"
     Section          section(handler, "Motion");
 
-    section.add("Speed (km per h)", speed, "Of the wheel's centre, kept along x. At least 0.1.",
+    section.add("Speed (km per h)", speed, "Speed of the wheel's centre, constant along x. At least 0.1.",
                 Double(0., 1000.));
     section.add("Start (mm)", start, "automatic",
                 "x of the wheel at the start. automatic: minus the rolled distance, so that the solution "
@@ -47,9 +47,10 @@ namespace tread
       "the rolled distance alone.",
       Double(0., 10000.));
     section.choose("Drive", drive);
-    section.add("Traction coefficient", traction_coefficient,
-                "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
-                Double(-2., 2.));
+    section.add(
+      "Traction coefficient", traction_coefficient,
+      "Longitudinal over normal force, positive when driving. It must be below the friction coefficient.",
+      Double(-2., 2.));
     section.add("Creepage", creepage, "predicted",
                 "(angular velocity x radius - speed) / speed, counted from free rolling, positive when "
                 "driving; or 'predicted': what "
@@ -68,19 +69,20 @@ namespace tread
       "the middle of the wheel it slides by nothing, ahead of it towards +y if positive. The spin of a "
       "tapered tread comes by itself.",
       Double(-10., 10.));
-    section.add("Hold distance (mm)", hold_distance,
-                "Rolled at the creepage above before the torque acts, so that no long run-in is paid for.",
-                Double(0., 10000.));
+    section.add(
+      "Hold distance (mm)", hold_distance,
+      "Distance that is rolled at the prescribed creepage before the torque acts, which saves a long run-in.",
+      Double(0., 10000.));
     section.add(
       "Angular velocity (rad per s)", angular_velocity, "by the drive",
       "Of the wheel about its axle, positive rolling forward, for a wheelset in a given position "
       "('Wheelset'). A number selects the drive angular velocity and puts the wheel into the track.",
       Double(0., 1e5));
-    section.add(
-      "Passages", passages,
-      "Wheels that roll over the same rail, one after the other: the rail keeps its stress and strain, each "
-      "wheel comes new. Above 1 passages.csv has a row for each. Cost grows in proportion.",
-      Integer(1, 10000));
+    section.add("Passages", passages,
+                "Number of wheel passes: new wheels that roll over the same rail one after the other, while "
+                "the rail keeps its stress and strain. Above 1, passages.csv has a row for each pass. The "
+                "cost grows in proportion.",
+                Integer(1, 10000));
   }
 
 

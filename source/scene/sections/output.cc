@@ -34,11 +34,11 @@ namespace tread
       "of history.csv: x,y,depth in mm of a point in each, depth below the running surface, separated by "
       "semicolons, as in -20,0,1.5; -20,0,4. Empty: none.",
       dealii::Patterns::Anything());
-    section.add(
-      "Strip half width (mm)", strip_half_width,
-      "strip.csv lists the largest von Mises stress that the rail's cells up to here at both sides of the "
-      "first contact have seen along the path, looked at in each History interval. 0: no table.",
-      Double(0.));
+    section.add("Strip half width (mm)", strip_half_width,
+                "Half width of the band of rail under the running wheel, to both sides of the first contact, "
+                "in which strip.csv lists the largest von Mises stress that the cells have seen along the "
+                "path, sampled once per History interval. 0: no table.",
+                Double(0.));
     section.add("Surface interval (mm)", surface_interval,
                 "Rolled distance between pictures of the contact surface, with a table of all their patches, "
                 "patches.csv; 0: a picture of the solution instant only.",

@@ -25,11 +25,12 @@ namespace tread
                    "peak_stress.csv lists, for each layer of cells of the rail in a region and for the "
                    "surface, the largest von Mises stress of all steps with its place and instant, "
                    "peak_stress_wheel.csv those of the tread of the first wheel that rolls over it.");
-    section.add("From (mm)", from, "x of a range.", Double(-1e5, 1e5));
-    section.add("To (mm)", to, "The same.", Double(-1e5, 1e5));
+    section.add("From (mm)", from, "x of the beginning of a range.", Double(-1e5, 1e5));
+    section.add("To (mm)", to, "x of the end of a range.", Double(-1e5, 1e5));
     section.add("Half width (mm)", half_width,
-                "To both sides of the first contact; 0: that of the patch under the static load.",
+                "Half width of the region, to both sides of the first contact; 0: that of the patch under "
+                "the static load.",
                 Double(0., 100.));
-    section.add("Depth (mm)", depth, "Down to here.", Double(0.1, 100.));
+    section.add("Depth (mm)", depth, "Depth of the region below the surface.", Double(0.1, 100.));
   }
 } // namespace tread

@@ -3,6 +3,7 @@
 #include <tread/scene/sections/rail.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace tread
 {
@@ -21,7 +22,9 @@ namespace tread
   const std::vector<Choice<ProfileName>> &choices()
   {
     static const std::vector<Choice<ProfileName>> list{{ProfileName::rail_54e1, "54E1", ""},
-                                                       {ProfileName::rail_60e1, "60E1", ""}};
+                                                       {ProfileName::rail_60e1, "60E1", ""},
+                                                       {ProfileName::rail_49e1, "49E1", ""},
+                                                       {ProfileName::rail_cn60, "CN60", ""}};
     return list;
   }
 
@@ -55,7 +58,12 @@ namespace tread
     Section section(handler, "Rail");
 
     section.choose("Shape", shape);
-    section.choose("Profile", profile, "Of a head or a full section (EN 13674-1). UIC60 has that of 60E1.");
+    section.choose(
+      "Profile", profile,
+      "Of a head or a full section. 54E1, 60E1, 49E1: EN 13674-1, the UIC54, UIC60 and S49 of before; CN60: "
+      "TB/T 2344, also called CHN60. Heads of other rails come from points ('Measured head') on the section "
+      "that is "
+      "nearest; doc/geometry.md says how, and why there are no more names.");
     section.add(
       "Measured head", measured_head,
       "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
@@ -63,7 +71,7 @@ namespace tread
       "middle; contact must lie within. Empty: a new rail.",
       Anything());
     section.add("Measured head mirrored", head_placement.is_mirrored,
-                "Take the file's y with the other sign: its gauge side is at y > 0.");
+                "true: the sign of y in the file is reversed, for files with the gauge side at y > 0.");
     section.add("Measured head shift (mm)", head_placement.shift,
                 "Added to the file's y, after mirroring: where its y = 0 lies from the rail's middle line.",
                 Double(-200., 200.));
@@ -72,23 +80,25 @@ namespace tread
                    "same slope touches it on the "
                    "middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.");
     section.add("Begin (mm)", begin, "automatic",
-                "x of the rail's first end. automatic: before the path as much as behind it where Length is "
-                "given, else by Margin.",
+                "x of the beginning of the rail. automatic: if Length is given, the rail extends as far "
+                "before the path as behind it; otherwise it extends by Margin.",
                 Double(-1e5, 1e5));
-    section.add("Length (mm)", length, "Of the whole rail. 0: to Margin behind the path.", Double(0., 1e5));
-    section.add("Crown radius (mm)", crown_radius, "Of a block. Sets the lateral curvature.",
-                Double(10., 1e6));
-    section.add("Block width (mm)", block_width, "Lateral.", Double(1., 1000.));
-    section.add("Block height (mm)", block_height, "At the crown; the bottom is held.", Double(1., 1000.));
-    section.add(
-      "Margin (mm)", margin,
-      "Rail beyond the rolled distance, at each end. At least three contact semi-axes; 150 of a full "
-      "section, whose head gives way near a free end: the normal force would drift by per cents.",
-      Double(0., 20000.));
+    section.add("Length (mm)", length,
+                "Length of the whole rail. 0: the rail ends by Margin behind the path.", Double(0., 1e5));
+    section.add("Crown radius (mm)", crown_radius,
+                "Radius of the crown of a block, which is its lateral curvature.", Double(10., 1e6));
+    section.add("Block width (mm)", block_width, "Lateral width of a block.", Double(1., 1000.));
+    section.add("Block height (mm)", block_height, "Height of a block at its crown; its bottom is held.",
+                Double(1., 1000.));
+    section.add("Margin (mm)", margin,
+                "Length of rail beyond the rolled distance at each end. At least three contact semi-axes; "
+                "150 mm for a full section, whose head deflects more near a free end, which would make the "
+                "normal force drift by per cents.",
+                Double(0., 20000.));
     section.choose("Ends", ends, "Of a rail on supports ('Track/Foundation').");
     section.add("Absorbing length (m)", absorbing_length,
-                "Of the part at each absorbing end; the wheel's path stays a sleeper spacing clear of "
-                "it. Longer ones absorb lower frequencies: from 0.6 m on it helps.",
+                "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
+                "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
                 Double(0.05, 100.));
     material.declare(section);
   }
@@ -96,7 +106,18 @@ namespace tread
 
   RailProfile RailSection::standard_profile() const
   {
-    return profile == ProfileName::rail_54e1 ? RailProfile::rail_54e1() : RailProfile::rail_60e1();
+    switch (profile)
+      {
+      case ProfileName::rail_54e1:
+        return RailProfile::rail_54e1();
+      case ProfileName::rail_60e1:
+        return RailProfile::rail_60e1();
+      case ProfileName::rail_49e1:
+        return RailProfile::rail_49e1();
+      case ProfileName::rail_cn60:
+        return RailProfile::rail_cn60();
+      }
+    throw std::logic_error("a rail profile without a section");
   }
 
 

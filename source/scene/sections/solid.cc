@@ -29,15 +29,14 @@ namespace tread
       "the "
       "micro-slip and nothing else that can be seen; larger values shorten the stable time step.",
       Double(0., 10.));
-    section.add(
-      "Mass damping (1 per s)", mass_damping,
-      "Of motion relative to the rigid bodies: a wave fades by half in 1.4 over this. Removes what the "
-      "start leaves ringing; only for quasi-static scenes.",
-      Double(0., 1e6));
+    section.add("Mass damping (1 per s)", mass_damping,
+                "Damping of motion relative to the rigid bodies: a wave fades by half in 1.4 over this. It "
+                "removes oscillations that the start excites; only for quasi-static scenes.",
+                Double(0., 1e6));
     section.add("Linear bulk viscosity", linear_bulk_viscosity,
-                "Against ringing behind fronts; 0.06 is usual for impact.", Double(0., 10.));
+                "Damps ringing behind wave fronts; 0.06 is usual for impact.", Double(0., 10.));
     section.add("Quadratic bulk viscosity", quadratic_bulk_viscosity,
-                "In compression only; 1.2 is usual for impact.", Double(0., 10.));
+                "Damps compression only; 1.2 is usual for impact.", Double(0., 10.));
   }
 
 

@@ -25,9 +25,11 @@ namespace tread
     section.choose(
       "Tractions", tractions, "",
       "On a track the start takes some times as many iterations, and lateral tractions build up.");
-    section.add("Tolerance", tolerance, "Of the force balance at the start, share of the largest force.",
+    section.add("Tolerance", tolerance,
+                "Largest residual of the force balance at the start, as a share of the largest force.",
                 Double(1e-12, 0.01));
-    section.add("Largest number of iterations", max_iterations, "Of the dynamic relaxation.",
+    section.add("Largest number of iterations", max_iterations,
+                "Limit for the dynamic relaxation that finds the equilibrium at the start.",
                 Integer(1, 100000000));
   }
 } // namespace tread

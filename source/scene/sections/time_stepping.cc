@@ -10,14 +10,14 @@ namespace tread
     Section section(handler, "Time stepping");
 
     section.add("Courant number", courant_number,
-                "Time step over the critical one. With 'Levels' above 1 and no mass damping at most 0.9 is "
-                "taken: longer steps resonate on some meshes.",
+                "Time step over the critical one. With 'Levels' above 1 and no mass damping it is at most "
+                "0.9, because longer steps resonate on some meshes.",
                 Double(0.01, 1.));
     section.add(
       "Levels", levels,
-      "Cells twice, four times, ... as slow as the fastest step only every second, fourth, ... time. "
-      "1: all cells in every step. More levels pay where much of the mesh is coarse; results are at "
-      "least 2^(levels - 1) steps apart.",
+      "Number of levels of time steps: cells whose critical step is twice, four times, ... the shortest one "
+      "are evaluated in every second, fourth, ... step only. 1: all cells in every step. More levels pay "
+      "where much of the mesh is coarse; results are then at least 2^(levels - 1) steps apart.",
       Integer(1, 6));
   }
 } // namespace tread

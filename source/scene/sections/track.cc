@@ -42,61 +42,76 @@ namespace tread
                    "With layers the rail's ends are planes of symmetry, and supports move vertically only.");
     section.choose("Sleepers", sleepers, "Of two layers.");
     section.add("Sleeper spacing (m)", sleeper_spacing,
-                "Between the supports' middles. The rail must end between half a pad and half a "
-                "spacing beyond its last supports.",
+                "Distance between the middles of neighbouring supports. The rail must end between half a pad "
+                "and half a spacing beyond its last supports.",
                 Double(0.05, 10.));
     section.add("Support 0 (mm)", support_0,
                 "x of the support with number 0. Numbers grow in rolling direction.",
                 Double(-20000., 20000.));
-    section.add("Pad stiffness (MN per m)", pad_stiffness, "Of a whole support, vertical.", stiffness);
-    section.add("Pad damping (kN s per m)", pad_damping, "Of a whole support, vertical.", damping);
+    section.add("Pad stiffness (MN per m)", pad_stiffness,
+                "Vertical stiffness of the rail pad, for a whole rail seat.", stiffness);
+    section.add("Pad damping (kN s per m)", pad_damping,
+                "Vertical damping of the rail pad, for a whole rail seat.", damping);
     section.add("Pads pull", pads_pull,
-                "Whether pads with their fastenings hold a rail that rises. false: it leaves them.");
-    section.add("Pad length (mm)", pad_length, "Along the rail. Longer pads hold the rail's slope as well.",
+                "true: the fastenings hold the rail down, so that pads carry uplift as well as compression. "
+                "false: the rail can lift off its pads.");
+    section.add("Pad length (mm)", pad_length,
+                "Length of the pad along the rail. Longer pads resist the slope of the rail as well.",
                 Double(1., 2000.));
     section.add("Pad width (mm)", pad_width,
-                "Across the rail, at most the foot's. Wider pads resist the rail's rolling over more.",
+                "Width of the pad across the rail, at most that of the foot. Wider pads resist the roll-over "
+                "of the rail more.",
                 Double(1., 2000.));
     section.add("Points along", points_along,
-                "A pad acts at this many points along the rail (so does the ballast under a solid "
-                "sleeper). 1: the slope of the rail is free.",
+                "Number of points along the rail at which a pad acts (the ballast under a solid sleeper "
+                "likewise). 1: the pad does not resist the slope of the rail.",
                 Integer(1, 50));
-    section.add("Points across", points_across,
-                "The same across the rail. 1: nothing keeps the rail from tipping over, so only for "
-                "upright rails that are loaded on y = 0 and whose crown radius exceeds their height.",
-                Integer(1, 50));
+    section.add(
+      "Points across", points_across,
+      "Number of points across the rail at which a pad acts. 1: nothing keeps the rail from rolling over, so "
+      "only for upright rails that are loaded on y = 0 and whose crown radius exceeds their height.",
+      Integer(1, 50));
     section.add("Sleeper mass (kg)", sleeper_mass,
-                "What one rail's support carries: half a sleeper. Sets the height of a solid one.",
+                "Mass of the sleeper under one rail: half a sleeper. It sets the height of a solid one.",
                 Double(1e-3, 1e6));
-    section.add("Sleeper length (m)", sleeper_length, "Whole, of a solid sleeper.", Double(0.1, 10.));
+    section.add("Sleeper length (m)", sleeper_length, "Length of a whole solid sleeper.", Double(0.1, 10.));
     section.add("Sleeper width (mm)", sleeper_width,
-                "Along the rail, of a solid sleeper; not below the pad's length.", Double(1., 2000.));
+                "Width of a solid sleeper along the rail; not below the length of the pad.",
+                Double(1., 2000.));
     section.add("Rail distance (mm)", rail_distance,
-                "Between the middles of both rails, with solid sleepers: half of it to the track's "
-                "middle, at y < 0.",
+                "Distance between the middles of both rails, for solid sleepers: the middle of the track "
+                "lies half of it away, at y < 0.",
                 Double(1., 5000.));
-    section.add("Sleeper Young's modulus (GPa)", sleeper_young_modulus, "Of a solid sleeper.",
+    section.add("Sleeper Young's modulus (GPa)", sleeper_young_modulus, "Young's modulus of a solid sleeper.",
                 Double(1e-3, 1e4));
-    section.add("Sleeper Poisson's ratio", sleeper_poisson_ratio, "Of a solid sleeper.", Double(0., 0.49));
-    section.add("Sleeper density (kg per m3)", sleeper_density, "Of a solid sleeper.", Double(1., 1e5));
+    section.add("Sleeper Poisson's ratio", sleeper_poisson_ratio, "Poisson's ratio of a solid sleeper.",
+                Double(0., 0.49));
+    section.add("Sleeper density (kg per m3)", sleeper_density, "Density of a solid sleeper.",
+                Double(1., 1e5));
     section.add("Ballast stiffness (MN per m)", ballast_stiffness,
-                "Of a whole support (one rail's), vertical.", stiffness);
-    section.add("Ballast damping (kN s per m)", ballast_damping, "Of a whole support (one rail's), vertical.",
-                damping);
+                "Vertical stiffness of the ballast under one rail's half of a sleeper.", stiffness);
+    section.add("Ballast damping (kN s per m)", ballast_damping,
+                "Vertical damping of the ballast under one rail's half of a sleeper.", damping);
     section.add(
       "Support file", support_file,
       "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "
       "of names: support, its number, and any of pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
       "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m, in place of the parameters of these names, "
       "and ballast_gap_mm, of a sleeper that hangs as far above its ballast.");
-    section.add("Co-running mass (kg)", co_running_mass,
-                "Of the track that moves with the rail under the wheel, without the rail's cells.",
-                Double(10., 1e6));
+    section.add(
+      "Co-running mass (kg)", co_running_mass,
+      "Mass of the track that moves with the rail under the wheel, without the meshed part of the rail.",
+      Double(10., 1e6));
     section.add("Vertical stiffness (MN per m)", vertical_stiffness,
-                "Of the co-running track under a wheel. About the equilibrium at the start.", stiffness);
-    section.add("Vertical damping (kN s per m)", vertical_damping, "Of the co-running track.", damping);
-    section.add("Lateral stiffness (MN per m)", lateral_stiffness, "Of the co-running track.", stiffness);
-    section.add("Lateral damping (kN s per m)", lateral_damping, "Of the co-running track.", damping);
+                "Vertical stiffness of the co-running track under a wheel; the force counts from the "
+                "equilibrium at the start.",
+                stiffness);
+    section.add("Vertical damping (kN s per m)", vertical_damping,
+                "Vertical damping of the co-running track.", damping);
+    section.add("Lateral stiffness (MN per m)", lateral_stiffness,
+                "Lateral stiffness of the co-running track.", stiffness);
+    section.add("Lateral damping (kN s per m)", lateral_damping, "Lateral damping of the co-running track.",
+                damping);
   }
 
 

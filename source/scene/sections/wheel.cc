@@ -24,34 +24,43 @@ namespace tread
     Section          section(handler, "Wheel");
 
     section.choose("Shape", shape);
-    section.add("Radius (mm)", radius, "Rolling radius. Sets the curvature along the rail.",
+    section.add("Radius (mm)", radius, "Rolling radius of the wheel. It sets the curvature along the rail.",
                 Double(10., 2000.));
     section.add("Mass (kg)", mass,
-                "Of all that is unsprung, meshed or not: wheel, half axle, axle box. It loads the contact.",
+                "Unsprung mass per wheel (wheel, half axle, axle box), whether meshed or not; its weight is "
+                "part of the wheel load.",
                 Double(tiny));
-    section.add("Moment of inertia (kg m2)", moment_of_inertia,
-                "About the axle, of the same. Matters when a torque drives.", Double(tiny));
-    section.add("Sector thickness (mm)", sector_thickness,
-                "Radial size of a sector. Thicker is nearer to a half-space. Where 'Wheelset' has a "
-                "position: of wheel and "
-                "rail behind the surface, at right angles to the contact.",
-                Double(1., 1000.));
+    section.add(
+      "Moment of inertia (kg m2)", moment_of_inertia,
+      "Moment of inertia of the unsprung mass about the axle. It matters when a torque drives the wheel.",
+      Double(tiny));
+    section.add(
+      "Sector thickness (mm)", sector_thickness,
+      "Radial thickness of a sector; a thicker one is nearer to a half-space. Where 'Wheelset' has a "
+      "position: thickness of wheel and rail behind their surfaces, at right angles to the contact.",
+      Double(1., 1000.));
     section.add("Sector width (mm)", sector_width,
-                "Lateral size of a sector. Where 'Wheelset' has a position: of wheel and rail along the "
-                "surface across the path.",
+                "Lateral width of a sector. Where 'Wheelset' has a position: width of wheel and rail along "
+                "their surfaces, across the path.",
                 Double(1., 1000.));
     section.add("Sector margin (mm)", sector_margin,
-                "Arc of a sector beyond the rolled distance, at each end.", Double(0., 1000.));
-    section.add("Rim inner radius (mm)", rim_inner_radius,
-                "Full wheel. Above the hub's outer radius, below the wheel's radius.", Double(1., 2000.));
-    section.add("Rim width (mm)", rim_width, "Full wheel. Above the web's thickness.", Double(1., 1000.));
-    section.add("Web thickness (mm)", web_thickness, "Full wheel. Below rim width and hub length.",
+                "Length of the arc by which a sector extends beyond the rolled distance at each end.",
+                Double(0., 1000.));
+    section.add(
+      "Rim inner radius (mm)", rim_inner_radius,
+      "Inner radius of the rim of a full wheel; above the hub's outer radius and below the wheel's radius.",
+      Double(1., 2000.));
+    section.add("Rim width (mm)", rim_width,
+                "Width of the rim of a full wheel; above the thickness of the web.", Double(1., 1000.));
+    section.add("Web thickness (mm)", web_thickness,
+                "Thickness of the web of a full wheel; below rim width and hub length.", Double(1., 1000.));
+    section.add("Hub outer radius (mm)", hub_outer_radius,
+                "Outer radius of the hub of a full wheel; above the radius of the bore.", Double(1., 2000.));
+    section.add("Hub length (mm)", hub_length,
+                "Length of the hub of a full wheel along the axle; above the thickness of the web.",
                 Double(1., 1000.));
-    section.add("Hub outer radius (mm)", hub_outer_radius, "Full wheel. Above the bore's radius.",
-                Double(1., 2000.));
-    section.add("Hub length (mm)", hub_length, "Full wheel. Above the web's thickness.", Double(1., 1000.));
-    section.add("Bore radius (mm)", bore_radius, "Full wheel: the rigid axle begins here.",
-                Double(1., 2000.));
+    section.add("Bore radius (mm)", bore_radius,
+                "Radius of the bore of a full wheel, in which the rigid axle sits.", Double(1., 2000.));
     section.add(
       "Tread profile", tread_profile,
       "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
@@ -59,14 +68,14 @@ namespace tread
       "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
       Anything());
     section.add("Tread profile mirrored", profile_placement.is_mirrored,
-                "Take the file's y with the other sign.");
+                "true: the sign of y in the file is reversed.");
     section.add(
       "Tread profile shift (mm)", profile_placement.shift,
       "Added to the file's y, after mirroring: where its y = 0 lies from the running circle, 70 mm from the "
       "back of the flange. A file that counts y from this back needs -70.",
       Double(-200., 200.));
     section.add("Lateral position (mm)", lateral_position,
-                "y of the running circle over the rail's middle; the flange lies at y < 0.",
+                "y of the running circle relative to the middle of the rail; the flange lies at y < 0.",
                 Double(-30., 30.));
     material.declare(section);
   }

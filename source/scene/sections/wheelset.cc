@@ -23,41 +23,45 @@ namespace tread
     using dealii::Patterns::Double;
     Section section(handler, "Wheelset");
 
+    section.add("Lateral shift (mm)", shift, "none",
+                "Lateral displacement of the wheelset from the middle of the track, positive towards the "
+                "side of the modelled wheel (its own side), so that the flange of this wheel approaches its "
+                "rail. A number, 0 too, puts the wheel with its flange into the track. none: an upright "
+                "wheel over the rail, at 'Wheel/Lateral position (mm)'.",
+                Double(-100., 100.));
+    section.add("Yaw (mrad)", yaw,
+                "Yaw of the wheelset, positive when its leading side turns towards the side of the modelled "
+                "wheel, so that this wheel falls behind the other. Up to 5 degrees.",
+                Double());
     section.add(
-      "Lateral shift (mm)", shift, "none",
-      "Of the wheelset from the middle of the track, positive towards the wheel's own side: its flange "
-      "then approaches the rail. A number, 0 too, puts the wheel with its flange into the track. none: an "
-      "upright wheel over the rail, at 'Wheel/Lateral position (mm)'.",
-      Double(-100., 100.));
-    section.add(
-      "Yaw (mrad)", yaw,
-      "Positive when the leading side turns to the own side, so that the own wheel falls back. Up to "
-      "5 degrees.",
+      "Roll (mrad)", roll,
+      "Roll of the wheelset, positive when the side of the modelled wheel goes down. Up to 5 degrees.",
       Double());
-    section.add("Roll (mrad)", roll, "Positive when the own side goes down. Up to 5 degrees.", Double());
     section.add("Both wheels", both_wheels,
-                "Mesh both wheels on one axle, over both rails. Mass, inertia, load and suspension of the "
-                "wheel are those of each. The roll follows from both contacts. false: the own wheel alone.");
-    section.add(
-      "Axle torsional stiffness (MN m per rad)", axle_torsion, "rigid",
-      "Of the axle between both wheels, which twists from the start on. A number; rigid: it does not.",
-      Double(0.));
+                "true: both wheels are meshed, on one axle and over both rails. Mass, inertia, load and "
+                "suspension of the wheel are then those of each wheel, and the roll follows from both "
+                "contacts. false: one wheel is modelled, on its own side of the track.");
+    section.add("Axle torsional stiffness (MN m per rad)", axle_torsion, "rigid",
+                "Torsional stiffness of the axle between both wheels; twist counts from the start of the "
+                "run. rigid: the axle does not twist.",
+                Double(0.));
     section.add(
       "Axle bending stiffness (MN m2)", axle_bending, "rigid",
-      "E I of the axle between both wheels, which bends from the start on: what it bears then belongs to the "
-      "position. A number; rigid: it does not.",
+      "Bending stiffness E I of the axle between both wheels; bending counts from the start of the run, so "
+      "that the position includes what the static load bends. rigid: the axle does not bend.",
       Double(0.));
-    section.add("Axle damping (us)", axle_damping,
-                "Of a flexible axle, over its stiffness: twice the damping ratio over the angular frequency.",
-                Double(0., 1e5));
-    section.add("Track gauge (mm)", track.gauge, "Between the gauge faces of both rails.",
+    section.add(
+      "Axle damping (us)", axle_damping,
+      "Damping of a flexible axle over its stiffness: twice the damping ratio over the angular frequency.",
+      Double(0., 1e5));
+    section.add("Track gauge (mm)", track.gauge, "Track gauge, between the gauge faces of both rails.",
                 Double(500., 3000.));
     section.add("Gauge depth (mm)", track.measuring_depth,
-                "Below the rail tops, where the gauge is measured.", Double(1., 30.));
-    section.add("Flange-back distance (mm)", track.back_distance, "Between the backs of both flanges.",
-                Double(400., 3000.));
-    section.add("Flange back (mm)", track.back_position,
-                "Where the wheel's profile has the back of its flange.", Double(-200., 0.));
+                "Depth below the rail tops at which the gauge is measured.", Double(1., 30.));
+    section.add("Flange-back distance (mm)", track.back_distance,
+                "Back-to-back distance of the wheels' flanges.", Double(400., 3000.));
+    section.add("Flange back (mm)", track.back_position, "y of the flange's back in the wheel's profile.",
+                Double(-200., 0.));
     section.choose("Slip over the patch", slip_over_patch,
                    "Rigid slip over a patch that is wide for its profiles.");
     section.add("Patch distance (mm)", patch_distance,

@@ -21,7 +21,9 @@ namespace tread
   enum class ProfileName
   {
     rail_54e1,
-    rail_60e1
+    rail_60e1,
+    rail_49e1,
+    rail_cn60
   };
 
   template <>

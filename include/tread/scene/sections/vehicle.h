@@ -11,6 +11,7 @@ namespace tread
   {
     double sprung_mass = 13400., suspension_stiffness = 1150e3, suspension_damping = 2500., gravity = 9.81;
     std::optional<double> wheel_load; ///< N; sets the sprung mass
+    std::optional<double> axle_load;  ///< kg on both wheels; sets the sprung mass
 
     void declare(dealii::ParameterHandler &handler);
   };
