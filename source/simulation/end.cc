@@ -3,6 +3,7 @@
 #include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
+#include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/simulation.h>
@@ -413,7 +414,7 @@ namespace tread
 
   std::vector<std::string> Simulation::doubts_at_start() const
   {
-    std::vector<std::string> doubts;
+    std::vector<std::string> doubts = MeasuredProfiles(scene).warnings(false);
     for (const std::string &doubt : {unseen_detail(), slow_step()})
       if (!doubt.empty())
         doubts.push_back(doubt);
@@ -545,6 +546,7 @@ namespace tread
     if (completed)
       add_doubts(warnings);
     const std::string stresses = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
+    MeasuredProfiles(scene).summarise(summary);
     summary.set("warnings", warnings);
     summary.set("history_crc32", folder.history_checksum());
     if (averaged)
