@@ -4,7 +4,7 @@
 
     plot-defects.py FILE... [--output PICTURE]
 
-Each file has columns x and z in mm; lines that start with # are passed over.
+Each file has columns x and z in mm, as the program reads them: blanks, semicolons or commas between them, comments behind #.
 """
 
 from __future__ import annotations

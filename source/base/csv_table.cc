@@ -3,47 +3,37 @@
 #include <tread/base/input_error.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <optional>
-#include <string_view>
 
 namespace tread
 {
   namespace
   {
-    std::string_view without_blanks(std::string_view text)
+    bool is_empty(const std::string &line)
     {
-      const auto first = text.find_first_not_of(" \t\r");
-      return first == text.npos ? std::string_view()
-                                : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+      return line.find_first_not_of(" \t\r") == line.npos;
     }
 
-    std::vector<std::string_view> split(const std::string_view line)
+    bool is_number(const std::string &entry)
     {
-      std::vector<std::string_view> parts;
-      for (std::size_t begin = 0; begin <= line.size();)
-        {
-          const std::size_t end = std::min(line.find(',', begin), line.size());
-          parts.push_back(without_blanks(line.substr(begin, end - begin)));
-          begin = end + 1;
-        }
-      return parts;
-    }
-
-    /// The same in any locale.
-    std::optional<double> number(std::string_view text)
-    {
-      if (text.size() > 1 && text.front() == '+' && text[1] != '-')
-        text.remove_prefix(1);
-      double     value  = 0.;
-      const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-        return {};
-      return value;
+      return number_in(entry, '.') || number_in(entry, ',');
     }
   } // namespace
+
+
+  std::vector<NumberedLine> csv_lines(const std::string &file)
+  {
+    std::vector<NumberedLine> lines;
+    unsigned int              number = 0;
+    for (std::string &line : read_lines(file))
+      {
+        ++number;
+        // Comments may stand before the names.
+        if (!is_empty(line) && !(lines.empty() && (line.front() == '#' || line.front() == '%')))
+          lines.push_back({number, std::move(line)});
+      }
+    return lines;
+  }
 
 
   CsvTable::CsvTable(const std::string                              &file,
@@ -52,16 +42,39 @@ namespace tread
                      const std::function<bool(const std::string &)> &is_word)
     : file(file)
   {
-    std::ifstream stream(file);
-    std::string   line;
-    if (!std::getline(stream, line))
-      throw InputError(stream.is_open() && stream.eof() ? "'" + file + "' is empty" : unreadable);
-    if (line.compare(0, 3, "\xef\xbb\xbf") == 0) // byte order mark
-      line.erase(0, 3);
-    const std::vector<std::string_view> all = split(line);
-    std::vector<std::size_t>            place;
+    const std::vector<NumberedLine> lines = [&] {
+      try
+        {
+          return csv_lines(file);
+        }
+      catch (const TextError &error)
+        {
+          const std::string what = error.what();
+          throw InputError(unreadable + (what == "cannot be read" ? "" : ": it " + what));
+        }
+    }();
+    if (lines.empty())
+      throw InputError("'" + file + "' is empty");
+    const std::vector<NumberedLine> below(lines.begin() + 1, lines.end());
+    try
+      {
+        grammar_of_rows = grammar_below(lines.front().text, below);
+      }
+    catch (const TextError &error)
+      {
+        throw InputError("'" + file + "', " + error.what());
+      }
+    const char               separator = grammar_of_rows.separator, decimal = grammar_of_rows.decimal;
+    std::vector<std::string> all = entries_of(lines.front().text, separator);
+    if (all.size() > 1 && all.back().empty()) // a separator that ends the line
+      all.pop_back();
+    if (std::all_of(all.begin(), all.end(), is_number))
+      throw InputError("'" + file +
+                       "' begins with numbers, where the names of the columns must stand: a matrix, "
+                       "or a table without its first line, cannot be read");
+    std::vector<std::size_t> place;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (const std::string name(all[i]); wanted(name))
+      if (const std::string &name = all[i]; wanted(name))
         {
           if (has(name))
             throw InputError("'" + file + "' has two columns '" + name + "'");
@@ -71,25 +84,32 @@ namespace tread
     const std::size_t n_columns = all.size();
     values.resize(place.size());
     texts.resize(place.size());
-    while (std::getline(stream, line))
+    for (const NumberedLine &line : below)
       {
-        if (without_blanks(line).empty())
+        // What stands behind numbers as a comment; words may have its sign in them.
+        const std::string text  = is_word ? line.text : line.text.substr(0, line.text.find('#'));
+        auto              parts = entries_of(text, separator);
+        if (is_empty(text))
           continue;
+        if (parts.size() == n_columns + 1 && parts.back().empty())
+          parts.pop_back();
         const std::string where = "'" + file + "', row " + std::to_string(++rows) + ": ";
-        const auto        parts = split(line);
         if (parts.size() != n_columns)
           throw InputError(where + std::to_string(parts.size()) + " entries for " +
-                           std::to_string(n_columns) + " columns");
+                           std::to_string(n_columns) + " columns" +
+                           (separator == ',' && parts.size() > n_columns
+                              ? ": numbers with decimal commas need semicolons between the columns"
+                              : ""));
         for (std::size_t i = 0; i < place.size(); ++i)
           {
             if (is_word && is_word(read_names[i]))
               {
-                texts[i].emplace_back(parts[place[i]]);
+                texts[i].push_back(parts[place[i]]);
                 continue;
               }
-            const auto value = number(parts[place[i]]);
+            const auto value = number_in(parts[place[i]], decimal);
             if (!value)
-              fail(rows, i, std::string(parts[place[i]]));
+              fail(rows, i, parts[place[i]]);
             values[i].push_back(*value);
           }
       }

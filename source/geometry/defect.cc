@@ -116,7 +116,9 @@ namespace tread
     if (!(deepest > 0.))
       throw std::runtime_error(datum == LineDatum::fitted
                                  ? "the profile is straight"
-                                 : "a defect's profile must lie below the line between its ends");
+                                 : "the profile lies above the line between its ends, and a defect of 'Shape' profile lies "
+                                 "below it: if its depth is counted downwards, change the sign of z; a raised "
+                                 "weld is given by 'Shape' map");
 
     Defect defect;
     defect.length = length;

@@ -75,9 +75,23 @@ namespace tread
 
   HeightMap::Rows HeightMap::read_table(const std::string &file)
   {
-    const CsvTable table(
-      file, [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
-      "cannot read '" + file + "'");
+    const CsvTable table = [&] {
+      try
+        {
+          return CsvTable(
+            file, [](const std::string &name) { return name == "x_mm" || name == "y_mm" || name == "z_mm"; },
+            "cannot read '" + file + "'");
+        }
+      catch (const InputError &error)
+        {
+          const std::string what = error.what();
+          throw InputError(what +
+                           (what.find("begins with numbers") != what.npos
+                              ? "; a map needs columns x_mm, y_mm and z_mm, a row for each place; matrices "
+                                "are read from HDF5 (.h5)"
+                              : ""));
+        }
+    }();
     return {file, table.column("x_mm"), table.column("y_mm"), table.column("z_mm")};
   }
 

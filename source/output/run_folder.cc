@@ -93,7 +93,7 @@ namespace tread
       "transient|"
       "rail_cells|"
       "rail_surface|strip|peak_stress(_wheel)?|rail_seats|cells|passages|dynamic|spectrum|modes|"
-      "receptance)\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
+      "receptance|measured_(rail|wheel))\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
       "checkpoint-[01]|checkpoint\\.last|"
       "(volume|surface|modes)(\\.pvd|\\.xdmf|\\.h5|-[0-9]{4,}\\.(vtu|h5)))(\\.part)?");
     return std::regex_match(name, own);

@@ -118,6 +118,10 @@ namespace tread
        "What the run takes for granted, in words: scaled density, damping, the type of start, ..."},
       {"unused_parameters",
        "What the scene sets and another of its parameters leaves without effect, in words"},
+      {"wheel_profile_largest_change_m", "By how much 'Wheel/Smoothing length (mm)' moved a point of the "
+                                         "measured tread at most, at right angles to "
+                                         "it; only where it is above 0"},
+      {"rail_profile_largest_change_m", "The same of 'Rail/Smoothing length (mm)' and the measured head"},
       {"warnings",
        "Measures of quality beyond their thresholds and other reasons to doubt the figures, in words"}};
 

@@ -3,6 +3,7 @@
 #include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
+#include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/simulation.h>
@@ -470,7 +471,7 @@ namespace tread
 
   std::vector<std::string> Simulation::doubts_at_start() const
   {
-    std::vector<std::string> doubts;
+    std::vector<std::string> doubts = MeasuredProfiles(scene).warnings(false);
     for (const std::string &doubt : {unseen_detail(), slow_step()})
       if (!doubt.empty())
         doubts.push_back(doubt);
@@ -605,6 +606,7 @@ namespace tread
     const std::string plastic_strain = add_plastic_strain(
       summary, dynamics, wheels.front().body,
       [&](const dealii::Point<3> &place) { return scene.depth_in_rail(place); }, comm);
+    MeasuredProfiles(scene).summarise(summary);
     summary.set("warnings", warnings);
     summary.set("history_crc32", folder.history_checksum());
     if (averaged)

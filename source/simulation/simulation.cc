@@ -2,6 +2,7 @@
 #include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/base/went_wrong.h>
+#include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/checkpoint.h>
@@ -446,6 +447,7 @@ namespace tread
     if (resume && folder.is_complete())
       folder.remove_solution();
     folder.write("parameters.prm", effective.str());
+    MeasuredProfiles(scene).write(folder);
     checked_position = position();
     if (next_wheel_due && !begin_next_passage(progress))
       return false;
@@ -504,6 +506,8 @@ namespace tread
       progress.say("WARNING: " + unused);
     if (const std::string defect = scene.defect_in_words(); !defect.empty())
       progress.say(defect);
+    for (const std::string &line : MeasuredProfiles(scene).smoothing())
+      progress.say(line);
     if (const double gain = dynamics.ideal_gain_of_levels(); gain > 1.)
       progress.say(
         format("time steps in %u levels: 1/%.2f of the cell updates", dynamics.max_level() + 1, gain));

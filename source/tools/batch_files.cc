@@ -41,7 +41,9 @@ namespace tread
                                        "adhesion_share,iterations,area_m2,"
                                        "approach_m,frictional_work_J_per_m,status,";
 
-    std::vector<tread_half_space_case> read_cases(const std::string &file, std::string &not_read)
+    std::vector<tread_half_space_case> read_cases(const std::string &file,
+                                                  std::string       &not_read,
+                                                  TableGrammar      &grammar)
     {
       const CsvTable table(
         file,
@@ -58,11 +60,12 @@ namespace tread
         "--batch: cannot read '" + file + "'");
       if (table.n_rows() == 0)
         throw InputError("'" + file + "' has no rows");
+      grammar = table.grammar();
       std::vector<tread_half_space_case> cases(table.n_rows());
       for (const CaseColumn &c : case_columns)
         if (c.required || table.has(c.name))
           for (std::size_t row = 0; row < cases.size(); ++row)
-            cases[row].*c.value = table.column(c.name)[row];
+            cases[row].*c.value = table.column_as_it_is(c.name)[row]; // nan is refused with its row alone
       for (std::size_t row = 0; row < cases.size(); ++row)
         {
           const double order = table.has(order_column)     ? table.column(order_column)[row]
@@ -76,35 +79,49 @@ namespace tread
       return cases;
     }
 
-    /// The rows as they are, each with its answer.
+    /// The rows as they are, each with its answer, by the grammar of the table.
     void write_answers(const std::string                          &cases,
                        const std::string                          &output,
+                       const TableGrammar                         &grammar,
                        const std::vector<tread_half_space_answer> &answers)
     {
-      std::ifstream rows(cases);
+      const std::vector<NumberedLine> lines = csv_lines(cases);
       // Never a half-written table under its own name, but devices and pipes are written to as they are.
       const bool is_file     = !std::filesystem::exists(output) || std::filesystem::is_regular_file(output);
       const std::string part = is_file ? output + ".part" : output;
       std::ofstream     file(part);
-      std::string       line;
-      const auto        copy = [&] {
-        std::getline(rows, line);
-        line.erase(line.find_last_not_of(" \t\r") + 1);
+      // Our own columns have commas and points.
+      const auto in_grammar = [&](std::string own) {
+        for (char &c : own)
+          if (c == ',')
+            c = grammar.separator;
+          else if (c == '.')
+            c = grammar.decimal;
+        return own;
       };
-      copy();
-      if (line.compare(0, 3, "\xef\xbb\xbf") == 0)
-        line.erase(0, 3);
-      file << line << answer_columns.substr(0, answer_columns.size() - 1) << '\n';
+      // A separator that ends a line is left out.
+      const std::size_t n_entries = entries_of(lines.front().text, grammar.separator).size(),
+                        n_columns = n_entries - (lines.front().text.back() == grammar.separator ? 1 : 0);
+      const auto row_of           = [&](std::string line) {
+        line.erase(line.find_last_not_of(" \t\r") + 1);
+        if (entries_of(line, grammar.separator).size() == n_columns + 1)
+          line.pop_back();
+        return line;
+      };
+      file << row_of(lines.front().text) << in_grammar(answer_columns.substr(0, answer_columns.size() - 1))
+           << '\n';
+      std::size_t at = 0;
       for (const tread_half_space_answer &a : answers)
         {
+          std::string line;
           do
-            copy();
-          while (line.empty() && rows);
+            line = row_of(lines[++at].text.substr(0, lines[at].text.find('#')));
+          while (line.empty());
           char text[300];
-          std::snprintf(text, sizeof(text), ",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d\n",
+          std::snprintf(text, sizeof(text), ",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d",
                         a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure,
                         a.adhesion_share, a.iterations, a.area, a.approach, a.frictional_work, a.status);
-          file << line << text;
+          file << line << in_grammar(text) << '\n';
         }
       file.close();
       if (!file)
@@ -136,13 +153,14 @@ namespace tread
       throw InputError("--batch reads its table twice; '" + cases + "' is no file");
     Progress                                 progress(true);
     std::string                              not_read;
-    const std::vector<tread_half_space_case> problems = read_cases(cases, not_read);
+    TableGrammar                             grammar;
+    const std::vector<tread_half_space_case> problems = read_cases(cases, not_read, grammar);
     if (!not_read.empty())
       progress.say("note: columns that mean nothing here, kept: " + not_read);
     std::vector<tread_half_space_answer> answers(problems.size());
     const std::size_t                    failed =
       tread_half_space_solve_all(problems.data(), problems.size(), 0, answers.data());
-    write_answers(cases, output, answers);
+    write_answers(cases, output, grammar, answers);
     progress.say(
       format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
     // Strains are about pressure over Young's modulus; NaN compares false.

@@ -5,6 +5,7 @@
 #include <tread/reference/subsurface.h>
 #include <tread/reference/transient.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/measured_profiles.h>
 #include <tread/tools/reference_only.h>
 
 #include <deal.II/base/mpi.h>
@@ -234,6 +235,10 @@ namespace tread
     summary.set("normal_residual", half_space.normal_residual);
     summary.set("tangential_iterations", half_space.tangential_iterations);
     summary.set("tangential_residual", half_space.tangential_residual);
+    const MeasuredProfiles         profiles(scene);
+    const std::vector<std::string> warnings = profiles.warnings();
+    profiles.summarise(summary);
+    summary.set("warnings", warnings);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
@@ -248,6 +253,7 @@ namespace tread
     folder.write_surface(nodes, half_space.element_size);
     folder.join_pictures();
     folder.write("subsurface.csv", subsurface);
+    profiles.write(folder);
     std::string       no_transient;
     const std::string transient = transient_table(scene, estimate, no_transient);
     if (!transient.empty())
@@ -262,6 +268,10 @@ namespace tread
                   1e3 * half_space.element_size, 1e-3 * half_space.normal_force, 1e6 * half_space.approach,
                   half_space.traction_coefficient);
     progress.say(text);
+    for (const std::string &line : profiles.smoothing())
+      progress.say(line);
+    for (const std::string &warning : warnings)
+      progress.say("WARNING: " + warning);
     if (scene.made_defect())
       progress.say("the defect is left out: half-space theory rolls over a smooth rail");
     progress.say(summary.table());

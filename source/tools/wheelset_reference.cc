@@ -4,6 +4,7 @@
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/measured_profiles.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/tools/wheelset_reference.h>
@@ -25,6 +26,9 @@ namespace tread
     std::vector<std::string> warnings = limits_of_half_space(contact.patches);
     for (const std::string &warning : climbing_patches(placed.surfaces, contact.patches))
       warnings.push_back(warning);
+    const MeasuredProfiles profiles(scene);
+    for (const std::string &warning : profiles.warnings())
+      warnings.push_back(warning);
 
     Summary summary;
     summarise_wheelset(summary, scene, "half-space solver", contact, given_angular_velocity(scene), true);
@@ -34,6 +38,7 @@ namespace tread
     summary.show("frictional_power_W", "frictional power, W", 1., frictional_power(contact));
     summary.set("solutions", contact.turns);
     summary.set("patches", patches_as_json(contact.patches, rail_y));
+    profiles.summarise(summary);
     summary.set("warnings", warnings);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
@@ -45,6 +50,7 @@ namespace tread
     folder.remove_results();
     folder.write("parameters.prm", effective.str());
     folder.write_patch("patch.csv", placed.table_nodes());
+    profiles.write(folder);
     folder.write("summary.json", summary.text());
 
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
@@ -53,6 +59,8 @@ namespace tread
       "patch in contact axes\n",
       1e3 * contact.position.shift, 1e3 * contact.position.yaw, 1e3 * contact.position.roll,
       given_angular_velocity(scene)));
+    for (const std::string &line : profiles.smoothing())
+      progress.say(line);
     progress.say(table_of_patches(contact.patches, rail_y));
     progress.say(summary.table());
     for (const std::string &warning : warnings)

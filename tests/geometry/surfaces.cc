@@ -364,6 +364,84 @@ namespace
     check.absolute("measured wave: no slope, um", 1e6 * moment / 451. / 225., 0., 0.3);
   }
 
+  /// What the header of Simpack's files does, in its order, and what MiniProf's means.
+  void check_headers(tests::Check &check)
+  {
+    const auto worn = [](const double y_mm) {
+      return (y_mm - 3.) * (y_mm - 3.) / 600.;
+    };
+    const auto check_head = [&](const std::string &what, const std::string &name, const std::string &text,
+                                const double allowed) {
+      std::ofstream(name, std::ios::binary) << text;
+      const MeasuredLine head = read_rail_head(name, 25e-3, 25e-3);
+      std::remove(name.c_str());
+      for (const double y : {-17.3, 3., 22.1})
+        check.absolute(what + " at " + std::to_string(y) + " mm, um", 1e6 * head(1e-3 * y), -1e3 * worn(y),
+                       allowed);
+    };
+    // Shifted, turned by 2 degrees, clipped, mirrored, in inches.
+    const double angle = 2. * dealii::numbers::PI / 180., c = std::cos(angle), s = std::sin(angle);
+    std::string  text =
+      "spline.begin\n mirror.y = 1\n units.len.f = 39.37007874015748\n units.ang.f = 57.29577951\n"
+      " bound.y.min = -1.14\n bound.y.max = 1.19\n rotate = 2\n shift.y = 0.5 ! inch\n shift.z = -0.25\n"
+      "point.begin\n";
+    for (double y = -34.; y <= 34.01; y += 0.5)
+      {
+        // Beyond -30 and 28.9 mm lies debris. The last step first.
+        const double a = -y / 25.4, b = (worn(y) + (y < -30.3 || y > 29. ? -9. : 0.)) / 25.4;
+        char         row[80];
+        std::snprintf(row, sizeof row, "%.9f %.9f\n", c * a + s * b - 0.5, -s * a + c * b + 0.25);
+        text += row;
+      }
+    check_head(".prr with all steps", "geometry_surfaces.prr", text + "point.end\n", 0.02);
+
+    std::string rows, by_columns, near;
+    for (int y = -30; y <= 30; ++y)
+      {
+        rows += std::to_string(y) + " " + std::to_string(worn(y)) + " 0.1\n";
+        by_columns += "0.5," + std::to_string(worn(y) + 0.75) + "," + std::to_string(y - 1.5) + "\n";
+      }
+    check_head("MiniProf of an old age", "geometry_surfaces.ban", "Line 3 left\n1435 20\n24.03.98\n\n" + rows,
+               0.02);
+    check_head("MiniProf without a heading, an empty line among its points", "geometry_surfaces.ban",
+               rows.substr(0, rows.find("4 ")) + "\n" + rows.substr(rows.find("4 ")), 0.02);
+    check_head("MiniProf whose columns are named", "geometry_surfaces.ban",
+               "ColumnDef=A,Y,X\nXOffset=1,5\nYOffset=-0.75\nXYPoints=61\n\n" + by_columns, 0.02);
+    // Of points nearer than the least distance the first is kept.
+    near = "point.dist.min = 0.2\npoint.begin\n";
+    for (int y = -30; y <= 30; ++y)
+      near += std::to_string(y) + " " + std::to_string(worn(y)) + "\n" + std::to_string(y + 0.1) + " " +
+              std::to_string(worn(y) - 0.004) + "\n";
+    check_head(".prr with a least distance", "geometry_surfaces.prr", near + "point.end\n", 0.02);
+  }
+
+  /// A wheel with the face of its rim, 36 mm high: further from the tread than the flange.
+  void check_rim_face(tests::Check &check)
+  {
+    for (const double side : {1., -1.})
+      for (const double up : {1., -1.})
+        {
+          std::string rows;
+          const auto  add = [&](const double y, const double z) {
+            rows += std::to_string(side * y) + " " + std::to_string(up * z) + "\n";
+          };
+          for (double y = -66.; y <= 60.; y += 0.25)
+            add(y, -1e3 * s1002_offset(1e-3 * y));
+          for (double z = -1e3 * s1002_offset(60e-3) + 1.; z < 38.; z += 1.)
+            add(60.01 + 0.001 * z, z);
+          std::ofstream("geometry_surfaces.txt") << rows;
+          const MeasuredLine                  tread  = read_wheel_tread("geometry_surfaces.txt", 25e-3);
+          const std::vector<dealii::Point<2>> points = read_wheel_points("geometry_surfaces.txt");
+          const std::string                   what   = std::string("wheel with a rim's face, flange at ") +
+                                   (side > 0. ? "-" : "+") + "y, z " + (up > 0. ? "up" : "down") + ": ";
+          for (const double y : {-21.2, 17.4})
+            check.absolute(what + "at " + std::to_string(y) + " mm, um", 1e6 * tread(1e-3 * y),
+                           -1e6 * s1002_offset(1e-3 * y), 0.5);
+          check.absolute(what + "begins at, mm", 1e3 * points.front()[0], -66., 1e-9);
+        }
+    std::remove("geometry_surfaces.txt");
+  }
+
   void check_files(tests::Check &check)
   {
     // The same arc of 300 mm in all formats.
@@ -410,13 +488,13 @@ namespace
       check.absolute("S1002 from .prw at " + std::to_string(y) + " mm, um", 1e6 * tread(1e-3 * y),
                      1e6 * s1002_offset(1e-3 * y), 0.02);
 
-    // A head whose top lies 7 mm to the field side, mirrored and shifted in the file.
+    // A head whose top lies 7 mm to the field side, shifted and then mirrored by the file.
     const auto worn = [](const double y_mm) {
       return (y_mm - 7.) * (y_mm - 7.) / 600.;
     };
     std::string moved = "mirror.y = 1\nshift.y = 4.0\nshift.z = -2.5\npoint.begin\n";
     for (int y = 30; y >= -30; --y)
-      moved += std::to_string(4 - y) + " " + std::to_string(worn(y) + 2.5) + "\n";
+      moved += std::to_string(-4 - y) + " " + std::to_string(worn(y) + 2.5) + "\n";
     std::ofstream("geometry_surfaces.prr") << moved + "point.end\n";
     const MeasuredLine head = read_rail_head("geometry_surfaces.prr", 25e-3, 25e-3);
     std::remove("geometry_surfaces.prr");
@@ -516,6 +594,85 @@ namespace
          complaint("flange", ".txt", "-50 -30\n-45 -28\n-4 0\n-1 0\n-1 .1\n1 0\n4 0\n"),
          {"y = -1 mm", "twice"});
     says("a .ban with one column", complaint("rail", ".ban", "A=1\n1\n"), {"line 2", "two numbers"});
+
+    // What is no profile, or not that of the body that was asked for.
+    const auto rows_of = [](const auto &height, const double from, const double to, const double step,
+                            const double y_unit = 1., const double z_unit = 1.) {
+      std::string rows;
+      for (double y = from; y <= to + 1e-9; y += step)
+        {
+          char row[80];
+          std::snprintf(row, sizeof row, "%.9g %.9g\n", y_unit * y, z_unit * height(y));
+          rows += row;
+        }
+      return rows;
+    };
+    const auto crown = [&](const double y) {
+      return -arc(y);
+    };
+    const auto wheel = [](const double y) {
+      return -1e3 * s1002_offset(1e-3 * y);
+    };
+    says("a head in m", complaint("rail", ".txt", rows_of(crown, -32., 32., 1., 1e-3, 1e-3)),
+         {"lengths in m?"});
+    says("a head in inch", complaint("rail", ".txt", rows_of(crown, -32., 32., 1., 1. / 25.4, 1. / 25.4)),
+         {"inch"});
+    says("a head in um", complaint("rail", ".txt", rows_of(crown, -32., 32., 1., 1e3, 1e3)), {"in um"});
+    says("heights in um", complaint("rail", ".txt", rows_of(crown, -32., 32., 1., 1., 1e3)),
+         {"heights", "in um?"});
+    says("heights in m", complaint("rail", ".txt", rows_of(crown, -32., 32., 1., 1., 1e-3)),
+         {"heights", "in m?"});
+    says("heights in inch", complaint("rail", ".txt", rows_of(crown, -32., 32., 1., 1., 1. / 25.4)),
+         {"heights in another unit"});
+    says("a wheel in um", complaint("flange", ".txt", rows_of(wheel, -66., 60., 0.5, 1e3, 1e3)), {"in um"});
+    says("a wheel whose heights are in inch",
+         complaint("flange", ".txt", rows_of(wheel, -66., 60., 0.5, 1., 1. / 25.4)),
+         {"no flange", "another unit"});
+    says("a wheel for a rail", complaint("rail", ".txt", rows_of(wheel, -66., 60., 0.5)), {"wheel"});
+    says("a rail for a wheel",
+         complaint("flange", ".txt", rows_of([](const double y) { return -y * y / 80.; }, -36., 36., 0.5)),
+         {"no flange", "rail"});
+    says("a wheel whose flange is cut off", complaint("wheel", ".txt", rows_of(wheel, -37.5, 60., 0.25)),
+         {"no flange", "cut off"});
+    says("a tread turned round",
+         complaint("wheel", ".txt", rows_of([](const double y) { return -y / 30.; }, -28., 28., 1.)),
+         {"no flange", "1:30", "turn y or z"});
+    says("a head with something on it",
+         complaint("rail", ".txt",
+                   rows_of([&](const double y) { return y > 30. ? 4. : crown(y); }, -34., 34., 0.5)),
+         {"above the top"});
+    const auto with = [&](const double at, const double change) {
+      return rows_of([&](const double y) { return crown(y) + (std::abs(y - at) < 1e-6 ? change : 0.); }, -32.,
+                     32., 0.25);
+    };
+    says("a spike of 0.15 mm", complaint("rail", ".txt", with(3.75, 0.15)),
+         {"line 144", "y = 3.75 mm", "spike"});
+    says("a spike of 12 um", complaint("rail", ".txt", with(-9.25, -0.012)), {"line 92", "spike"});
+    std::string back = rows_of(crown, -32., 32., 0.25);
+    back.replace(back.find("5.25 "), 5, "4.75 ");
+    says("a point 0.25 mm back", complaint("rail", ".txt", back),
+         {"y = 4.75 mm", "turns back", "Smoothing length"});
+    says("decimal commas and commas between", complaint("rail", ".txt", "-1,5,2,5\n0,5,1,5\n1,5,1,5\n"),
+         {"line 1", "decimal commas", "semicolons"});
+    says("both decimal signs", complaint("rail", ".txt", "-1,5 2,5\n0.5 1,5\n1,5 1,5\n"),
+         {"line 2", "decimal points", "line 1"});
+    says("separators of thousands", complaint("rail", ".txt", "-1.000,5 2,5\n0,5 1,5\n"),
+         {"line 1", "thousands"});
+    says("an entry that is empty", complaint("rail", ".txt", "-1;2\n0;;3\n"), {"line 2", "empty"});
+    says("a container of MiniProf", complaint("rail", ".mpt", "x"), {".ban or .whl"});
+    says("slices of a wheel", complaint("wheel", ".slcw", "SLICES\n2\n"), {"slices", "not available"});
+    says("a spreadsheet", complaint("rail", ".txt", std::string("PK\x03\x04")), {"spreadsheet"});
+    says("a file of zeros", complaint("rail", ".txt", std::string("1 2\n\0\0", 6)), {"no text"});
+    says("a name in .prr that is not known", complaint("rail", ".prr", "scale.y = 2\npoint.begin\n"),
+         {"line 1", "'scale.y' is not known"});
+    says("a smoothing in .prr", complaint("rail", ".prr", "approx.smooth = 0.5\npoint.begin\n"),
+         {"line 1", "approx.smooth", "Smoothing length"});
+    says("a wheel's .prr for a rail", complaint("rail", ".prr", "header.begin\ntype = 1\nheader.end\n"),
+         {"line 2", "a rail is needed"});
+    says("a .ban that is cut off", complaint("rail", ".ban", "XYPoints=99\n\n-1 0\n0 0\n1 0\n2 0\n"),
+         {"4 points", "'XYPoints' is 99"});
+    says("two measurements in a .ban", complaint("rail", ".ban", "A=1\n\n-1 0\n0 0\nA=2\n"),
+         {"line 5", "another measurement"});
   }
 } // namespace
 
@@ -527,5 +684,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_height_map(check);
   check_hdf5_map(check);
   check_long_defects(check);
+  check_headers(check);
+  check_rim_face(check);
   check_files(check);
 }

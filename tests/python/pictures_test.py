@@ -24,10 +24,12 @@ import numpy as np
 import tread
 from package_test import InFolder, write
 from tread import plots
-from tread.defects import extents_of_defects
+from tread.defects import extents_of_defects, profile_length
 from tread.differences import other_bits
+from tread.files import DataError
 from tread.loads import static_load
-from tread.pictures import history, impact, mesh, patch
+from tread.pictures import history, impact, mesh, patch, profiles
+from tread.point_files import read_points
 from tread.runs import ROOT
 from tread.vtu import read_pieces
 
@@ -72,6 +74,34 @@ TWO_DIPS = "subsection Defect\n set Shape = dip\n set Position (mm) = 20\n set L
 def spans(axis):
     """What is shaded over the abscissa."""
     return [(patch.get_xy()[:, 0].min(), patch.get_xy()[:, 0].max()) for patch in axis.patches if hasattr(patch, "get_xy") and np.ndim(patch.get_xy()) == 2]
+
+
+class MeasuredProfiles(OfRuns):
+    def test_points_as_other_programs_write_them(self):
+        expected = [[-30, -1.5], [0, 0], [30, -1.25]]
+        for name, content in (("blanks", b"# y z\n-30 -1.5\n0 0 remark, 3\n30 -1.25\n"), ("commas", b"y,z\n-30,-1.5\n0,0\n30,-1.25\n"),
+                              ("german", "y;z\r\n-30,0;-1,5\r\n0,0;0,0\r\n30,0;-1,25\r\n".encode("utf-16")),
+                              ("tabs", b"\xef\xbb\xbf-30,0\t-1,5\r0,0\t0,0\r30,0\t-1,25\r"), ("quotes", b'"-30" "-1.5"\n"0" "0"\n"30" "-1.25"\n')):
+            with open(self.path(name), "wb") as stream:
+                stream.write(content)
+            self.assertEqual(read_points(self.path(name)).tolist(), expected, name)
+        write(self.path("words"), "0 1\n2 deep\n")
+        self.assertRaisesRegex(DataError, "line 2: needs two numbers", read_points, self.path("words"))
+
+    def test_length_of_a_german_map(self):
+        write(self.path("map.csv"), '"x_mm";"y_mm";"z_mm"\n-2,5;0;0\n10;0;-0,1\n22,5;0;0\n')
+        self.assertEqual(profile_length(self.path("map.csv")), 25)
+
+    def test_change_by_smoothing(self):
+        run = self.write_run("run")
+        write(run.path("measured_rail.csv"), "line,y_mm,z_mm,measured_y_mm,measured_z_mm\n" + "".join(
+            f"{i + 2},{y + 0.003 * (y == 1)},{2 * y + 0.001 * (y == 1)},{y},{2 * y}\n" for i, y in enumerate(range(-3, 4))))
+        drawn = dict(profiles.figures(run))
+        self.assertEqual(list(drawn), ["measured-rail"])
+        change = drawn["measured-rail"].axes[1].lines[0].get_ydata()
+        # (3, 1) um beside a line of slope 2: the part at right angles, which points up for (-2, 1).
+        np.testing.assert_allclose(change, [0, 0, 0, 0, (1 - 6) / np.sqrt(5), 0, 0], atol=1e-9)
+        self.assertIn("2.24", drawn["measured-rail"].axes[1].get_title())
 
 
 class Pictures(OfRuns):

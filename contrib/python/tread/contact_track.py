@@ -99,6 +99,8 @@ class TrackReader(contact_cases.Reader):
         name, mirror, scale, smooth = self.words.read("sidd", names)
         if mirror == 1 or scale != 1. or smooth > 0.:
             raise self.words.refuse("profiles are taken as they are: MIRRORY 0, SCALE 1, SMOOTH 0")
+        if name.lower().endswith((".slcs", ".slcw")):
+            raise self.words.refuse(f"'{name}' lists slices of a profile that varies along the track or around the wheel, which is not available")
         path = os.path.join(os.path.dirname(os.path.abspath(self.words.path)), name)
         return path if os.path.exists(path) else name
 

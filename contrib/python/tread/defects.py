@@ -5,12 +5,32 @@ from __future__ import annotations
 
 import glob
 import os
+import re
 from collections.abc import Mapping
 
 import h5py
 import numpy as np
 
+from .files import DataError
+from .point_files import read_lines, read_points
 from .runs import ROOT
+
+
+def _length_of_table(path: str) -> float | None:
+    """Extent of the first column, or of x_mm where the first line has names."""
+    lines = [line for line in read_lines(path) if line.strip() and not line.startswith("#")]
+    names = [name.strip().strip('"') for name in re.split("[;,\t]", lines[0])] if lines else []
+    if "x_mm" not in names:
+        try:
+            return float(np.ptp(read_points(path)[:, 0]))
+        except DataError:
+            return None
+    separator = next((sign for sign in ";\t" if sign in lines[0]), ",")
+    try:
+        x = [float(line.split(separator)[names.index("x_mm")].strip().strip('"').replace(",", ".")) for line in lines[1:]]
+    except (ValueError, IndexError):
+        return None
+    return max(x) - min(x) if x else None
 
 
 def profile_length(name: str) -> float | None:
@@ -20,13 +40,7 @@ def profile_length(name: str) -> float | None:
             with h5py.File(path) as stream:
                 return float(np.ptp(stream["x_mm"][:]))
         if os.path.isfile(path):
-            with open(path, encoding="utf-8") as stream:
-                lines = [line.replace(",", " ").split() for line in stream if line.strip() and not line.startswith("#")]
-            try:
-                x = [float(words[0]) for words in lines if words[0] != "x_mm"]  # the first row of a map has names
-            except ValueError:
-                return None
-            return max(x) - min(x) if x else None
+            return _length_of_table(path)
     return None
 
 

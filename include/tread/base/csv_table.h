@@ -2,13 +2,19 @@
 #ifndef tread_base_csv_table_h
 #define tread_base_csv_table_h
 
+#include <tread/base/text_file.h>
+
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace tread
 {
-  /// Columns of numbers from a file: names in its first line, commas between entries.
+  /// The lines of a table that are not empty, those of comments before its names left out. @throws TextError
+  std::vector<NumberedLine> csv_lines(const std::string &file);
+
+  /// Columns of numbers from a file: names in its first line; commas, semicolons or tabs between entries, as
+  /// in that line. Numbers may have decimal commas where commas do not separate, and may stand in quotes.
   class CsvTable
   {
   public:
@@ -40,6 +46,10 @@ namespace tread
     {
       return rows;
     }
+    const TableGrammar &grammar() const
+    {
+      return grammar_of_rows;
+    }
 
   private:
     std::vector<std::string>              read_names;
@@ -48,6 +58,7 @@ namespace tread
     std::size_t                           place_of(const std::string &name) const;
     [[noreturn]] void fail(std::size_t row, std::size_t place, const std::string &text) const;
     std::size_t       rows = 0;
+    TableGrammar      grammar_of_rows;
   };
 } // namespace tread
 

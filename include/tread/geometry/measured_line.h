@@ -2,6 +2,8 @@
 #ifndef tread_geometry_measured_line_h
 #define tread_geometry_measured_line_h
 
+#include <tread/geometry/measured_profile.h>
+
 #include <deal.II/base/point.h>
 
 #include <functional>
@@ -26,13 +28,6 @@ namespace tread
   private:
     double                        first, last;
     std::function<double(double)> line;
-  };
-
-  /// How a file's y is taken: turned round where it is mirrored, then moved.
-  struct ProfilePlacement
-  {
-    bool   is_mirrored = false;
-    double shift       = 0.; ///< m
   };
 
   /// A longitudinal profile: two columns, x and z in mm, z up, separated by blanks, commas or semicolons;

@@ -232,11 +232,22 @@ namespace tread
       entry_named(defect_shapes(), shape, "defect shape").make(*this, file);
     if (!defect)
       return nullptr;
+    if (shape == "profile" || shape == "map")
+      {
+        // Nothing that is measured is so short or so shallow.
+        constexpr double shortest = 1e-3, shallowest = 0.5e-6; // m
+        require(length > 0. || defect->length >= shortest,
+                "'Defect/Profile file': " + text_in_mm(defect->length) +
+                  " mm long; are its lengths in m? They must be in mm");
+        require(depth > 0. || defect->depth >= shallowest,
+                "'Defect/Profile file': " + text_of(1e6 * defect->depth) +
+                  " um deep; are its heights in m? They must be in mm");
+      }
     if (depth > 0.)
       defect->depth = depth;
     require(defect->depth <= deepest, "'Defect/Profile file': " + text_in_mm(defect->depth) +
                                         " mm deep, where at most " + text_in_mm(deepest) +
-                                        " mm are allowed; heights in it are in mm");
+                                        " mm are allowed; heights in it are in mm, not in um");
     defect->begin       = position;
     defect->repeated_at = repeated_at;
     defect->y_middle += lateral_position;

@@ -75,6 +75,12 @@ namespace tread
     section.add("Measured head shift (mm)", head_placement.shift,
                 "Added to the file's y, after mirroring: where its y = 0 lies from the rail's middle line.",
                 Double(-200., 200.));
+    section.add(
+      "Smoothing length (mm)", head_placement.smoothing,
+      "Of the file 'Rail/Measured head': a smoothing spline leaves half of waves of this length along the "
+      "surface, 6 % of those half as long and 94 % of those twice as long. Instruments need some "
+      "millimetres; how far it moves the points is printed. 0: none.",
+      Double(0., 50.));
     section.choose("Inclination", inclination,
                    "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
                    "same slope touches it on the "
@@ -152,8 +158,10 @@ namespace tread
     require(!is_block() || (inclination == RailInclination::none && measured_head.empty()),
             "'Rail/Inclination' and 'Rail/Measured head' are for 'Rail/Shape' head or full section");
     require(
-      !measured_head.empty() || (!head_placement.is_mirrored && head_placement.shift == 0.),
-      "'Rail/Measured head mirrored' and 'Measured head shift (mm)' are of the file 'Rail/Measured head'");
+      !measured_head.empty() ||
+        (!head_placement.is_mirrored && head_placement.shift == 0. && head_placement.smoothing == 0.),
+      "'Rail/Measured head mirrored', 'Measured head shift (mm)' and 'Smoothing length (mm)' are of the file "
+      "'Rail/Measured head'");
     if (!is_block())
       return;
     require(crown_radius > 0.5 * block_width, "'Rail/Crown radius (mm)' " + text_in_mm(crown_radius) +

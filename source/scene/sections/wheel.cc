@@ -74,6 +74,12 @@ namespace tread
       "Added to the file's y, after mirroring: where its y = 0 lies from the running circle, 70 mm from the "
       "back of the flange. A file that counts y from this back needs -70.",
       Double(-200., 200.));
+    section.add(
+      "Smoothing length (mm)", profile_placement.smoothing,
+      "Of the file 'Wheel/Tread profile': a smoothing spline leaves half of waves of this length along the "
+      "surface, 6 % of those half as long and 94 % of those twice as long. Instruments need some "
+      "millimetres; how far it moves the points is printed. 0: none.",
+      Double(0., 50.));
     section.add("Lateral position (mm)", lateral_position,
                 "y of the running circle relative to the middle of the rail; the flange lies at y < 0.",
                 Double(-30., 30.));
@@ -81,14 +87,21 @@ namespace tread
   }
 
 
+  bool WheelSection::has_measured_profile() const
+  {
+    return tread_profile != "cylinder" && tread_profile != "cone 1:40" && tread_profile != "cone 1:20" &&
+           tread_profile != "S1002";
+  }
+
+
   void WheelSection::check() const
   {
-    const bool is_name = tread_profile == "cylinder" || tread_profile == "cone 1:40" ||
-                         tread_profile == "cone 1:20" || tread_profile == "S1002";
-    require(!is_name || (!profile_placement.is_mirrored && profile_placement.shift == 0.),
-            "'Wheel/Tread profile mirrored' and 'Tread profile shift (mm)' are of a file, not of "
-            "'Wheel/Tread profile' " +
-              tread_profile);
+    require(
+      has_measured_profile() || (!profile_placement.is_mirrored && profile_placement.shift == 0. &&
+                                 profile_placement.smoothing == 0.),
+      "'Wheel/Tread profile mirrored', 'Tread profile shift (mm)' and 'Smoothing length (mm)' are of a file, "
+      "not of 'Wheel/Tread profile' " +
+        tread_profile);
     require(is_full() || sector_thickness < radius,
             "'Wheel/Sector thickness (mm)' must be below 'Wheel/Radius (mm)' " + text_in_mm(radius));
     require(!is_full() || (bore_radius < hub_outer_radius && hub_outer_radius < rim_inner_radius &&

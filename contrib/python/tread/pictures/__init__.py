@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..plots import Figure, save, style  # before the modules: it says that matplotlib is missing
-from . import contact_points, crossing, history, impact, mesh, patch, peaks
+from . import contact_points, crossing, history, impact, mesh, patch, peaks, profiles
 
 if TYPE_CHECKING:
     from ..runs import Run
@@ -21,7 +21,7 @@ def all_figures(run: Run, contact: str | None = None) -> Iterator[tuple[str, Fig
         yield from contact_points.figures(run)
         return
     yield from patch.figures(run, contact)
-    for module in (history, impact, crossing, peaks, mesh):
+    for module in (history, impact, crossing, peaks, mesh, profiles):
         yield from module.figures(run)
 
 

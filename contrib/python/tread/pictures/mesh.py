@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
+from ..point_files import read_points
 from ..plots import GREY, at_least_high, legend_beside, name_sides, rolling_arrow, shade_defects, subplots
 from ..runs import Run
 from ..vtu import read_pieces
@@ -125,7 +126,7 @@ def draw_defects(paths: Sequence[str]) -> Figure:
     """Longitudinal profiles of defects, from files with columns x and z in mm."""
     figure, axis = subplots(figsize=(10, 3.6))
     for path in paths:
-        x, z = np.loadtxt(path, unpack=True)
+        x, z = read_points(path).T
         axis.plot(x, z, label=os.path.splitext(os.path.basename(path))[0])
     axis.axhline(0, color=GREY, lw=1, ls=":", label="smooth rail")
     axis.margins(y=0.12)

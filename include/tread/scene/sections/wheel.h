@@ -35,6 +35,8 @@ namespace tread
     {
       return shape == WheelShape::full;
     }
+    /// Whether the tread is a file's.
+    bool has_measured_profile() const;
     /// Of what is meshed, across.
     double half_width() const
     {

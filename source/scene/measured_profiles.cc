@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/base/input_error.h>
+#include <tread/output/run_folder.h>
+#include <tread/reference/elastic.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/measured_profiles.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace tread
+{
+  MeasuredProfiles::MeasuredProfiles(const Scene &scene)
+  {
+    const auto add = [&](const std::string &body, const std::string &parameter, const std::string &file,
+                         const ProfileBody kind, const ProfilePlacement &placement) {
+      try
+        {
+          const auto        files = scene.files();
+          const auto        found = files.find(parameter);
+          const std::string path  = found == files.end() ? file : found->second;
+          profiles.push_back(
+            {body, parameter, path, placement.smoothing, read_measured_profile(path, kind, placement)});
+        }
+      catch (const std::runtime_error &error)
+        {
+          throw InputError("'" + parameter + "': " + error.what());
+        }
+    };
+    if (scene.wheel.has_measured_profile())
+      add("wheel", "Wheel/Tread profile", scene.wheel.tread_profile, ProfileBody::wheel,
+          scene.wheel.profile_placement);
+    if (!scene.rail.measured_head.empty())
+      add("rail", "Rail/Measured head", scene.rail.measured_head, ProfileBody::rail,
+          scene.rail.head_placement);
+    const auto elastic_of = [](const MaterialSection &material) {
+      return reference::Elastic{material.elastic().young_modulus, material.elastic().poisson_ratio};
+    };
+    modulus =
+      reference::combine(elastic_of(scene.wheel.material), elastic_of(scene.rail.material)).hertz_modulus();
+    constexpr double usual_pressure = 1e9; // Pa, of a wheel whose patches are not known yet
+    pressure                        = scene.is_positioned() || scene.static_load() <= 0.
+                                        ? usual_pressure
+                                        : hertz(scene, scene.static_load()).max_pressure;
+  }
+
+
+  std::vector<std::string> MeasuredProfiles::warnings(const bool with_noise) const
+  {
+    std::vector<std::string> words;
+    for (const Named &p : profiles)
+      {
+        for (const std::string &remark : p.profile.remarks)
+          words.push_back("'" + p.parameter + "': " + remark);
+        const double share = p.profile.pressure_of_noise(modulus) / pressure;
+        if (with_noise && share > MeasuredProfile::warned_noise)
+          words.push_back(format("'%s': profile '%s' has noise, or is rounded, by %.2g um at points %.2g mm "
+                                 "apart, which a pressure of %.0f %% of "
+                                 "Hertz's presses flat (above %g %%): by about so much the largest pressure "
+                                 "is wrong; smooth it by "
+                                 "'%s/Smoothing length (mm)', some millimetres",
+                                 p.parameter.c_str(), p.file.c_str(), 1e6 * p.profile.noise,
+                                 1e3 * p.profile.spacing, 100. * share, 100. * MeasuredProfile::warned_noise,
+                                 p.body == "wheel" ? "Wheel" : "Rail"));
+      }
+    return words;
+  }
+
+
+  std::vector<std::string> MeasuredProfiles::smoothing() const
+  {
+    std::vector<std::string> words;
+    for (const Named &p : profiles)
+      if (p.length > 0.)
+        words.push_back(format("%s profile smoothed over %g mm: moved by %.3g um at most, at y = %.2f mm",
+                               p.body.c_str(), 1e3 * p.length, 1e6 * p.profile.largest_change,
+                               1e3 * p.profile.y_of_change));
+    return words;
+  }
+
+
+  void MeasuredProfiles::summarise(Summary &summary) const
+  {
+    for (const Named &p : profiles)
+      if (p.length > 0.)
+        summary.set(p.body + "_profile_largest_change_m", p.profile.largest_change);
+  }
+
+
+  void MeasuredProfiles::write(const RunFolder &folder) const
+  {
+    for (const Named &p : profiles)
+      {
+        std::ostringstream table;
+        table << "line,y_mm,z_mm,measured_y_mm,measured_z_mm\n" << std::setprecision(9);
+        for (std::size_t i = 0; i < p.profile.points.size(); ++i)
+          {
+            const ProfilePoint &used = p.profile.points[i], &measured = p.profile.measured[i];
+            table << used.line << ',' << 1e3 * used.y << ',' << 1e3 * used.z << ',' << 1e3 * measured.y << ','
+                  << 1e3 * measured.z << '\n';
+          }
+        folder.write("measured_" + p.body + ".csv", table.str());
+      }
+  }
+} // namespace tread
