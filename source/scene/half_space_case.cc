@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 namespace tread
 {
@@ -97,6 +98,10 @@ namespace tread
     try
       {
         return reference::estimate_rolling(c);
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw; // no fault of the input
       }
     catch (const std::exception &error)
       {

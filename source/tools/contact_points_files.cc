@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 namespace tread
 {
@@ -134,6 +135,10 @@ namespace tread
                 position.roll             = roll;
                 rows.push_back({i, touching_wheelset(surfaces, position), 0.});
                 roll = rows.back().wheelset.position.roll;
+              }
+            catch (const std::bad_alloc &)
+              {
+                throw; // no fault of the input
               }
             catch (const std::exception &error)
               {
