@@ -17,9 +17,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <thread>
 
@@ -36,6 +38,7 @@ namespace
     tread::ContactPointsRequest points;
     std::string                 print_parameters; ///< how; empty: not
     bool                        print_columns = false;
+    bool                        overwrite     = false;
     bool                        resume = false, reference_only = false, dry_run = false, quiet = false;
   };
 
@@ -58,6 +61,8 @@ namespace
                                         "print the columns of all tables and the keys of summary.json with "
                                         "units and meaning as JSON, and stop");
     app.add_flag("--quiet", line.quiet, "print errors only; summary.json has the warnings");
+    app.add_flag("--overwrite", line.overwrite,
+                 "replace the results of another scene's finished run in the folder");
     CLI::Option_group *how = app.add_option_group("How to run the scene");
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
     how->add_flag("--reference-only", line.reference_only,
@@ -115,7 +120,8 @@ namespace
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
     const bool asks_of_scene = !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
-                               line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run;
+                               line.reference_only || line.modes.wanted || line.points.wanted ||
+                               line.dry_run || line.overwrite;
     struct Tool
     {
       std::string name, reads;
@@ -128,9 +134,10 @@ namespace
       if (tool.is_asked)
         {
           tread::require(line.scene.empty(), tool.name + " reads " + tool.reads + "; it takes no scene");
-          tread::require(!asks_of_scene, tool.name + " reads " + tool.reads +
-                                           "; -s, --print-parameters, --resume, --reference-only, --modes, "
-                                           "--contact-points and --dry-run are for a scene");
+          tread::require(!asks_of_scene,
+                         tool.name + " reads " + tool.reads +
+                           "; -s, --print-parameters, --resume, --overwrite, --reference-only, --modes, "
+                           "--contact-points and --dry-run are for a scene");
         }
     return line;
   }
@@ -188,6 +195,15 @@ namespace
     const auto folder_of = [&](const char *ending) {
       return line.output.empty() ? scene.output.directory + ending : line.output;
     };
+    if (!line.dry_run && !line.resume && !line.overwrite)
+      {
+        const std::string held = tread::held_by_other_scene(folder_of(line.points.wanted ? "-contact-points"
+                                                                      : line.reference_only ? "-reference"
+                                                                      : line.modes.wanted   ? "-modes"
+                                                                                            : ""),
+                                                            line.scene, scene.general.title);
+        tread::require(dealii::Utilities::MPI::broadcast(comm, held.empty(), 0), held);
+      }
     if (line.points.wanted)
       {
         tread::write_contact_points(scene, line.points, folder_of("-contact-points"), comm);
@@ -211,6 +227,8 @@ namespace
         return 0;
       }
     tread::require_memory(scene, comm);
+    if (line.dry_run && tread::estimate_without_mesh(scene, comm))
+      return 0;
     tread::Simulation simulation(scene, comm);
     if (line.dry_run)
       {
@@ -251,6 +269,7 @@ int main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_words, all_words, 1);
   MPI_Comm                                 errors; // nothing else waits on it
   MPI_Comm_dup(MPI_COMM_WORLD, &errors);
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error like a full disk
   int code;
   try
     {
@@ -259,6 +278,12 @@ int main(int argc, char **argv)
   catch (const tread::InputError &error)
     {
       code = fail(error.what(), 1, errors);
+    }
+  catch (const std::bad_alloc &)
+    {
+      code = fail("out of memory: the machine, or a limit of this shell (ulimit -v), has no more; larger "
+                  "'Mesh/Finest cell (mm)', a shorter path, or fewer ranks",
+                  2, errors);
     }
   catch (const std::exception &error)
     {

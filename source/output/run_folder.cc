@@ -154,7 +154,7 @@ namespace tread
       {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full, or a limit of file sizes (ulimit -f) reached?");
       }
   }
 
@@ -251,7 +251,7 @@ namespace tread
     GrowingTable &table = growing.at(name);
     table.file << rows << std::flush;
     if (!table.file)
-      throw std::runtime_error("cannot write '" + path(name) + "': is the disk full?");
+      throw std::runtime_error("cannot write '" + path(name) + "': is the disk full, or a limit of file sizes (ulimit -f) reached?");
     table.count(rows);
   }
 

@@ -32,6 +32,9 @@ namespace tread
        "Of a wheelset in a position, at the end of the path, positive: the leading side turns to the own "
        "side"},
       {"roll_rad", "Of a wheelset in a position, at the end of the path, positive: the own side goes down"},
+      {"creepage_over_nominal_radius",
+       "Of a wheelset in a position: angular velocity times 'Wheel/Radius (mm)' over the speed, less 1, as "
+       "'Motion/Creepage' counts it; 'creepage' of each patch counts from the radius that rolls there"},
       {"angular_velocity_rad_per_s",
        "Of a wheelset in a position, about its axle at the end of the path, counted from free rolling"},
       {"wheelset_height_m",
@@ -185,7 +188,10 @@ namespace tread
       {"element_updates_per_s", "The same over the wall time of internal forces"},
       {"cells_and_nodes_bytes", "Memory of mesh, cells and nodes on all ranks"},
       {"ranks", "Processes of MPI"},
-      {"version", "Of the program"}};
+      {"version", "Of the program"},
+      {"files",
+       "Files that the run has read: a list with the parameter that names each ('parameter file' for the "
+       "scene's own text), its path, and bytes and crc32 of its content"}};
 
     /// Stresses in the rail, and what history.csv is.
     const Keys recorded{

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 namespace tread
 {
@@ -102,6 +103,10 @@ namespace tread
     catch (const reference::FrictionTooSteep &error)
       {
         throw InputError(law + ": " + error.what() + "; see 'Contact/Friction memory (mm)'");
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw; // no fault of the input
       }
     catch (const std::exception &error)
       {

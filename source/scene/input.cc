@@ -10,8 +10,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -26,18 +28,6 @@ namespace tread
       return text.size() <= longest
                ? text
                : text.substr(0, longest - kept_end) + " ... " + text.substr(text.size() - kept_end);
-    }
-
-    /// What a deal.II exception says, on one line.
-    std::string one_line(const dealii::ExceptionBase &error)
-    {
-      std::ostringstream text;
-      error.print_info(text);
-      std::istringstream words(text.str());
-      std::string        word, line;
-      while (words >> word)
-        line += (line.empty() ? "" : " ") + word;
-      return shortened(line);
     }
 
     std::size_t edit_distance(const std::string &a, const std::string &b)
@@ -92,60 +82,79 @@ namespace tread
         }
     }
 
-    /// The file that a line "include NAME" names; empty for another line. deal.II would look for it in the
-    /// present folder, and would not notice a file that includes itself.
-    std::string included_by(const std::string &line)
+    /// A line of a parameter file without its comment; several where a backslash at the end joins them.
+    struct Line
     {
-      std::string text = line.substr(0, line.find('#'));
-      std::replace(text.begin(), text.end(), '\t', ' ');
-      text = dealii::Utilities::trim(text);
-      for (const std::string word : {"include ", "INCLUDE "})
-        if (text.compare(0, word.size(), word) == 0)
-          return dealii::Utilities::trim(text.substr(word.size()));
-      return "";
-    }
-
-    /// A parameter file: what it says itself, and the files that it includes.
-    struct ParameterFile
-    {
-      std::string text; ///< lines "include NAME" are left empty, so that others keep their numbers
-      std::vector<std::string> included; ///< as named, in their order
+      std::string  text;   ///< without blanks at both ends
+      unsigned int number; ///< of the first of them
     };
 
-    /// @param included: by another file
-    ParameterFile read_parameter_file(const std::string &file, const bool included)
+    /// With single ones between words.
+    std::string without_blanks(const std::string &text)
     {
-      std::ifstream input(file);
-      if (!input)
-        throw InputError("cannot read parameter file '" + shortened(file) + "'" +
-                         (included ? ", which another one includes" : ""));
-      ParameterFile content;
-      // Lines that end with a backslash go on in the next one, and words as well.
-      std::string joined, as_they_are;
-      std::size_t number = 0;
+      std::istringstream words(text);
+      std::string        word, line;
+      while (words >> word)
+        line += (line.empty() ? "" : " ") + word;
+      return line;
+    }
+
+    /// Where in a parameter file, for the beginning of a message.
+    std::string place(const std::string &file, const unsigned int line)
+    {
+      return "'" + shortened(file) + "', line " + std::to_string(line) + ": ";
+    }
+
+    /// The lines that say something. Ends of lines are those of any system; a byte order mark says nothing.
+    std::vector<Line> lines_of(const std::string &file, std::string text)
+    {
+      require(text.compare(0, 2, "\xff\xfe") != 0 && text.compare(0, 2, "\xfe\xff") != 0 &&
+                text.find('\0') == text.npos,
+              "'" + file +
+                "' is no text in UTF-8 (it may be UTF-16, or no text at all); save the file in that "
+                "encoding");
+      if (text.compare(0, 3, "\xef\xbb\xbf") == 0)
+        text.erase(0, 3);
+      std::string unified;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] != '\r')
+          unified += text[i];
+        else if (i + 1 == text.size() || text[i + 1] != '\n')
+          unified += '\n';
+      std::vector<Line>  lines;
+      std::istringstream input(unified);
+      Line               joined{"", 0};
+      unsigned int       number = 0;
       for (std::string line; std::getline(input, line);)
         {
           ++number;
           require(is_utf8(line.substr(0, line.find('#'))),
-                  "'" + file + "', line " + std::to_string(number) +
-                    ": its characters are not UTF-8; save the file in that encoding");
-          const std::string trimmed = dealii::Utilities::trim(line);
-          const bool        goes_on = !trimmed.empty() && trimmed.back() == '\\';
-          joined += goes_on ? trimmed.substr(0, trimmed.size() - 1) : trimmed;
-          as_they_are += line + '\n';
-          if (goes_on && input.peek() != std::ifstream::traits_type::eof())
+                  place(file, number) + "its characters are not UTF-8; save the file in that encoding");
+          std::replace(line.begin(), line.end(), '\t', ' ');
+          line = dealii::Utilities::trim(line);
+          if (joined.number == 0)
+            joined.number = number;
+          const bool goes_on = !line.empty() && line.back() == '\\';
+          joined.text += goes_on ? line.substr(0, line.size() - 1) : line;
+          if (goes_on && input.peek() != std::istringstream::traits_type::eof())
             continue;
-          if (const std::string name = included_by(joined); !name.empty())
-            {
-              content.included.push_back(name);
-              content.text.append(std::count(as_they_are.begin(), as_they_are.end(), '\n'), '\n');
-            }
-          else
-            content.text += as_they_are;
-          joined.clear();
-          as_they_are.clear();
+          joined.text = dealii::Utilities::trim(joined.text.substr(0, joined.text.find('#')));
+          if (!joined.text.empty())
+            lines.push_back(joined);
+          joined = {"", 0};
         }
-      return content;
+      return lines;
+    }
+
+    /// The rest of a line that begins with this word, in small letters or capitals; nothing if it does not.
+    std::optional<std::string> behind(const std::string &word, const std::string &line)
+    {
+      const std::string first = line.substr(0, line.find(' '));
+      if (first.size() != word.size() ||
+          !std::equal(word.begin(), word.end(), first.begin(),
+                      [](const char a, const unsigned char b) { return a == std::tolower(b); }))
+        return {};
+      return dealii::Utilities::trim(line.substr(word.size()));
     }
 
     struct Entry
@@ -191,10 +200,9 @@ namespace tread
       return entries;
     }
 
-    std::string did_you_mean(const dealii::ParameterHandler &handler, const std::string &path)
+    std::string did_you_mean(const std::vector<Entry> &entries, const std::string &path)
     {
-      const std::vector<Entry> entries = all_entries(handler);
-      const auto               name_of = [](const std::string &p) {
+      const auto name_of = [](const std::string &p) {
         return p.substr(p.rfind('/', p.find('(')) + 1); // a unit may have one, too
       };
       const auto without_unit = [](const std::string &p) {
@@ -216,6 +224,77 @@ namespace tread
         }
       return "did you mean '" + best + "'? (tread --print-parameters lists all)";
     }
+
+    std::string nearest_section(const std::vector<Entry> &entries, const std::string &name)
+    {
+      return std::min_element(entries.begin(), entries.end(),
+                              [&](const Entry &a, const Entry &b) {
+                                return edit_distance(name, a.section) < edit_distance(name, b.section);
+                              })
+        ->section;
+    }
+
+    void set_entry(dealii::ParameterHandler &handler,
+                   const Entry              &entry,
+                   const std::string        &value,
+                   const std::string        &place)
+    {
+      handler.enter_subsection(entry.section);
+      try
+        {
+          handler.set(entry.name, value);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          handler.leave_subsection();
+          throw InputError(place + "'" + entry.path + "' cannot be '" + shortened(value) +
+                           "'; allowed: " + readable(entry.pattern));
+        }
+      handler.leave_subsection();
+    }
+
+    /// Entries of studies, which have no section around them.
+    bool is_of_study(const std::string &name)
+    {
+      const std::vector<std::string> entries{"Scene",       "Settings",  "Combination", "Figures",
+                                             "Smooth twin", "Directory", "Processes",   "Ranks",
+                                             "Limit",       "Mesh"};
+      return std::find(entries.begin(), entries.end(), name) != entries.end();
+    }
+
+    /// A subsection that has begun.
+    struct Open
+    {
+      std::string  name;
+      unsigned int line; ///< 0: none
+    };
+
+    /// @throws InputError about a line that is none of a parameter file. @param open the subsection around it
+    [[noreturn]] void refuse_line(const std::string        &file,
+                                  const Line               &line,
+                                  const Open               &open,
+                                  const std::vector<Entry> &entries)
+    {
+      const std::string where  = place(file, line.number);
+      const std::size_t equals = line.text.find('=');
+      if (equals != line.text.npos)
+        {
+          const std::string name = without_blanks(line.text.substr(0, equals)),
+                            path = (open.line > 0 ? open.name + "/" : "") + name;
+          const bool known =
+            std::any_of(entries.begin(), entries.end(), [&](const Entry &e) { return e.path == path; });
+          throw InputError(
+            where + "'" + shortened(line.text) + "' must begin with 'set'" +
+            (known ? ""
+                   : "; no parameter '" + shortened(path) + "', " + did_you_mean(entries, shortened(path))));
+        }
+      for (const Entry &entry : entries)
+        if (entry.section == line.text)
+          throw InputError(where + "'" + line.text + "' must begin with 'subsection'");
+      throw InputError(
+        where + "cannot read '" + shortened(line.text) +
+        "'; a line is 'subsection NAME', 'set NAME = VALUE', 'end', 'include FILE', or begins with #");
+    }
   } // namespace
 
 
@@ -227,23 +306,67 @@ namespace tread
     std::error_code cannot_tell; // of a name that no file can have
     if (std::filesystem::is_directory(file, cannot_tell))
       throw InputError("parameter file '" + file + "' is a folder");
-    const ParameterFile content = read_parameter_file(file, depth > 0);
-    for (const std::string &name : content.included)
-      parse((std::filesystem::path(file).parent_path() / name).string(), depth + 1);
-    try
+    std::ifstream input(file, std::ios::binary);
+    if (!input)
+      throw InputError("cannot read parameter file '" + shortened(file) + "'" +
+                       (depth > 0 ? ", which another one includes" : ""));
+    const std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+    read_files.push_back(file_read(FileRead::scene, file));
+    const std::vector<Line> lines = lines_of(file, text);
+    // Files that it includes come first, so that its own lines have the last word.
+    for (const Line &line : lines)
+      if (const auto name = behind("include", line.text))
+        {
+          require(!name->empty(), place(file, line.number) + "'include' names no file");
+          parse((std::filesystem::path(file).parent_path() / *name).string(), depth + 1);
+        }
+    const std::vector<Entry> entries = all_entries(handler);
+    const std::string of_study       = "'" + file + "' is a study, no scene: contrib/study.py makes its runs";
+    Open              open{"", 0};
+    for (const Line &line : lines)
       {
-        std::istringstream text(content.text);
-        handler.parse_input(text, file);
+        const std::string where = place(file, line.number);
+        if (behind("include", line.text))
+          continue;
+        if (const auto rest = behind("subsection", line.text))
+          {
+            const std::string section = without_blanks(*rest);
+            require(!(open.line == 0 && section == "Vary"), of_study);
+            require(open.line == 0, where + "'subsection " + shortened(section) +
+                                      "' stands within 'subsection " + open.name + "' of line " +
+                                      std::to_string(open.line) + ", which has no 'end'");
+            if (std::none_of(entries.begin(), entries.end(),
+                             [&](const Entry &e) { return e.section == section; }))
+              throw InputError(where + "no section '" + shortened(section) + "'; did you mean '" +
+                               nearest_section(entries, shortened(section)) + "'?");
+            open = {section, line.number};
+          }
+        else if (const auto more = behind("end", line.text); more && more->empty())
+          {
+            require(open.line > 0, where + "'end' without a 'subsection' before it");
+            open = {"", 0};
+          }
+        else if (const auto setting = behind("set", line.text))
+          {
+            const std::size_t equals = setting->find('=');
+            const std::string name   = without_blanks(setting->substr(0, equals));
+            require(!(open.line == 0 && is_of_study(name)), of_study);
+            const std::string path = (open.line > 0 ? open.name + "/" : "") + name;
+            const auto        entry =
+              std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.path == path; });
+            if (entry == entries.end())
+              throw InputError(where + "no parameter '" + shortened(path) + "'; " +
+                               did_you_mean(entries, shortened(path)));
+            require(open.line > 0, where + "'" + path +
+                                     "' stands outside of its section: write 'subsection " + entry->section +
+                                     "', 'set " + entry->name + " = ...' and 'end'");
+            require(equals != setting->npos, where + "'" + path + "' has no value: '=' is missing");
+            set_entry(handler, *entry, dealii::Utilities::trim(setting->substr(equals + 1)), where);
+          }
+        else
+          refuse_line(file, line, open, entries);
       }
-    catch (const dealii::ParameterHandler::ExcEntryUndeclared &error)
-      {
-        throw InputError(file + ": " + one_line(error));
-      }
-    catch (const dealii::ExceptionBase &error)
-      {
-        const std::string text = readable(one_line(error));
-        throw InputError(text.find(file) == std::string::npos ? file + ": " + text : text);
-      }
+    require(open.line == 0, place(file, open.line) + "'subsection " + open.name + "' has no 'end'");
   }
 
 
@@ -280,6 +403,7 @@ namespace tread
     if (time_stepping.levels > 1 && solid.mass_damping == 0.)
       time_stepping.courant_number = std::min(time_stepping.courant_number, largest_with_levels);
     folder = std::filesystem::path(file).parent_path();
+    note_files();
     guidance.check(wheelset.both_wheels);
     if (guidance.kind == Guidance::file)
       take_wheelset_motion();
@@ -341,39 +465,35 @@ namespace tread
     if (equals == std::string::npos)
       throw InputError("-s \"" + shortened(setting) + "\": expected Section/Name=value");
     const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
-    for (const Entry &entry : all_entries(handler))
+    const std::vector<Entry> entries = all_entries(handler);
+    for (const Entry &entry : entries)
       if (entry.path == path)
-        {
-          handler.enter_subsection(entry.section);
-          try
-            {
-              handler.set(entry.name, value);
-            }
-          catch (const dealii::ExceptionBase &)
-            {
-              handler.leave_subsection();
-              throw InputError("'" + path + "' cannot be '" + shortened(value) +
-                               "'; allowed: " + readable(entry.pattern));
-            }
-          handler.leave_subsection();
-          return;
-        }
+        return set_entry(handler, entry, value, "");
     const std::string unknown = shortened(path);
-    throw InputError("no parameter '" + unknown + "'; " + did_you_mean(handler, unknown));
+    throw InputError("no parameter '" + unknown + "'; " + did_you_mean(entries, unknown));
   }
 
 
-  std::vector<std::string> Scene::changed_parameters() const
+  std::vector<Scene::Parameter> Scene::changed_values() const
   {
     const auto same = [](const std::string &a, const std::string &b) {
       char        *end_a, *end_b;
       const double number_a = std::strtod(a.c_str(), &end_a), number_b = std::strtod(b.c_str(), &end_b);
       return a == b || (!a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && number_a == number_b);
     };
-    std::vector<std::string> paths;
+    std::vector<Parameter> changed;
     for (const Entry &entry : all_entries(handler))
       if (!same(entry.value, entry.normal))
-        paths.push_back(entry.path);
+        changed.push_back({entry.path, entry.value});
+    return changed;
+  }
+
+
+  std::vector<std::string> Scene::changed_parameters() const
+  {
+    std::vector<std::string> paths;
+    for (const Parameter &parameter : changed_values())
+      paths.push_back(parameter.path);
     return paths;
   }
 
@@ -394,6 +514,16 @@ namespace tread
     handler.print_parameters(
       out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
              dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+
+
+  std::string Scene::parameters_of_run() const
+  {
+    std::ostringstream text;
+    print(text, true);
+    const std::string files = as_comments(read_files);
+    return text.str() +
+           (files.empty() ? "" : "\n\n# Files that the run has read, with CRC-32 of their bytes:\n" + files);
   }
 
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace tread
 {
@@ -67,6 +68,10 @@ namespace tread
           }
         const BothWheels both = contact_of_both_wheels(surfaces, rolling, position, 2. * load);
         return {{both.own, false}, {both.other, true}};
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw; // no fault of the input
       }
     catch (const std::exception &error)
       {

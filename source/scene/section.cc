@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/word_or_number.h>
 #include <tread/scene/section.h>
 
 #include <deal.II/base/utilities.h>
@@ -56,33 +57,6 @@ namespace tread
     {
       return unit.times * dealii::Utilities::string_to_double(text) / unit.over;
     }
-
-    /// A word, or a number in a range.
-    class WordOrNumber : public dealii::Patterns::PatternBase
-    {
-    public:
-      WordOrNumber(const std::string &word, const Double &range)
-        : word(word)
-        , range(range)
-      {
-      }
-      bool match(const std::string &text) const override
-      {
-        return text == word || range.match(text);
-      }
-      std::string description(const OutputStyle style) const override
-      {
-        return "'" + word + "' or a number from " + range.description(style);
-      }
-      std::unique_ptr<PatternBase> clone() const override
-      {
-        return std::make_unique<WordOrNumber>(word, range);
-      }
-
-    private:
-      const std::string word;
-      const Double      range;
-    };
   } // namespace
 
 

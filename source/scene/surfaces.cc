@@ -37,17 +37,17 @@ namespace tread
   }
 
 
-  std::map<std::string, std::string> Scene::files() const
+  void Scene::note_files()
   {
-    std::map<std::string, std::string> found;
+    std::error_code cannot_tell;
     for (const auto &[name, file] :
          {std::pair("Wheel/Tread profile", wheel.tread_profile),
           std::pair("Rail/Measured head", rail.measured_head),
           std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
           std::pair("Track/Support file", track.support_file)})
-      if (const std::string path = located(file); !file.empty() && std::filesystem::exists(path))
-        found[name] = path;
-    return found;
+      if (const std::string path = located(file);
+          !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
+        read_files.push_back(file_read(name, path));
   }
 
 
@@ -73,7 +73,7 @@ namespace tread
     shape_rail(*made);
     made->contact = tread::first_contact(made->surfaces, made->path_begin);
     shapes        = made;
-    made->patch   = patch_under_load();
+    made->patch   = patch_under_load(made->islands);
   }
 
 
@@ -86,14 +86,16 @@ namespace tread
   bool Scene::misses_defect() const
   {
     const Defect &made = *made_defect();
-    // What rises above the rail is touched from a distance. A wheelset may move across its rails.
-    if (extremes_of(made.shape).first < 0. || is_positioned() || static_load() <= 0.)
+    // A wheelset may move across its rails.
+    if (is_positioned() || static_load() <= 0.)
       return false;
+    const Range beyond = reach_of(-extremes_of(made.shape).first * made.depth);
     // As wide as the zone of fine cells would be, for what inertia adds to the load.
-    constexpr double room   = 1.35;
-    const double     a      = room * hertz(*this, static_load()).semi_axis_x + mesh.finest_cell,
-                 middle     = 0.5 * (patch_extent().begin + patch_extent().end),
-                 half_width = room * 0.5 * (patch_extent().end - patch_extent().begin) + mesh.finest_cell;
+    constexpr double room = 1.35;
+    const double     a    = room * hertz(*this, static_load()).semi_axis_x + mesh.finest_cell + beyond.begin,
+                 middle   = 0.5 * (patch_extent().begin + patch_extent().end),
+                 half_width =
+                   room * 0.5 * (patch_extent().end - patch_extent().begin) + mesh.finest_cell + beyond.end;
     if (std::abs(made.y_middle - middle) > half_width + 0.5 * made.width)
       return true;
     std::vector<double> begins(made.repeated_at);
@@ -105,6 +107,30 @@ namespace tread
           return true;
       return false;
     });
+  }
+
+
+  Scene::Range Scene::reach_of(const double height) const
+  {
+    if (!(height > 0.))
+      return {0., 0.};
+    // Along the path the wheel stands x^2 / 2R above the rail.
+    const double along = std::sqrt(2. * rolling_radius() * height);
+    // Across, where the gap is larger than the height from here on.
+    constexpr double step   = 0.1e-3; // m
+    const double     least  = surfaces().gap(first_contact().y);
+    double           across = 0.;
+    for (const double side : {-1., 1.})
+      {
+        const double edge    = side > 0. ? patch_extent().end : patch_extent().begin;
+        double       touched = 0.;
+        for (double beside = 0.; std::abs(edge + side * beside) <= surfaces().half_width; beside += step)
+          if (const double gap = surfaces().gap(edge + side * beside) - least;
+              std::isfinite(gap) && gap <= height)
+            touched = beside + step;
+        across = std::max(across, touched);
+      }
+    return {along, across};
   }
 
 
@@ -205,7 +231,7 @@ namespace tread
   }
 
 
-  Scene::PatchExtent Scene::patch_under_load() const
+  Scene::PatchExtent Scene::patch_under_load(std::vector<Island> &islands) const
   {
     const double y = first_contact().y, load = static_load();
     if (load <= 0.)
@@ -243,6 +269,12 @@ namespace tread
     const reference::FourierGrid    fourier(grid);
     const reference::NormalSolution solution =
       reference::solve_normal(fourier, reference::NormalOperator(fourier, pair), problem);
+    islands = islands_of(grid, solution.pressure);
+    for (Island &island : islands)
+      {
+        island.y_begin += y;
+        island.y_end += y;
+      }
     PatchExtent patch{y, y};
     for (const unsigned int e : solution.contact)
       {

@@ -163,6 +163,17 @@ namespace tread
        "Element",
        element_named(solid.element).has_hourglass_modes,
        "one-point"},
+      {"Motion",
+       {"Traction coefficient"},
+       "Creepage",
+       motion.drive == Drive::torque || !(motion.creepage || motion.angular_velocity) ||
+         (motion.creepage == 0. && motion.traction_coefficient == 0.), // free rolling, said twice
+       "predicted"},
+      {"Further wheels",
+       {"Traction coefficients"},
+       "Motion/Creepage",
+       motion.drive == Drive::torque || !motion.creepage,
+       "predicted"},
       {"Motion", {"Hold distance (mm)"}, "Drive", motion.drive == Drive::torque, "torque"},
       {"Peak stress", {}, "Region", peak_stress.is_wanted(), "a region"},
       {"Peak stress", {"From (mm)", "To (mm)"}, "Region", peak_stress.place == PeakPlace::range, "range"},
@@ -184,6 +195,38 @@ namespace tread
                              (elsewhere ? "" : group.section + "/") + group.main + "' " + group.needed);
             break;
           }
+    for (const std::string &line : tables_beside_the_path())
+      unused.push_back(line);
     return unused;
+  }
+
+
+  std::vector<std::string> Scene::tables_beside_the_path() const
+  {
+    std::vector<std::string> lines;
+    if (!shapes)
+      return lines;
+    // More than any patch is long.
+    constexpr double room = 0.05, largest_pressure = 5e9, least_pressure = 1e7; // m, Pa
+    const double     from = path_begin(last_wheel()) - room, to = meshed_end() + room;
+    const auto       beside = [&](const double begin, const double end) {
+      return end < from || begin > to;
+    };
+    if (const auto &places = contact.friction_places;
+        !places.empty() && beside(places.front(), places.back()))
+      lines.push_back("'Contact/Friction places (mm)' all lie beside the path, from " +
+                      text_in_mm(path_begin(last_wheel())) + " to " + text_in_mm(meshed_end()) +
+                      " mm: the friction factor is " + text_of(contact.friction_factor(path_begin())) +
+                      " on all of it");
+    if (const auto &pressures = contact.friction_pressures;
+        !pressures.empty() && (pressures.front() > largest_pressure || pressures.back() < least_pressure))
+      lines.push_back("'Contact/Friction pressures (MPa)', from " + text_of(1e-6 * pressures.front()) +
+                      " to " + text_of(1e-6 * pressures.back()) +
+                      ", are those of no wheel on a rail: the factor is the same at all of its pressures");
+    for (const MaterialSection::Zone &zone : rail.material.zones())
+      if (beside(zone.begin, zone.end))
+        lines.push_back("'Rail/Plastic zones' from " + text_in_mm(zone.begin) + " to " +
+                        text_in_mm(zone.end) + " mm has no effect: it lies beside the path");
+    return lines;
   }
 } // namespace tread

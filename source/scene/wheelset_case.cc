@@ -128,6 +128,7 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
+    check_other_wheel();
     const WheelRolling rolling = wheel_rolling(*this, path_begin());
     require(
       rolling.is_coulomb() || reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
@@ -136,6 +137,31 @@ namespace tread
     require(!rolling.slip_friction || !rolling.pressure_factor,
             "'Contact/Friction law' must be Coulomb with 'Friction pressures (MPa)' where 'Wheelset' has a "
             "position: half-space theory has no answer for both");
+  }
+
+
+  void Scene::check_other_wheel() const
+  {
+    if (wheelset.both_wheels) // whose roll follows from the contact of both
+      return;
+    // A flange that climbs, or a roll that was not given, is some millimetres.
+    constexpr double       deepest  = 15e-3; // m
+    const WheelOnRail      surfaces = wheel_on_rail();
+    const WheelsetPosition position = wheelset.position();
+    double                 overlap  = 0.;
+    try
+      {
+        // At the height at which the own wheel touches.
+        overlap = surfaces.nearest(position).gap - surfaces.nearest(position.mirrored()).gap;
+      }
+    catch (const std::runtime_error &)
+      {
+        return; // the own wheel meets no rail, which is said later; or the other one has none under it
+      }
+    require(overlap <= deepest, "'Wheelset/Lateral shift (mm)' " + text_in_mm(position.shift) +
+                                  " puts the other wheel of the wheelset " + text_in_mm(overlap) +
+                                  " mm deep into its rail: no wheelset stands there; at most " +
+                                  text_in_mm(deepest) + " mm, as 'Wheelset/Roll (mrad)' may be missing");
   }
 
 

@@ -272,6 +272,8 @@ namespace tread
     summary.set("yaw_rad", contact.position.yaw);
     summary.set("roll_rad", contact.position.roll);
     summary.set("angular_velocity_rad_per_s", angular_velocity);
+    summary.show("creepage_over_nominal_radius", "creepage over 'Wheel/Radius', 1e-3", 1e3,
+                 angular_velocity * scene.wheel.radius / scene.motion.speed - 1.);
     summary.show("wheelset_height_m", "wheelset over its radius, mm", 1e3, contact.position.height);
     summary.set("traction_coefficient", contact.force[2] > 0. ? contact.force[0] / contact.force[2] : 0.);
     summary.set("friction_coefficient", scene.contact.friction_coefficient);

@@ -90,9 +90,10 @@ namespace tread
     for (const int number : scene.output.supports)
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
     std::string contents;
-    for (const auto &[name, path] : scene.files())
-      contents +=
-        "contents of '" + name + "' with the checksum " + std::to_string(checksum(text_of_file(path))) + "\n";
+    for (const FileRead &file : scene.files_read())
+      if (!file.is_scene())
+        contents +=
+          "contents of '" + file.parameter + "' with the checksum " + std::to_string(file.crc32) + "\n";
     std::string before_output = all.substr(0, section("Output").first);
     // It may grow up to the longest one, which stays.
     if (scene.motion.longest_distance > 0.)
@@ -140,9 +141,9 @@ namespace tread
     bool              is_whole = false;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::ifstream file(path, std::ios::binary);
-        std::size_t   size = 0;
-        unsigned int  sum  = 0;
+        std::istringstream file(text_of_file(path));
+        std::size_t        size = 0;
+        unsigned int       sum  = 0;
         file >> found_layout >> size >> sum;
         file.get();
         content.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
@@ -188,10 +189,10 @@ namespace tread
         std::stringstream all;
         scene.print(all, false);
         const std::string distance = "Motion/Rolled distance (mm)"; // not among those of a run that may go on
-        const auto        of_run   = settings_in(std::ifstream(folder.path("parameters.prm")));
-        auto              now      = settings_in(std::istringstream(parameters()));
-        const auto        whole    = settings_in(std::move(all));
-        now[distance]              = whole.at(distance);
+        const auto of_run = settings_in(std::istringstream(text_of_file(folder.path("parameters.prm"))));
+        auto       now    = settings_in(std::istringstream(parameters()));
+        const auto whole  = settings_in(std::move(all));
+        now[distance]     = whole.at(distance);
         for (const auto &[name, value] : whole)
           if (of_run.find(name) == of_run.end())
             problem =
@@ -202,6 +203,19 @@ namespace tread
           if (const auto before = of_run.find(name); before != of_run.end() && before->second != value)
             problem = "--resume: the run in '" + folder.path("") + "' is complete, and was made with '" +
                       name + "' " + before->second + ", now " + value + "; without --resume it starts anew";
+        if (problem.empty())
+          {
+            const FilesCompared files = compare_files(
+              files_in_comments(text_of_file(folder.path("parameters.prm"))), scene.files_read());
+            if (!files.unlike.empty())
+              problem = "--resume: the run in '" + folder.path("") +
+                        "' is complete, and was made with other contents: " + files.unlike +
+                        "; without --resume it starts anew";
+            else if (!files.unknown.empty())
+              problem = "--resume: the run in '" + folder.path("") +
+                        "' is complete, but its 'parameters.prm' does not say what the file of '" +
+                        files.unknown + "' contained; without --resume it starts anew";
+          }
       }
     problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
     if (!problem.empty())
@@ -214,7 +228,7 @@ namespace tread
     bool is_longer = false;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0 && scene.motion.longest_distance > 0.)
       {
-        const auto   of_run = settings_in(std::ifstream(folder.path("parameters.prm")));
+        const auto   of_run = settings_in(std::istringstream(text_of_file(folder.path("parameters.prm"))));
         const auto   rolled = of_run.find("Motion/Rolled distance (mm)");
         const double tiny   = 1e-9; // m
         is_longer           = rolled != of_run.end() &&
@@ -228,7 +242,7 @@ namespace tread
   {
     std::string name;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      std::ifstream(folder.path("checkpoint.last")) >> name;
+      std::istringstream(text_of_file(folder.path("checkpoint.last"))) >> name;
     name = dealii::Utilities::MPI::broadcast(comm, name, 0);
     if (name.empty())
       throw InputError("--resume: no checkpoint in '" + folder.path("") + "'");

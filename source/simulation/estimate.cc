@@ -44,18 +44,56 @@ namespace tread
           memory = std::min(memory, limit);
       return memory;
     }
+
+    /// Cells that make a mesh in a few seconds: some 200 000 a second were found.
+    constexpr double quickly_made = 6e5;
+
+    /// From the finest cells of wheels and paths.
+    double least_cells(const Scene &scene)
+    {
+      const double h = scene.mesh.finest_cell,
+                   width =
+                     2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
+      return all_over_finest * 2. * scene.n_wheels() * scene.mesh.fine_layers * std::max(1., width / h) *
+             scene.motion.rolled_distance / std::max(h, scene.mesh.path_cell);
+    }
   } // namespace
+
+
+  bool estimate_without_mesh(const Scene &scene, const MPI_Comm comm)
+  {
+    const double cells = least_cells(scene);
+    if (cells < quickly_made)
+      return false;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
+      return true;
+    // As cell_cost() counts them.
+    constexpr double steps_over_travel_time = 1.2;
+    const double     wave_speed =
+      scene.rail.material.elastic().pressure_wave_speed() / std::sqrt(scene.general.density_scale);
+    for (const std::string &unused : scene.unused_parameters())
+      std::printf("WARNING: %s\n", unused.c_str());
+    for (const std::string &doubt : scene.doubts())
+      std::printf("WARNING: %s\n", doubt.c_str());
+    std::printf(
+      "cells                %10.2g million at least, by 'Mesh/Finest cell (mm)' %g: too many to make their "
+      "mesh for this answer\n",
+      1e-6 * cells, 1e3 * scene.mesh.finest_cell);
+    std::printf("steps                %12.3g\n", steps_over_travel_time * scene.motion.rolled_distance /
+                                                   scene.motion.speed * wave_speed / scene.mesh.finest_cell);
+    std::printf("cells and nodes use  %12.0f MB at least\n", 1e-6 * bytes_of_cell * cells);
+    std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
+                scene.inertia_error_estimate(), scene.general.density_scale);
+    std::printf(
+      "estimated time       none: larger cells have one, and half their size takes sixteen times as long\n");
+    return true;
+  }
 
 
   void require_memory(const Scene &scene, const MPI_Comm comm)
   {
-    const double h     = scene.mesh.finest_cell,
-                 width = 2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
-    // From the finest cells of wheels and paths.
-    const double cells = all_over_finest * 2. * scene.n_wheels() * scene.mesh.fine_layers *
-                         std::max(1., width / h) * scene.motion.rolled_distance /
-                         std::max(h, scene.mesh.path_cell);
-    MPI_Comm of_machine;
+    const double cells = least_cells(scene);
+    MPI_Comm     of_machine;
     MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
     const double share = double(dealii::Utilities::MPI::n_mpi_processes(of_machine)) /
                          dealii::Utilities::MPI::n_mpi_processes(comm);
@@ -65,7 +103,7 @@ namespace tread
     if (dealii::Utilities::MPI::logical_or(!fits, comm))
       throw InputError(format("'Mesh/Finest cell (mm)' %g makes at least %.3g million cells, which "
                               "need %.3g GB; a machine with %.3g GB is too small",
-                              1e3 * h, 1e-6 * cells, 1e-9 * needed, 1e-9 * available));
+                              1e3 * scene.mesh.finest_cell, 1e-6 * cells, 1e-9 * needed, 1e-9 * available));
   }
 
 
@@ -91,14 +129,17 @@ namespace tread
              (steps * std::sqrt(scene.general.density_scale / density_scale) / gain_of_levels +
               relaxation_steps);
     };
+    std::vector<std::string> doubts = scene.doubts();
+    if (const std::string unseen = unseen_detail(); !unseen.empty())
+      doubts.push_back(unseen);
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         for (const std::string &unused : scene.unused_parameters())
           std::printf("WARNING: %s\n", unused.c_str());
         if (const std::string defect = scene.defect_in_words(); !defect.empty())
           std::printf("%s\n", defect.c_str());
-        if (const std::string unseen = unseen_detail(); !unseen.empty())
-          std::printf("WARNING: %s\n", unseen.c_str());
+        for (const std::string &doubt : doubts)
+          std::printf("WARNING: %s\n", doubt.c_str());
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
         std::printf("unknowns             %12llu\n",
                     3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));

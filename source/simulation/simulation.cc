@@ -227,6 +227,7 @@ namespace tread
     for (RollingWheel &wheel : wheels)
       {
         const Vector3 force = force_on(wheel);
+        wheel.follow_load(scene, force[2]);
         wheel.interval_force += force;
         if (scene.wheelset.both_wheels)
           wheel.interval_other_force += force_on_other();
@@ -435,8 +436,6 @@ namespace tread
           }
         folder.remove_results();
       }
-    std::ostringstream effective;
-    scene.print(effective, true);
     folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
                            scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along(),
                            scene.wheelset.has_flexible_axle()},
@@ -446,7 +445,7 @@ namespace tread
     // Nothing is refused any more.
     if (resume && folder.is_complete())
       folder.remove_solution();
-    folder.write("parameters.prm", effective.str());
+    folder.write("parameters.prm", scene.parameters_of_run());
     MeasuredProfiles(scene).write(folder);
     checked_position = position();
     if (next_wheel_due && !begin_next_passage(progress))

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 namespace tread
@@ -180,6 +181,10 @@ namespace tread
           c.creepage               = -wheel.target_creepage;
           set_friction(c, scene, scene.path_begin(wheel.number));
           return half_space_answer(scene, c, wheel.number).fields;
+        }
+      catch (const std::bad_alloc &)
+        {
+          throw; // no fault of the input
         }
       catch (const std::exception &error)
         {

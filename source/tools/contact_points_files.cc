@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 namespace tread
 {
@@ -164,6 +165,10 @@ namespace tread
                 rows.push_back({i, touching_wheelset(surfaces, position),
                                 touching_wheelset(surfaces, position, Roll::none), 0., 0., 0.});
                 roll = rows.back().wheelset.position.roll;
+              }
+            catch (const std::bad_alloc &)
+              {
+                throw; // no fault of the input
               }
             catch (const std::exception &error)
               {

@@ -65,8 +65,8 @@ namespace tread
         }
     }
 
-    /// A twin differs from its run by the defect alone.
-    void compare_parameters(const std::string &run, const std::string &twin)
+    /// A twin differs from its run by the defect alone. @returns a warning where that is not sure, or ""
+    std::string compare_parameters(const std::string &run, const std::string &twin)
     {
       const std::vector<Scene::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
                                           of_twin = Scene::parameters_in(twin + "/parameters.prm");
@@ -86,6 +86,14 @@ namespace tread
             throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
                              " and '" + of_twin[i].value + "' in " + twin);
         }
+      const FilesCompared files =
+        compare_files(files_in_comments(text_of_file(run + "/parameters.prm")),
+                      files_in_comments(text_of_file(twin + "/parameters.prm")), "Defect/");
+      require(files.unlike.empty(), "no smooth twin: " + files.unlike);
+      if (!files.unknown.empty())
+        return "whether " + run + " and " + twin + " have read the same file of '" + files.unknown +
+               "' is not known: parameters.prm of one of them does not say what it contained";
+      return "";
     }
 
     /// What its summary says of a history: @throws InputError if rows were changed since
@@ -254,9 +262,10 @@ namespace tread
                  to        = millimetres(request.to_mm, "--to", infinity);
     if (from > to)
       throw InputError("--from " + request.from_mm + " must not be above --to " + request.to_mm);
-    const ForceHistory run = read_forces(request.run), smooth_twin = read_forces(request.smooth_twin);
-    compare_parameters(request.run, request.smooth_twin);
+    const ForceHistory       run = read_forces(request.run), smooth_twin = read_forces(request.smooth_twin);
     std::vector<std::string> warnings;
+    if (const std::string doubt = compare_parameters(request.run, request.smooth_twin); !doubt.empty())
+      warnings.push_back(doubt);
     for (const std::string &of : {request.run, request.smooth_twin})
       if (const std::string doubt = doubt_of_history(of); !doubt.empty())
         warnings.push_back(doubt);

@@ -550,11 +550,9 @@ namespace tread
     const ElasticSystem::Place on_rail  = disc(mesh, rail_body, x, y),
                                on_wheel = disc(mesh, wheel_body(0), scene.path_begin(), y);
 
-    RunFolder          folder(path, comm);
-    std::ostringstream effective;
-    scene.print(effective, true);
+    RunFolder folder(path, comm);
     folder.remove_results();
-    folder.write("parameters.prm", effective.str());
+    folder.write("parameters.prm", scene.parameters_of_run());
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
     Writer                             writer(scene, mesh, folder, progress);
     const std::vector<ElasticMaterial> material   = materials(scene);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
+#include <new>
 #include <sstream>
 
 namespace tread
@@ -205,6 +206,10 @@ namespace tread
       {
         estimate = half_space_answer(scene, half_space_case(scene));
       }
+    catch (const std::bad_alloc &)
+      {
+        throw; // no fault of the input
+      }
     catch (const std::exception &error)
       {
         throw InputError(std::string("no half-space answer: ") + error.what());
@@ -242,12 +247,11 @@ namespace tread
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
+    summary.set("files", as_json(scene.files_read()));
 
-    RunFolder          folder(path, comm, scene.output.pictures);
-    std::ostringstream effective;
-    scene.print(effective, true);
+    RunFolder folder(path, comm, scene.output.pictures);
     folder.remove_results();
-    folder.write("parameters.prm", effective.str());
+    folder.write("parameters.prm", scene.parameters_of_run());
     const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
     folder.write_patch("patch.csv", nodes);
     folder.write_surface(nodes, half_space.element_size);

@@ -225,6 +225,15 @@ namespace tread
 
     const double of_scene = parameters.number("Track/Sleeper mass (kg)");
 
+    // The shape is that of one sleeper, whatever the run's weighs.
+    constexpr double         differs = 0.02; // share
+    std::vector<std::string> warnings;
+    if (const double of_run = parameters.number("Track/Sleeper mass (kg)");
+        parameters.text("Track/Foundation") == "two-layer" && std::abs(mass / of_run - 1.) > differs)
+      warnings.push_back(
+        format("half the sleeper of the run weighs %.4g kg ('Track/Sleeper mass (kg)'), that of an NS 90 "
+               "at 'Track/Sleeper density (kg per m3)' %.4g kg: the stress is that in an NS 90",
+               of_run, mass));
     const RunFolder folder(request.output.empty() ? request.run : request.output, comm);
     SleeperStress   s;
     try
@@ -268,6 +277,7 @@ namespace tread
     json["mean_seat_settlement_m"] = s.mean_seat_settlement;
     json["half_sleeper_mass_kg"]   = mass;
     json["scene_sleeper_mass_kg"]  = of_scene;
+    json["warnings"]               = warnings;
     json["young_modulus_Pa"]       = p.young_modulus;
     json["poisson_ratio"]          = p.poisson_ratio;
     json["order_of_elements"]      = p.degree;
@@ -279,6 +289,9 @@ namespace tread
     json["ranks"]                  = dealii::Utilities::MPI::n_mpi_processes(comm);
     folder.write("sleeper_stress.json",
                  json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      for (const std::string &warning : warnings)
+        std::printf("WARNING: %s\n", warning.c_str());
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       std::printf(
         "%ssupport %d of %s at %.6g s, wheel at %.2f mm: %.4g kN on the rail seat, %.4g to %.4g MPa\n"

@@ -43,12 +43,11 @@ namespace tread
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
+    summary.set("files", as_json(scene.files_read()));
 
-    RunFolder          folder(path, comm);
-    std::ostringstream effective;
-    scene.print(effective, true);
+    RunFolder folder(path, comm);
     folder.remove_results();
-    folder.write("parameters.prm", effective.str());
+    folder.write("parameters.prm", scene.parameters_of_run());
     folder.write_patch("patch.csv", placed.table_nodes());
     profiles.write(folder);
     folder.write("summary.json", summary.text());

@@ -17,8 +17,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -385,6 +387,12 @@ namespace
   }
 
 
+  bool has(const std::vector<std::string> &lines, const std::string &words)
+  {
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const std::string &line) { return line.find(words) != std::string::npos; });
+  }
+
   /// Height (mm) over the rail's profile at a place (mm).
   double height(const Scene &scene, const double x, const double y)
   {
@@ -450,8 +458,169 @@ namespace
                met({"Defect/Position (mm)=-1000", "Further wheels/Distances (mm)=1000"}));
     check.that("one beside the patch is not",
                !met({"Defect/Lateral position (mm)=18", "Defect/Width (mm)=8"}));
+    const std::vector<std::string> doubts = scene_of(dip, {"Defect/Position (mm)=45"})->doubts();
+    check.that("which is a doubt",
+               doubts.size() == 1 && has(doubts, "NOT reach the defect, from 45.00 to 65.00 mm"));
+    check.that("and only then", scene_of(dip)->doubts().empty());
   }
 
+
+  /// A table of heights (mm) over x and y (mm), a node each half a millimetre.
+  std::string map_of(const double                                 length,
+                     const double                                 half_width,
+                     const std::function<double(double, double)> &height)
+  {
+    std::ostringstream text;
+    text << "x_mm,y_mm,z_mm\n";
+    for (int j = -std::lround(2. * half_width); j <= std::lround(2. * half_width); ++j)
+      for (int i = 0; i <= std::lround(2. * length); ++i)
+        text << 0.5 * i << ',' << 0.5 * j << ',' << height(0.5 * i, 0.5 * j) << '\n';
+    return text.str();
+  }
+
+  /// What stands above the rail is met from a distance, but not from any.
+  void check_bumps(tests::Check &check, const TemporaryFolder &folder)
+  {
+    // The wheel rolls from -30 to 30 mm.
+    const auto met = [&](const std::string &file, const Settings &more) {
+      return !scene_of({"Defect/Shape=map", "Defect/Profile file=" + file, "Motion/Start (mm)=-30",
+                        "Motion/Rolled distance (mm)=60"},
+                       more)
+                ->misses_defect();
+    };
+    const auto hump = [](const double x, const double y) {
+      return std::max(0., 1. - std::pow(x / 8. - 1., 2) - std::pow(y / 8., 2));
+    };
+    const std::string bump = folder.write(
+                        "bump.csv",
+                        map_of(16., 8., [&](const double x, const double y) { return 0.1 * hump(x, y); })),
+                      // a bowl with a rim of half a micrometre, as splines leave one
+      bowl = folder.write("bowl.csv", map_of(16., 8., [&](const double x, const double y) {
+                            return -0.1 * hump(x, y) +
+                                   0.0005 * (std::hypot(x - 8., y) > 7. && std::hypot(x - 8., y) < 7.9);
+                          }));
+    check.that("a bowl under the path is met", met(bowl, {"Defect/Position (mm)=0"}));
+    check.that("a bowl behind its end is not", !met(bowl, {"Defect/Position (mm)=42"}));
+    check.that("a bowl before its start is not", !met(bowl, {"Defect/Position (mm)=-60"}));
+    check.that("a bowl beside the patch is not",
+               !met(bowl, {"Defect/Position (mm)=0", "Defect/Lateral position (mm)=19"}));
+    // A wheel of 0.46 m touches 0.1 mm from sqrt(2 x 460 x 0.1) = 9.6 mm on.
+    check.that("a bump is met from further away", met(bump, {"Defect/Position (mm)=44"}));
+    check.that("but not from any distance", !met(bump, {"Defect/Position (mm)=54"}));
+    check.that("nor before the start", !met(bump, {"Defect/Position (mm)=-75"}));
+  }
+
+  /// Detail of a defect's file that cells do not see, and heights that are in another unit.
+  void check_detail(tests::Check &check, const TemporaryFolder &folder)
+  {
+    const Settings base{"Defect/Shape=profile",           "Defect/Lateral law=uniform",
+                        "Defect/Position (mm)=-20",       "Motion/Start (mm)=-30",
+                        "Motion/Rolled distance (mm)=60", "Mesh/Finest cell (mm)=1.3"};
+    const auto     line = [&](const std::string &name, const std::function<double(double)> &height) {
+      std::ostringstream text;
+      for (int i = 0; i <= 800; ++i)
+        text << 0.05 * i << ' ' << height(0.05 * i) << '\n';
+      return "Defect/Profile file=" + folder.write(name, text.str());
+    };
+    const double pi    = dealii::numbers::PI;
+    const auto   waves = [=](const double x) {
+      return -0.05 * (1. - std::cos(2. * pi * x / 40.));
+    };
+    const auto seen = scene_of(base, {line("smooth.txt", waves)}),
+               step = scene_of(
+                 base, {line("step.txt", [](const double x) { return x > 0. && x < 40. ? -0.012 : 0.; })}),
+               noise =
+                 scene_of(base, {line("noise.txt", [&](const double x) {
+                            return waves(x) - (x > 0. && x < 40. ? 0.008 * (1. + std::sin(1e4 * x * x)) : 0.);
+                          })});
+    check.that("a smooth line has no doubts", seen->doubts().empty());
+    check.that("a step has", has(step->doubts(), "detail along the rail"));
+    check.that("noise has", has(noise->doubts(), "detail along the rail"));
+    // A sine of two cells' length between nodes at its zeros is not seen at all; a straight line through
+    // nodes leaves the root of its mean square, 1/sqrt(2), and a cubic next to that.
+    const auto sine =
+      scene_of(base, {line("sine.txt",
+                           [&](const double x) {
+                             return x > 0. && x < 40. ? -0.01 - 0.004 * std::cos(2. * pi * x / 1.3) : 0.;
+                           }),
+                      "Defect/Ramp (mm)=8"});
+    check.that("waves of a cell's length are seen by no node",
+               sine->detail_along() > 2e-6 && sine->detail_along() < 8e-6);
+    check.that("heights of micrometres",
+               scene_of(base, {line("metres.txt", [&](const double x) { return 1e-3 * 0.5 * waves(x); })})
+                   ->doubts()
+                   .size() == 1);
+    const std::vector<std::string> values =
+      scene_of({"Wheel/Mass (kg)=0.9", "Vehicle/Sprung mass (kg)=9", "Motion/Rolled distance (mm)=60",
+                "Mesh/Finest cell (mm)=0.1", "Rail/Density (kg per m3)=7.8"})
+        ->implausible_values();
+    check.that("masses and density in t", values.size() == 3 && has(values, "'Wheel/Mass (kg)' 0.9") &&
+                                            has(values, "'Vehicle/Sprung mass (kg)' 9") &&
+                                            has(values, "'Rail/Density (kg per m3)' 7.8"));
+  }
+
+  /// Tables along the path that have no place on it.
+  void check_unused_tables(tests::Check &check)
+  {
+    const auto unused = [](const Settings &more) {
+      return scene_of({"Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60"}, more)->unused_parameters();
+    };
+    check.that("friction places on the path count",
+               unused({"Contact/Friction places (mm)=0,200", "Contact/Friction factors=1,0.9"}).empty());
+    check.that("those behind it do not",
+               has(unused({"Contact/Friction places (mm)=100,200", "Contact/Friction factors=0.9,1"}),
+                   "the friction factor is 0.9 on all of it"));
+    check.that("those before it do not",
+               has(unused({"Contact/Friction places (mm)=-300,-200", "Contact/Friction factors=0.9,1"}),
+                   "Friction places"));
+    check.that("pressures in Pa", has(unused({"Contact/Friction pressures (MPa)=100000,900000",
+                                              "Contact/Friction pressure factors=1,0.8"}),
+                                      "no wheel on a rail"));
+    check.that("pressures of a wheel",
+               unused({"Contact/Friction pressures (MPa)=200,900", "Contact/Friction pressure factors=1,0.8"})
+                 .empty());
+    check.that("a traction coefficient beside a creepage",
+               has(unused({"Motion/Creepage=0.001", "Motion/Traction coefficient=0.2"}),
+                   "'Motion/Traction coefficient' has no effect: it needs 'Motion/Creepage' predicted"));
+    check.that("a traction coefficient alone", unused({"Motion/Traction coefficient=0.2"}).empty());
+    check.that(
+      "a torque has one beside a creepage",
+      unused({"Motion/Drive=torque", "Motion/Creepage=0.001", "Motion/Traction coefficient=0.2"}).empty());
+    check.that("a zone beside the path",
+               has(unused({"Rail/Yield stress (MPa)=500", "Rail/Plastic zones=500:600:8:400:21",
+                           "Rail/Begin (mm)=-700", "Rail/Length (mm)=1500"}),
+                   "'Rail/Plastic zones' from 500 to 600 mm"));
+  }
+
+  /// Which memory friction takes that falls.
+  void check_memory(tests::Check &check)
+  {
+    const Settings falling{"Contact/Friction law=falling",
+                           "Contact/Friction coefficient=0.3",
+                           "Contact/Kinetic friction coefficient=0.1",
+                           "Motion/Traction coefficient=0.1",
+                           "Contact/Falling slip speed (m per s)=1",
+                           "Motion/Speed (km per h)=144",
+                           "Motion/Creepage=0.01"};
+    const auto     memory = [&](const Settings &more) {
+      return 1e6 * scene_of(falling, more)->friction_law()->memory().distance;
+    };
+    // Slip of 0.02 x 40 m/s: s|f'| is largest there, 0.8 x 0.2 exp(-0.8); load 140 kN, R 460 mm, E 210 GPa.
+    const auto   scene    = scene_of(falling);
+    const double modulus  = 0.5 * scene->rail.material.young_modulus / (1. - 0.09),
+                 a        = std::cbrt(0.75 * scene->static_load() * 0.46 / modulus),
+                 pressure = 1.5 * scene->static_load() / (dealii::numbers::PI * a * a);
+    check.relative("memory, um", memory({}),
+                   1e6 * 3. * pressure * 0.8 * 0.2 * std::exp(-0.8) * a /
+                     scene->rail.material.elastic().shear_modulus(),
+                   0.01);
+    check.absolute("memory as given, um", memory({"Contact/Friction memory (mm)=0.07"}), 70., 1e-9);
+    check.absolute("none where waves carry away what falls, um",
+                   memory({"Contact/Falling slip speed (m per s)=80"}), 0., 0.);
+    check.that("none at all is a doubt",
+               has(scene_of(falling, {"Contact/Friction memory (mm)=0"})->doubts(), "lets slip oscillate"));
+    check.that("what is taken is not", scene_of(falling)->doubts().empty());
+  }
 
   void check_profiles(tests::Check &check, const TemporaryFolder &folder)
   {
@@ -771,6 +940,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_plastic_zones(check);
   check_track(check, folder);
   check_dips(check);
+  check_bumps(check, folder);
+  check_detail(check, folder);
+  check_unused_tables(check);
+  check_memory(check);
   check_profiles(check, folder);
   check_corrugation(check, folder);
   check_maps(check, folder);

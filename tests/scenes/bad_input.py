@@ -234,11 +234,27 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("the other run was killed", [scene, "--output", os.path.join(folder, "busy"), "--resume"] + coarse,
               ["no checkpoint"])
 
-    for name, text, words in (("unknown entry", "subsection Contact\n  set Frictoin = 1\nend\n", ["Frictoin"]),
-                              ("unknown section", "subsection Contract\n  set Friction coefficient = 1\nend\n", ["Contract"]),
-                              ("no end", "subsection Contact\n  set Friction coefficient = 0.4\n", ["subsection", "end"]),
+    for name, text, words in (("unknown entry", "# a scene\nsubsection Contact\n  set Frictoin coefficient = 1\nend\n",
+                               ["bad.prm', line 3", "no parameter 'Contact/Frictoin coefficient'", "did you mean 'Contact/Friction coefficient'"]),
+                              ("unit left out", "subsection Wheel\n\n  set Mass = 900\nend\n", ["line 3", "'Wheel/Mass'", "did you mean 'Wheel/Mass (kg)'"]),
+                              ("unknown section", "subsection Contract\n  set Friction coefficient = 1\nend\n", ["line 1", "no section 'Contract'", "did you mean 'Contact'"]),
+                              ("unknown section without entries", "subsection Contract\nend\n", ["line 1", "no section 'Contract'"]),
+                              ("no end", "\nsubsection Contact\n  set Friction coefficient = 0.4\n", ["line 2", "'subsection Contact' has no 'end'"]),
+                              ("no end before the next", "subsection Contact\n  set Friction coefficient = 0.4\nsubsection Wheel\nend\n",
+                               ["line 3", "'subsection Wheel'", "line 1", "no 'end'"]),
+                              ("an end too many", "subsection Contact\nend\nend\n", ["line 3", "'end' without a 'subsection'"]),
+                              ("no set", "subsection Contact\n  Friction coefficient = 0.4\nend\n", ["line 2", "must begin with 'set'"]),
+                              ("no set, misspelt", "subsection Contact\n  Friction coeficient = 0.4\nend\n", ["line 2", "must begin with 'set'", "did you mean"]),
+                              ("no subsection", "Contact\n  set Friction coefficient = 0.4\nend\n", ["line 1", "'Contact' must begin with 'subsection'"]),
+                              ("no equals", "subsection Contact\n  set Friction coefficient 0.4\nend\n", ["line 2", "Friction coefficient"]),
+                              ("no value", "subsection Contact\n  set Friction coefficient\nend\n", ["line 2", "'=' is missing"]),
+                              ("outside of its section", "set Contact/Friction coefficient = 0.4\n", ["line 1", "outside of its section", "subsection Contact"]),
+                              ("no line of a scene", "subsection Contact\n  hello\nend\n", ["line 2", "cannot read 'hello'", "set NAME = VALUE"]),
+                              ("a study by its scene", "set Scene = ../a.prm\n", ["is a study", "contrib/study.py"]),
+                              ("a study by what varies", "subsection Vary\n  set Motion/Creepage = 0.1 | 0.2\nend\n", ["is a study"]),
+                              ("a line in two", "subsection Contact\n  set Friction coefficient = \\\n    -4\nend\n", ["line 2", "'-4'", "allowed"]),
                               ("value out of range", "subsection Contact\n  set Friction coefficient = -4\nend\n",
-                               ["Friction coefficient"])):
+                               ["line 2", "'Contact/Friction coefficient' cannot be '-4'; allowed: 0 to 2"])):
         path = os.path.join(folder, "bad.prm")
         with open(path, "w", encoding="utf-8") as stream:
             stream.write(text)
@@ -253,11 +269,22 @@ with tempfile.TemporaryDirectory() as folder:
                                  ("has a long line", 300000 * b" " + b"\nsubsection Motion\n", ["subsection"]),
                                  ("has a long value", b"subsection Motion\n set Drive = [Selection " + 200000 * b"b" + b"\nend\n",
                                   ["Drive", "creepage", " ... "]),
+                                 ("is UTF-16", "subsection Motion\nend\n".encode("utf-16"), ["UTF-16", "save the file"]),
+                                 ("is no text", bytes(range(256)), ["no text"]),
                                  ("is not UTF-8", "subsection Scene\n set Title = Pr\xfcfstand\nend\n".encode("latin-1"),
                                   ["line 2", "UTF-8"])):
         with open(path, "wb") as stream:
             stream.write(content)
         must_fail("a parameter file that " + name, [path, "--output", results], words)
+    # What editors of other systems leave is read: a byte order mark, ends of lines, capitals and tabs.
+    for name, content in (("a byte order mark", b"\xef\xbb\xbfsubsection Motion\n  set Speed (km per h) = 77\nend\n"),
+                          ("carriage returns", b"subsection Motion\r  set Speed (km per h) = 77\rend\r"),
+                          ("both ends of lines", b"subsection Motion\r\n  set Speed (km per h) = 77\r\nend\r\n"),
+                          ("capitals and tabs", b"SUBSECTION\tMotion\n\tSET Speed\t(km per h)  =\t77 # fast\nEND\n")):
+        with open(path, "wb") as stream:
+            stream.write(content)
+        read = json.loads(execute([path, "--print-parameters=json", "-s", "Scene/Title=read"], program=program).stdout)
+        check.that(f"a parameter file with {name} is read", read["Motion"]["Speed (km per h)"]["value"] == "77")
     must_fail("a setting that is not UTF-8", base + ["-s", b"Scene/Title=Pr\xfcfstand"], ["-s", "UTF-8"])
     steps = os.path.join(folder, "map.csv")
     with open(steps, "w", encoding="utf-8") as stream:

@@ -265,6 +265,20 @@ with tempfile.TemporaryDirectory() as folder:
     write_parameters(path("twin"), ["Motion/Speed (km per h)=140"])
     fails("exchanged", ["--dynamic-force", path("twin"), "--smooth-twin", path("run")], ["'Defect/Shape'", "'dip'", path("run")])
     fails("neither has a defect", ["--dynamic-force", path("twin"), "--smooth-twin", path("twin")], ["'Defect/Shape' is 'none'", path("twin")])
+    # Files of one name may have other contents; those of the defect may be unlike.
+    def has_read(name, parameter, content):
+        with open(path(f"{name}/parameters.prm"), "a", encoding="utf-8") as stream:
+            read = dict(parameter=parameter, path="tread.txt", bytes=len(content), crc32=zlib.crc32(content))
+            stream.write(f"# file read: {json.dumps(read)}\n")
+    has_read("run", "Wheel/Tread profile", b"0 0")
+    said = execute(both, program=program, check=True).stdout
+    check.that("a twin that does not say what it has read is named", "WARNING" in said and "'Wheel/Tread profile'" in said and "not known" in said)
+    has_read("twin", "Wheel/Tread profile", b"0 1")
+    fails("the twin has read another content", both, ["no smooth twin", "'Wheel/Tread profile'", "'tread.txt'", str(zlib.crc32(b"0 0")), str(zlib.crc32(b"0 1"))])
+    write_parameters(path("twin"), ["Motion/Speed (km per h)=140"])
+    has_read("twin", "Wheel/Tread profile", b"0 0")
+    has_read("run", "Defect/Profile file", b"0 0.1")
+    check.that("the same content, and a defect's file", "not known" not in execute(both, program=program, check=True).stdout)
     os.remove(path("twin/parameters.prm"))
     fails("no parameters", both, ["twin/parameters.prm"])
 

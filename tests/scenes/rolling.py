@@ -437,6 +437,33 @@ with tempfile.TemporaryDirectory() as folder:
         # force, and 1e-9 where the map has 0.05 mm across as well.
         check.below("height map against the dip: normal force, largest difference over the dip's own", np.abs(scanned - cap).max() / own, 1e-6)
         check.that("the dip matters", own > 0.05 * smooth.mean())
+        # What the run has read is known by its content.
+        with open(path("map.csv"), "rb") as stream:
+            content = stream.read()
+        read = {file["parameter"]: file for file in read_summary(path("scanned"))["files"]}
+        check.that("the summary has the files", list(read) == ["parameter file", "Defect/Profile file"] and read["parameter file"]["path"].endswith("dip.prm"))
+        check.that("with path, bytes and checksum", read["Defect/Profile file"] == dict(parameter="Defect/Profile file", path=path("map.csv"), bytes=len(content),
+                                                                                        crc32=zlib.crc32(content)))
+        once_more = arguments_of("tutorial/dip.prm", [f"{key}={value}" for key, value in mapped.items()], path("scanned")) + ["--resume"]
+        again = execute(once_more, program=program)
+        check.that("the same file: complete", again.returncode == 0 and "nothing to resume" in again.stdout)
+        with open(path("map.csv"), "wb") as stream:
+            stream.write(content.replace(b"-0.15\n", b"-0.16\n"))
+        fails("another content of the same name", once_more, ["complete", "other contents", "Defect/Profile file", "map.csv", str(zlib.crc32(content))])
+        with open(path("map.csv"), "wb") as stream:
+            stream.write(content)
+        with open(path("scanned/parameters.prm"), encoding="utf-8") as stream:
+            lines = stream.readlines()
+        with open(path("scanned/parameters.prm"), "w", encoding="utf-8") as stream:
+            stream.writelines(line for line in lines if "map.csv\"" not in line)
+        fails("a run that does not say what it has read", once_more, ["complete", "does not say", "Defect/Profile file"])
+        # A folder with the finished run of another scene is not for this one, unless it may be.
+        other = arguments_of("smooth-rolling.prm", SHORT, path("scanned"))
+        for what in ([], ["--reference-only"]):
+            fails("a folder with another scene's run", other + what, ["another scene", "dip.prm", "--overwrite", "--output"])
+        check.that("whose results stay", read_summary(path("scanned"))["completed"] and os.path.exists(path("scanned/history.csv")))
+        check.that("it may", execute(other + ["--reference-only", "--overwrite"], program=program).returncode == 0
+                   and "half-space" in read_summary(path("scanned"))["method"])
         with open(path("step.csv"), "w", encoding="utf-8") as stream:
             stream.write("x_mm,y_mm,z_mm\n")
             np.savetxt(stream, np.column_stack([places[0].ravel(), places[1].ravel(), -0.1 - depth.ravel()]), "%.9g", ",")
@@ -542,7 +569,7 @@ with tempfile.TemporaryDirectory() as folder:
         for scene, settings in sorted(all_settings.items(), key=lambda entry: -float(entry[1]["Mesh/Finest cell (mm)"])):
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
             if settings["Wheelset/Lateral shift (mm)"] != "none":  # wheelset_rolling.py rolls them
-                check.that(f"{name}: has a half-space answer", run(program, name, path("start"), more=["--reference-only"])["completed"])
+                check.that(f"{name}: has a half-space answer", run(program, name, path("start"), more=["--reference-only", "--overwrite"])["completed"])
                 continue
             on_track = settings["Track/Foundation"] != "rigid"
             new_mesh = is_first(settings, no_mesh)
@@ -558,7 +585,7 @@ with tempfile.TemporaryDirectory() as folder:
                     print(cut.stderr)
                 check.that(f"{name}: cut short it costs less", steps(cut.stdout) < 0.5 * steps(dry.stdout))
             if not on_track and is_first({**settings, **start}, ("Title",)):
-                short = run(program, name, path("start"), start)
+                short = run(program, name, path("start"), start, more=["--overwrite"])
                 check.that(f"{name}: starts and ends", short["completed"])
                 # What rattles at the start is much beside the friction of 4 mm, and all there is without friction.
                 if short["frictional_work_J"] > 0.1:

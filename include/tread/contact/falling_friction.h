@@ -2,6 +2,7 @@
 #ifndef tread_contact_falling_friction_h
 #define tread_contact_falling_friction_h
 
+#include <tread/base/word_or_number.h>
 #include <tread/contact/friction_law.h>
 
 #include <cmath>
@@ -14,6 +15,9 @@ namespace tread
   class FallingFriction : public FrictionLaw
   {
   public:
+    /// Distance of a memory that is to be found by the scene, m.
+    static constexpr double to_be_found = -1.;
+
     static void declare(dealii::ParameterHandler &section)
     {
       using dealii::Patterns::Double;
@@ -26,9 +30,11 @@ namespace tread
         "Of laws that fall: where 63 % of the fall is over (falling, Stribeck), half of it "
         "(rational) or all of it (linear).");
       section.declare_entry(
-        "Friction memory (mm)", "0", Double(0., 10.),
+        "Friction memory (mm)", automatic, WordOrNumber(automatic, Double(0., 10.)),
         "Of laws that fall: a node's coefficient follows its slip speed over this way of "
-        "slip. 0: at once, so that under high pressure slip begins to oscillate by itself.");
+        "slip. 0: at once, so that under high pressure slip begins to oscillate by itself. automatic: the "
+        "shortest way that keeps slip from it, some micrometres, by load, law and creepage; 0 where none is "
+        "needed.");
       section.declare_entry("Least speed of memory (m per s)", "0.001", Double(0., 1e3),
                             "Of laws that fall: nodes that slip more slowly forget at this speed.");
     }
@@ -44,6 +50,9 @@ namespace tread
     }
 
   protected:
+    /// The word for a memory that a scene finds. @see RememberingFriction
+    static constexpr const char *automatic = "automatic";
+
     /// @param falling_speed s_c, m/s. @throws std::invalid_argument if the law would rise.
     FallingFriction(const double coefficient, const double kinetic_coefficient, const double falling_speed)
       : kinetic(kinetic_coefficient)
@@ -62,8 +71,10 @@ namespace tread
     {
       const auto law = std::make_shared<Law>(coefficient, section.get_double("Kinetic friction coefficient"),
                                              section.get_double("Falling slip speed (m per s)"));
-      law->kept      = {1e-3 * section.get_double("Friction memory (mm)"),
-                        section.get_double("Least speed of memory (m per s)")};
+      law->kept      = {section.get("Friction memory (mm)") == automatic
+                          ? to_be_found
+                          : 1e-3 * section.get_double("Friction memory (mm)"),
+                   section.get_double("Least speed of memory (m per s)")};
       return law;
     }
 

@@ -3,6 +3,8 @@
 #define tread_scene_scene_h
 
 #include <tread/geometry/running_surfaces.h>
+#include <tread/scene/files_read.h>
+#include <tread/scene/islands.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/sections/contact.h>
 #include <tread/scene/sections/defect.h>
@@ -91,6 +93,8 @@ namespace tread
     {
       std::string path, value; ///< Section/Name
     };
+    /// The changed parameters with their values.
+    std::vector<Parameter> changed_values() const;
     /// All parameters of a scene with this parameter file, in the order of declaration. Only names and ranges
     /// are checked. @throws InputError
     static std::vector<Parameter> parameters_in(const std::string &file);
@@ -131,8 +135,13 @@ namespace tread
       return assumptions(start.tractions == StartTractions::predicted);
     }
 
-    /// Files that the scene reads: paths by the names of their parameters.
-    std::map<std::string, std::string> files() const;
+    /// Files that the scene has read, its parameter files first, with their contents as they were then.
+    const std::vector<FileRead> &files_read() const
+    {
+      return read_files;
+    }
+    /// parameters.prm of a run: all parameters, and the files that it has read.
+    std::string parameters_of_run() const;
 
     /// Whether the measured head ends, at one side, before what is searched for contact:
     /// surfaces().half_width.
@@ -141,6 +150,13 @@ namespace tread
     /// Whether no wheel's patch comes to the defect, nor to any other like it, on all of the way that is
     /// meshed; false where that is not sure. @pre made_defect()
     bool misses_defect() const;
+
+    /// What makes the answer of finite elements doubtful before anything rolls, one line each: values that
+    /// are hardly meant, a defect that no wheel meets, detail that cells do not see, parts of the patch that
+    /// are narrow for them.
+    std::vector<std::string> doubts() const;
+    /// The values among these.
+    std::vector<std::string> implausible_values() const;
 
     /// Where the defect lies and how deep, one line; empty: there is none.
     std::string defect_in_words() const;
@@ -212,6 +228,9 @@ namespace tread
     /// the cubics through the nearest four of them, root of the mean square (m): detail of profiles that the
     /// mesh does not see. 0 of a wheelset's positions, where cells follow the patch.
     double detail_within_cells() const;
+    /// The same along the path, of a defect from a file: the largest root of the mean square over a patch's
+    /// half length.
+    double detail_along() const;
     /// Whether forces vary along the path by the nature of the scene: a defect, or discrete supports.
     bool has_impacts() const
     {
@@ -298,6 +317,7 @@ namespace tread
       std::shared_ptr<const Defect>         defect; ///< null: none
       FirstContact                          contact;
       PatchExtent                           patch;
+      std::vector<Island>                   islands; ///< of that patch
     };
 
     /// Of a wheel behind the first one, m.
@@ -319,6 +339,8 @@ namespace tread
     void check_suspension() const;
     void check_axle() const;
     void check_wheelset() const;
+    /// Of a wheelset of which one wheel is looked at.
+    void check_other_wheel() const;
     void check_surfaces() const;
     void check_defect() const;
     void check_peak_stress() const;
@@ -332,16 +354,35 @@ namespace tread
     void check_numerics() const;
     /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
     std::string located(const std::string &file) const;
+    /// The least memory of a law that falls (m) with which slip under this load does not oscillate by itself;
+    /// 0: it does not without one.
+    double      needed_memory(const FrictionLaw &law) const;
+    std::string short_memory() const;
+    /// Tables along the path of which none lies on it, one line each.
+    std::vector<std::string> tables_beside_the_path() const;
+    /// What doubts() says of each; empty: nothing.
+    std::string missed_defect() const;
+    std::string unseen_detail_along() const;
+    std::string narrow_island() const;
+    /// Length of the cells under the path from begin to end, the longest where they are not alike, m.
+    double cell_along(const double begin, const double end) const;
+    /// How far from a patch's edge, along the path and across, the wheel touches what rises so much above the
+    /// rail, m.
+    Range reach_of(const double height) const;
+    /// Note the files that parameters name, with their contents.
+    void note_files();
     /// Where the path and the rail begin and end.
     std::shared_ptr<Shapes> make_path() const;
     /// @throws InputError
-    void        make_shapes();
-    void        shape_wheel(RunningSurfaces &surfaces) const;
-    void        shape_rail(Shapes &made) const;
-    PatchExtent patch_under_load() const;
+    void make_shapes();
+    void shape_wheel(RunningSurfaces &surfaces) const;
+    void shape_rail(Shapes &made) const;
+    /// @param islands of the patch, found with it
+    PatchExtent patch_under_load(std::vector<Island> &islands) const;
 
     mutable dealii::ParameterHandler           handler;
     std::filesystem::path                      folder; ///< of the parameter file
+    std::vector<FileRead>                      read_files;
     std::shared_ptr<const Shapes>              shapes;
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none

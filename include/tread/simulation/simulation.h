@@ -36,6 +36,10 @@ namespace tread
   /// memory. Collective.
   void require_memory(const Scene &scene, const MPI_Comm comm);
 
+  /// Print what is known of the cost of a run whose mesh would take more than a few seconds to make. @returns
+  /// whether this is such a run
+  bool estimate_without_mesh(const Scene &scene, const MPI_Comm comm);
+
   /// Wheels rolling over one rail, from equilibrium at the start to the solution instant.
   class Simulation
   {

@@ -117,6 +117,14 @@ namespace tread
     };
     if (plastic_zones.empty() && yield_stress == 0.)
       return;
+    // Of metals; what is beyond is in another unit.
+    constexpr double least_yield = 1e7, largest_yield = 1e10; // Pa
+    const auto       is_of_metal = [](const double yield) {
+      return yield >= least_yield && yield <= largest_yield;
+    };
+    const std::string metals = text_of(1e-6 * least_yield) + " to " + text_of(1e-6 * largest_yield) + " MPa";
+    require(yield_stress == 0. || is_of_metal(yield_stress), "Yield stress (MPa)",
+            text_of(1e-6 * yield_stress) + " is that of no metal, " + metals + "; is it in Pa or GPa?");
     const bool bilinear = hardening != Hardening::armstrong_frederick;
     const auto below    = [&](const double tangent) {
       return !bilinear || (tangent >= 0. && tangent < young_modulus);
@@ -141,6 +149,9 @@ namespace tread
                   text_in_mm(meshed.thickness));
         require(zone.yield_stress > 0., name,
                 "with yield stress " + text_of(1e-6 * zone.yield_stress) + " MPa: must be above 0");
+        require(is_of_metal(zone.yield_stress), name,
+                "with yield stress " + text_of(1e-6 * zone.yield_stress) + " MPa: that of no metal, " +
+                  metals);
         require(below(zone.tangent_modulus), name,
                 "with tangent modulus " + in_GPa(zone.tangent_modulus) +
                   " GPa: must be below Young's modulus, " + in_GPa(young_modulus));

@@ -47,15 +47,17 @@ namespace tread
       "the rolled distance alone.",
       Double(0., 10000.));
     section.choose("Drive", drive);
+    section.add("Traction coefficient", traction_coefficient,
+                "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
+                Double(-2., 2.));
     section.add(
-      "Traction coefficient", traction_coefficient,
-      "Longitudinal over normal force, positive when driving. It must be below the friction coefficient.",
-      Double(-2., 2.));
-    section.add("Creepage", creepage, "predicted",
-                "(angular velocity x radius - speed) / speed, counted from free rolling, positive when "
-                "driving; or 'predicted': what "
-                "half-space theory gives for the traction coefficient.",
-                Double(-0.2, 0.2));
+      "Creepage", creepage, "predicted",
+      "(angular velocity x radius - speed) / speed, counted from free rolling, positive when "
+      "driving; or 'predicted': what "
+      "half-space theory gives for the traction coefficient. Where 'Wheelset' has a position the radius is "
+      "'Wheel/Radius (mm)', which the wheel may roll on nowhere, and the creepage counts from zero: that "
+      "at each patch is in the table of patches.",
+      Double(-0.2, 0.2));
     section.add(
       "Lateral creepage", lateral_creepage,
       "Lateral velocity of the wheel relative to the rail / speed, towards +y. The axle stays upright and on "

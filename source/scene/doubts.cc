@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What of a scene makes its answer doubtful, before anything is computed.
+#include <tread/base/format.h>
+#include <tread/reference/half_space.h>
+#include <tread/reference/hertz.h>
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/islands.h>
+#include <tread/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+namespace tread
+{
+  namespace
+  {
+    /// What is found on railways and on test rigs, with a decade of room: beyond, a number is likely to be in
+    /// another unit.
+    struct Usual
+    {
+      const char *path;
+      double      least, largest; ///< in the parameter's unit
+      const char *but;            ///< the unit that it may be in
+    };
+    const std::vector<Usual> usual_values{
+      {"Wheel/Mass (kg)", 5., 2e4, "t"},
+      {"Wheel/Moment of inertia (kg m2)", 1e-3, 1e4, "t m2"},
+      {"Wheel/Young's modulus (GPa)", 1., 1e3, "MPa or TPa"},
+      {"Rail/Young's modulus (GPa)", 1., 1e3, "MPa or TPa"},
+      {"Wheel/Density (kg per m3)", 500., 3e4, "t per m3"},
+      {"Rail/Density (kg per m3)", 500., 3e4, "t per m3"},
+      {"Vehicle/Sprung mass (kg)", 50., 1e5, "t"},
+      {"Vehicle/Wheel load (kN)", 0.05, 1e3, "N or MN"},
+      {"Vehicle/Gravity (m per s2)", 0.1, 100., "mm per s2"},
+      {"Vehicle/Suspension stiffness (kN per m)", 1., 1e5, "N per m or MN per m"},
+      {"Vehicle/Suspension damping (N s per m)", 10., 1e7, "kN s per m"},
+      {"Track/Pad stiffness (MN per m)", 1., 1e5, "N per m or kN per mm"},
+      {"Track/Pad damping (kN s per m)", 0.05, 1e4, "N s per m"},
+      {"Track/Ballast stiffness (MN per m)", 0.1, 1e4, "N per m"},
+      {"Track/Ballast damping (kN s per m)", 0.05, 1e4, "N s per m"},
+      {"Track/Sleeper mass (kg)", 5., 5e3, "t"},
+      {"Track/Sleeper density (kg per m3)", 100., 2e4, "t per m3"},
+      {"Track/Sleeper Young's modulus (GPa)", 0.1, 1e3, "MPa"},
+      {"Track/Co-running mass (kg)", 1., 1e5, "t"},
+      {"Track/Vertical stiffness (MN per m)", 0.1, 1e5, "N per m"},
+      {"Track/Vertical damping (kN s per m)", 0.05, 1e5, "N s per m"},
+      {"Track/Lateral stiffness (MN per m)", 0.01, 1e5, "N per m"},
+      {"Track/Lateral damping (kN s per m)", 0.05, 1e5, "N s per m"},
+      {"Guidance/Lateral stiffness (MN per m)", 1e-3, 1e4, "N per m"},
+      {"Guidance/Yaw inertia (kg m2)", 1., 1e5, "t m2"},
+    };
+
+    /// Heights of a defect's file below which it is no defect: less than ground surfaces are rough.
+    constexpr double least_height = 2e-6; // m
+  }                                       // namespace
+
+
+  std::vector<std::string> Scene::implausible_values() const
+  {
+    std::vector<std::string> list;
+    for (const Parameter &parameter : changed_values())
+      for (const Usual &usual : usual_values)
+        if (parameter.path == usual.path)
+          {
+            const double value = std::strtod(parameter.value.c_str(), nullptr);
+            if (value != 0. && std::isfinite(value) && (value < usual.least || value > usual.largest))
+              list.push_back(format("'%s' %g is far from what there is on railways, %g to %g: is it in %s?",
+                                    usual.path, value, usual.least, usual.largest, usual.but));
+          }
+    if (has_defect() && !defect.profile_file.empty() && defect.depth == 0. &&
+        made_defect()->depth < least_height)
+      list.push_back(
+        format("'Defect/Profile file': heights of at most %.3g um, less than a ground surface is "
+               "rough; they are read in mm: are they in m?",
+               1e6 * made_defect()->depth));
+    return list;
+  }
+
+
+  double Scene::cell_along(const double begin, const double end) const
+  {
+    return is_finest(begin, end) ? mesh.finest_cell : std::max(mesh.finest_cell, mesh.path_cell);
+  }
+
+
+  double Scene::detail_along() const
+  {
+    const Defect *made = made_defect();
+    if (!made || (defect.shape != "profile" && defect.shape != "map"))
+      return 0.;
+    constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
+    const double           a = hertz(*this, static_load()).semi_axis_x;
+    std::vector<double>    begins(made->repeated_at);
+    begins.push_back(made->begin);
+    double largest = 0.;
+    for (const double begin : begins)
+      {
+        const double cell = cell_along(begin, begin + made->length),
+                     from = std::max(begin - 2. * cell, path_begin(last_wheel()) - a),
+                     to   = std::min(begin + made->length + 2. * cell, meshed_end() + a);
+        if (!(to > from))
+          continue;
+        const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
+        for (unsigned int line = 0; line < n_across; ++line)
+          {
+            const double y =
+              patch_extent().begin + (patch_extent().end - patch_extent().begin) * (line + 0.5) / n_across;
+            // Where the nodes lie is not known: the way between them begins with the defect.
+            std::vector<double> squares(n, 0.);
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                double of_node[4];
+                for (unsigned int i = 0; i < 4; ++i)
+                  of_node[i] = made->height(from + (k + i - 1. + 0.5) * cell, y);
+                for (unsigned int j = 1; j < n_between; ++j)
+                  {
+                    const double s        = double(j) / n_between;
+                    const double of_nodes = cubic_between(of_node, s);
+                    const double off      = made->height(from + (k + s + 0.5) * cell, y) - of_nodes;
+                    squares[k] += off * off / (n_between - 1.);
+                  }
+              }
+            double sum = 0.;
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                sum += squares[k] - (k >= window ? squares[k - window] : 0.);
+                largest = std::max(largest, std::sqrt(std::max(0., sum) / std::min(n, window)));
+              }
+            if (std::isinf(made->width))
+              break; // all lines are alike
+          }
+      }
+    return largest;
+  }
+
+
+  std::string Scene::unseen_detail_along() const
+  {
+    // As across: Westergaard's pressure under waves of two cells' length that are pressed flat.
+    constexpr double large  = 0.1;
+    const double     detail = detail_along(), load = static_load();
+    if (!(detail > 0. && load > 0.))
+      return "";
+    const Defect                &made     = *made_defect();
+    const double                 cell     = cell_along(made.begin, made.begin + made.length);
+    const reference::RollingCase touching = half_space_case(*this, load, 0.);
+    const double                 modulus  = reference::combine(touching.wheel, touching.rail).hertz_modulus(),
+                 share                    = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
+                         (2. * cell * hertz(touching).max_pressure);
+    if (!(share > large))
+      return "";
+    return format(
+      "'Defect/Profile file' has detail along the rail of %.2g um within a cell of %.3g mm, noise or "
+      "a step, which a pressure of %.0f %% of Hertz's presses flat (above %g %%): pressure and stress "
+      "depend on the cells; smooth the file, give 'Defect/Ramp (mm)' where it begins with a step, or use "
+      "smaller cells",
+      1e6 * detail, 1e3 * cell, 100. * share, 100. * large);
+  }
+
+
+  std::string Scene::missed_defect() const
+  {
+    if (!has_defect() || !misses_defect())
+      return "";
+    const Defect &made = *made_defect();
+    return format(
+      "the contact does NOT reach the defect, from %.2f to %.2f mm: the wheel rolls from %.2f to %.2f "
+      "mm, and its patch is from y = %.2f to %.2f mm; look at 'Defect/Position (mm)', 'Lateral position "
+      "(mm)', 'Motion/Start (mm)' and 'Rolled distance (mm)'",
+      1e3 * made.begin, 1e3 * (made.begin + made.length), 1e3 * path_begin(), 1e3 * meshed_end(),
+      1e3 * patch_extent().begin, 1e3 * patch_extent().end);
+  }
+
+
+  std::string Scene::narrow_island() const
+  {
+    // As many cells as check() wants of the whole patch; less than a hundredth of the load is no matter.
+    constexpr double least_cells = 2. / 0.45, least_share = 0.01;
+    struct Narrow
+    {
+      std::string patch;
+      Island      island;
+      double      size;
+    };
+    std::vector<Narrow> narrow;
+    const auto          look = [&](const std::vector<Island> &islands, const std::string &patch) {
+      for (const Island &island : islands)
+        if (const double size = std::min(island.y_end - island.y_begin, island.x_end - island.x_begin);
+            island.force >= least_share * static_load() && size < least_cells * mesh.finest_cell)
+          narrow.push_back({patch, island, size});
+    };
+    if (is_positioned())
+      for (const WheelPatch &patch : placed_wheel().patches())
+        look(islands_of(patch.solution.grid, patch.solution.pressure),
+             "patch " + std::to_string(&patch - placed_wheel().patches().data() + 1));
+    else
+      look(shapes->islands, "the patch");
+    if (narrow.empty())
+      return "";
+    const Narrow &worst = *std::min_element(narrow.begin(), narrow.end(),
+                                            [](const Narrow &a, const Narrow &b) { return a.size < b.size; });
+    const Island &at    = worst.island;
+    return format("a part of %s by half-space theory, %.2f mm long and %.2f mm wide, with %.1f %% of the "
+                  "load, has %.1f cells of "
+                  "'Mesh/Finest cell (mm)' %g (below %.1f), which find too low a pressure; at most %.2g mm%s",
+                  worst.patch.c_str(), 1e3 * (at.x_end - at.x_begin), 1e3 * (at.y_end - at.y_begin),
+                  100. * at.force / static_load(), worst.size / mesh.finest_cell, 1e3 * mesh.finest_cell,
+                  least_cells, 1e3 * worst.size / least_cells,
+                  narrow.size() > 1 ? format("; %u more like it", unsigned(narrow.size() - 1)).c_str() : "");
+  }
+
+
+  std::vector<std::string> Scene::doubts() const
+  {
+    std::vector<std::string> list = implausible_values();
+    for (const std::string &doubt : {missed_defect(), unseen_detail_along(), narrow_island(), short_memory()})
+      if (!doubt.empty())
+        list.push_back(doubt);
+    return list;
+  }
+} // namespace tread
