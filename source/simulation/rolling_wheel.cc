@@ -4,7 +4,6 @@
 #include <tread/simulation/rolling_wheel.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace tread
 {
@@ -36,37 +35,7 @@ namespace tread
         hub.place(start + Vector3{0., 0., scene.axle_height(), 0.});
         hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
       }
-    load_sum = load_steps = 0.;
-    load_from             = hub.motion.x;
     forget_records(scene);
-  }
-
-
-  void RollingWheel::follow_load(const Scene &scene, const double vertical_force)
-  {
-    if (!scene.general.quasi_static || scene.has_impacts() || scene.guidance.kind != Guidance::rigid)
-      return;
-    load_sum += vertical_force;
-    load_steps += 1.;
-    const double cell = std::max(scene.mesh.finest_cell, scene.mesh.path_cell);
-    if (hub.motion.x - load_from < cell)
-      return;
-    // Waves of the cells are no more than this, and cancel over the way.
-    constexpr double negligible = 1e-3; // of the load
-    // So many cells, or a semi-axis, bring the wheel nearer to its height by a factor of e. Less would answer
-    // to what the mean over a cell is late by.
-    constexpr double cells_of_approach = 6.;
-    const double     load = (scene.is_positioned() ? scene.wheelset.n_wheels() : 1) * scene.static_load(),
-                 excess   = load_sum / load_steps - load;
-    if (hub.lift.time > 0. || std::abs(excess) > negligible * load)
-      {
-        const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
-        const double                  way     = std::max(ellipse.semi_axis_x, cells_of_approach * cell),
-                     stiffness                = (load / scene.static_load()) * ellipse.stiffness;
-        hub.lift = {excess / stiffness * scene.motion.speed / way, 0.5 * cell / scene.motion.speed};
-      }
-    load_sum = load_steps = 0.;
-    load_from             = hub.motion.x;
   }
 
 
@@ -162,7 +131,6 @@ namespace tread
     for (PatchAverage &of_patch : averages_of_patches)
       of_patch.serialize(archive);
     archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_other_force,
-                 interval_start_speed, load_sum, load_steps, load_from, last_force_sum, last_force_low,
-                 last_force_high);
+                 interval_start_speed, last_force_sum, last_force_low, last_force_high);
   }
 } // namespace tread

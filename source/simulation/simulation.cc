@@ -227,7 +227,6 @@ namespace tread
     for (RollingWheel &wheel : wheels)
       {
         const Vector3 force = force_on(wheel);
-        wheel.follow_load(scene, force[2]);
         wheel.interval_force += force;
         if (scene.wheelset.both_wheels)
           wheel.interval_other_force += force_on_other();

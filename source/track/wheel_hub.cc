@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/track/wheel_hub.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -18,7 +17,6 @@ namespace tread
     reference_y            = middle[1];
     motion.z = reference_z = middle[2];
     guidance               = Guidance::rigid;
-    lift                   = Lift();
     if (flexible)
       flexible->place();
     balance_suspension();
@@ -190,10 +188,7 @@ namespace tread
         moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double lifting =
-      lift.time > 0. ? parameters.mass * (lift.velocity - motion.velocity_z) / std::max(lift.time, time_step)
-                     : 0.;
-    const double vertical_force = force[2] + static_force() - suspension + lifting;
+    const double vertical_force = force[2] + static_force() - suspension;
     const double acceleration   = vertical_force / parameters.mass;
 
     motion.velocity_z += time_step * acceleration;
@@ -296,7 +291,7 @@ namespace tread
 
   void WheelHub::serialize(Archive &archive)
   {
-    archive.same(lift, drive, drive_torque, motion, reference, present, reference_x, reference_y, reference_z,
+    archive.same(drive, drive_torque, motion, reference, present, reference_x, reference_y, reference_z,
                  equilibrium_z, work, gross, guidance, guidance_time, lateral_guidance, springs,
                  released_yaw);
     if (flexible)

@@ -133,26 +133,6 @@ namespace
                    1e-12);
   }
 
-  /// A hub that is brought to a vertical velocity from outside, against an unbalanced force.
-  void lifted_hub(tests::Check &check)
-  {
-    WheelHubParameters parameters = tests::sprung_hub();
-    parameters.sprung_mass = parameters.suspension_stiffness = parameters.suspension_damping = 0.;
-    WheelHub hub(parameters);
-    hub.place(Vector3{});
-    hub.lift          = {.03, 1e-4};
-    const double step = 2e-6, force = 700., weight = parameters.mass * parameters.gravity;
-    for (unsigned int n = 0; n < 2000; ++n)
-      hub.advance(Vector3{0., 0., weight + force, 0.}, Vector3{}, step);
-    // What is not balanced moves it faster, by its acceleration over the time.
-    const double velocity = .03 + 1e-4 * force / parameters.mass;
-    check.relative("lifted hub: velocity, mm/s", 1e3 * hub.motion.velocity_z, 1e3 * velocity, 1e-9);
-    check.relative("lifted hub: height, um", 1e6 * hub.motion.z, 1e6 * velocity * (4e-3 - 1e-4), 2e-3);
-    // Work of weight and lift is what the hub has less what the force has done.
-    check.relative("lifted hub: work from outside, J", hub.external_work(),
-                   hub.kinetic_energy(0.) - (weight + force) * hub.motion.z, 2e-3);
-  }
-
   /// A hub alone on its guidance: damped oscillations across the track and in yaw.
   void free_hub(tests::Check &check)
   {
@@ -200,7 +180,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   hub_energy(check, Drive::torque, 1., 0., Guidance::springs);
   free_hub(check);
   sprung_hub_alone(check);
-  lifted_hub(check);
   Body body = tests::make_box("block", Point<3>(), Point<3>(.06, .02, .02), {{6, 2, 2}},
                               {{tests::Side::left, Boundary::support}});
   tests::refine_near(body, Point<3>(.06, .02, .02), .012, .005);

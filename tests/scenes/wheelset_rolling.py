@@ -112,8 +112,6 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("conformal: largest pressure over the half-space's", own["max_pressure_Pa"] / other["max_pressure_Pa"], 0.89, 0.03)
     check.relative("conformal: frictional power over the half-space's", own["frictional_power_W"] / other["frictional_power_W"], 1.065, 5e-3)
     check.energy("conformal: ", summary, 1e-3)
-    # Tractions on the steep part of the patch carry 0.5 % of it, which the start does not know: the wheel's height follows the load.
-    check.relative("conformal: vertical force, kN", 1e-3 * summary["normal_force_N"], 1e-3 * summary["reference"]["normal_force_N"]["half-space"]["value"], 0.003)
 
     # Yielding in the root of the flange: the load is carried, and pressure falls to what the steel bears.
     soft = run(program, ROOT_OF_FLANGE, path("soft"), {**QUIET, "Mesh/Finest cell (mm)": 0.42, "Motion/Rolled distance (mm)": 8,

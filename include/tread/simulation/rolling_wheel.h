@@ -39,11 +39,6 @@ namespace tread
     /// Add the force of a step (N) to the mean over the end of the way.
     void add_to_last_force(const Vector3 force);
 
-    /// In a scene without inertia, let the hub rise or sink until the contact carries the load: what
-    /// tractions, or steel that yields, carry is known only when the wheel rolls. @param vertical_force on it
-    /// in the last step, N
-    void follow_load(const Scene &scene, const double vertical_force);
-
     /// Mean force over the end of the way, N. @param n_steps so many were added
     Vector3 mean_last_force(const std::uint64_t n_steps) const
     {
@@ -84,9 +79,6 @@ namespace tread
     std::vector<PatchNode>    solution_patch;
 
   private:
-    /// Sum of the vertical force over the cell that is rolled over (N), the steps in it, and x where it
-    /// begins (m).
-    double  load_sum = 0., load_steps = 0., load_from = 0.;
     Vector3 last_force_sum{};
     double  last_force_low = 1e300, last_force_high = -1e300;
   };

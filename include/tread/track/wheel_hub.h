@@ -218,14 +218,6 @@ namespace tread
     /// Store or restore the state: all but parameters and balance, which place() and take_out() set.
     void serialize(Archive &archive);
 
-    /// What brings the hub to a vertical velocity (m/s) within a time (s), from outside: a wheel whose
-    /// inertia is no part of the answer is put to the height at which the contact carries its load.
-    struct Lift
-    {
-      double velocity = 0., time = 0.; ///< time 0: nothing does
-    };
-
-    Lift               lift;
     Drive              drive        = Drive::creepage;
     double             drive_torque = 0.; ///< N m, used when drive == torque
     Motion             motion;
