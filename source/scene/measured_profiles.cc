@@ -6,6 +6,7 @@
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -17,9 +18,11 @@ namespace tread
                          const ProfileBody kind, const ProfilePlacement &placement) {
       try
         {
-          const auto        files = scene.files();
-          const auto        found = files.find(parameter);
-          const std::string path  = found == files.end() ? file : found->second;
+          const auto       &read  = scene.files_read();
+          const auto        found = std::find_if(read.begin(), read.end(), [&](const FileRead &of_scene) {
+            return of_scene.parameter == parameter;
+          });
+          const std::string path  = found == read.end() ? file : found->path;
           profiles.push_back(
             {body, parameter, path, placement.smoothing, read_measured_profile(path, kind, placement)});
         }

@@ -275,9 +275,17 @@ namespace tread
         const SurfaceModes *const of_surface = range.modes_of(modes, b);
         if (of_surface)
           {
-            HourglassRates rates(batch, v, surface_damping);
-            rates.without_flow(state.flowed);
-            of_surface->template add<true>(state.F, state.amplitude, rates, -batch.stiffness, restoring, P);
+            const auto add = [&](const HourglassRates &rates) {
+              of_surface->template add<true>(state.F, state.amplitude, rates, -batch.stiffness, restoring, P);
+            };
+            if (surface_damping > 0.)
+              {
+                HourglassRates rates(batch, v, surface_damping);
+                rates.without_flow(state.flowed);
+                add(rates);
+              }
+            else
+              add(HourglassRates(batch, v, 0.));
           }
         else
           for (unsigned int m = 0; m < 4; ++m)
