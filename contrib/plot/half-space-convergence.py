@@ -44,7 +44,8 @@ def main() -> None:
         before = None
         for parts in PARTS:
             answer = half_space.solve(curvature_x=CURVATURES[0], curvature_y=CURVATURES[1], normal_force=LOAD, friction=FRICTION, young=YOUNG,
-                                      poisson=POISSON, element_x=a / parts, element_y=1.5 * b / parts, **case)
+                                      poisson=POISSON, element_x=a / parts, element_y=1.5 * b / parts,
+                                      creepage=case.get("creepage", 0.), spin=case.get("spin", 0.))
             forces = np.array([float(answer[f"{side}_force"]) for side in ("longitudinal", "lateral")]) / (FRICTION * LOAD)
             limit = "| | |" if before is None else "| {:.5f} | {:.5f} |".format(*(forces + ADDED * (forces - before) + 0.))
             print(f"| {name} | {parts}, {2 * parts // 3} | {forces[0] + 0.:.5f} | {forces[1] + 0.:.5f} {limit}")
