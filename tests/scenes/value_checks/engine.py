@@ -24,10 +24,10 @@ Name = tuple[str, str, str]  # run, file, key or column
 
 FACTORS = (1.01, 1.1, 2.0)  # small ones that go unnoticed are told, the last one must not
 NUMBERED = (("^wheel_[0-9]+_", "wheel_2_"), ("^cell_[0-9]+_", "cell_1_"), ("^support_-?[0-9]+_", "support_0_"),
-            ("^(half_space_)?patches/[0-9]+/", "patches/1/"), ("^reference/[^/]*/[^/]*/", "reference/max_pressure_Pa/Hertz/"),
+            ("^(half_space_)?patches/[0-9]+/", "patches/1/"), ("^files/[0-9]+/", "files/1/"), ("^reference/[^/]*/[^/]*/", "reference/max_pressure_Pa/Hertz/"),
             ("^.*_half_space_uncertainty$", "max_pressure_Pa_half_space_uncertainty"), ("^forces/[^/]*/", "forces/normal_force_N/"),
             ("/oscillations/[0-9]+/", "/oscillations/1/"), ("/cell_[0-9]+_", "/cell_1_"))
-SECTIONS = {("summary.json", name) for name in ("patches", "half_space_patches", "reference")}  # what is in them is compared
+SECTIONS = {("summary.json", name) for name in ("patches", "half_space_patches", "reference", "files")}  # what is in them is compared
 # Words that are told, and lines whose numbers stand in files too or tell the time: progress, titles, words of warnings and assumptions.
 TOLD = re.compile(r"tread [0-9]|x #|.* finished in|finished in|assumed:|start:|WARNING:|warning:|note:|unused:|rigid wheelset, yaw|.*factorised and solved|Results in|half-space: patch|patch #|time steps in|# # # # # # # # # nan|contact_points")
 TABLES = (("^(reference_patch|patch_averaged|patch)(_wheel_[0-9]+)?[.]", "patch."), ("^peak_stress_wheel", "peak_stress"),
@@ -140,6 +140,8 @@ class Runs:
         self.seconds: dict[str, float] = {}  # that each took
         self.version = ""
         self.checksums: dict[str, int] = {}
+        self.strains: dict[str, np.ndarray] = {}  # plastic, of the wheel's cells in the picture
+        self.contents: dict[str, bytes] = {}  # of files that runs have read
 
     def add_folder(self, run: str, folder: str, parameters: dict[str, str]) -> None:
         self.parameters[run], self.folders[run] = parameters, folder

@@ -63,7 +63,7 @@ def all_runs(program: str, folder: str, only: str = "") -> Runs:
                                                     "Peak stress/From (mm)": -9, "Peak stress/To (mm)": 0, "Contact/Largest number of sweeps": 5})
     if want("plastic"):
         make.run("plastic", "smooth-rolling.prm", {"Mesh/Finest cell (mm)": 1.3, "Mesh/Fine half width (mm)": 9, "Motion/Rolled distance (mm)": 14,
-                                                   "Rail/Yield stress (MPa)": 450, "Motion/Passages": 2, "Output/Table depth (mm)": 8,
+                                                   "Rail/Yield stress (MPa)": 450, "Wheel/Yield stress (MPa)": 600, "Motion/Passages": 2, "Output/Table depth (mm)": 8,
                                                    "Output/Cells": "-6,0,3", "Time stepping/Levels": 1})
     if want("track"):
         dip = {"Defect/Shape": "dip", "Defect/Position (mm)": -30, "Defect/Length (mm)": 24, "Defect/Depth (mm)": 0.1, "Defect/Repeated at (mm)": -3, "Output/History interval (mm)": 0.25}
@@ -85,7 +85,8 @@ def all_runs(program: str, folder: str, only: str = "") -> Runs:
         alike = {name: value for name, value in STRAIGHT.items() if name not in UNLIKE}
         make.run("half_alike", "smooth-rolling.prm", {**alike, "Start/Tractions": "none", "Motion/Rolled distance (mm)": 45}, 2, ("--reference-only",))
     if want("half_curve"):
-        make.run("half_curve", "curves/klingel.prm", {**CURVE, "Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance"},
+        make.run("half_curve", "curves/klingel.prm", {**CURVE, "Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance",
+                                                      "Wheel/Smoothing length (mm)": 2, "Rail/Smoothing length (mm)": 3},
                  1, ("--reference-only",))
     if want("half_two"):
         make.run("half_two", "curves/two-patches.prm", UNLIKE, 1, ("--reference-only",))

@@ -251,4 +251,8 @@ def half_a_sleeper(runs: Runs, expect: Expect) -> None:
     expect.that("largest von Mises stress under the seat", -0.16 < x < 0. and -0.2 < y < 0. and -0.1 < z <= 0.)
     # NS 90: 258 mm wide at the bottom, 2.52 m long; its volume is what the density takes of its mass.
     expect.that("mass", 0.04 < stress["half_sleeper_mass_kg"] / runs.number(RUN, "Track/Sleeper density (kg per m3)") < 0.07)
+    expect.near("mass in the scene", stress["scene_sleeper_mass_kg"], runs.number(RUN, "Track/Sleeper mass (kg)"), relative=1e-9)
+    expect.same("warnings", stress["warnings"], [
+        f"half the sleeper of the run weighs {stress['scene_sleeper_mass_kg']:.4g} kg ('Track/Sleeper mass (kg)'), that of an NS 90 at "
+        f"'Track/Sleeper density (kg per m3)' {stress['half_sleeper_mass_kg']:.4g} kg: the stress is that in an NS 90"])
     expect.near("settlement, um", 1e6 * abs(stress["mean_seat_settlement_m"]), force.sum() / runs.number(RUN, "Track/Ballast stiffness (MN per m)"), relative=0.2)

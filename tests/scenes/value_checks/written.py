@@ -64,6 +64,25 @@ def wall_times(runs: Runs, expect: Expect, run: str) -> None:
         expect.near("updates in a second", summary["element_updates_per_s"], summary["element_updates"] / parts[0], relative=1e-6)
 
 
+@compared_each(*WITH_HDF5, "half", "half_curve", "half_two")
+def files_that_were_read(runs: Runs, expect: Expect, run: str) -> None:
+    """The scene's own text and the profiles that its parameters name, beside it."""
+    summary, parameters = runs.of(run), runs.parameters[run]
+    named = [name for name in ("Wheel/Tread profile", "Rail/Measured head") if parameters[name].endswith(".txt")]
+    count = len({name.split("/")[1] for name in summary.names() if name.startswith("files/")})
+    expect.same("parameters", [summary[f"files/{number + 1}/parameter"] for number in range(count)], ["parameter file", *named])
+    scene = summary["files/1/path"]
+    for number in range(count):
+        path = summary[f"files/{number + 1}/path"]
+        if number:
+            expect.same("path", os.path.realpath(path), os.path.realpath(os.path.join(os.path.dirname(scene), parameters[named[number - 1]])))
+        if path not in runs.contents:
+            with open(path, "rb") as stream:
+                runs.contents[path] = stream.read()
+        expect.near("bytes", summary[f"files/{number + 1}/bytes"], len(runs.contents[path]))
+        expect.near("CRC-32", summary[f"files/{number + 1}/crc32"], zlib.crc32(runs.contents[path]))
+
+
 @compared_each("straight", "half")
 def version(runs: Runs, expect: Expect, run: str) -> None:
     expect.same("as --version has it", "tread " + runs.of(run)["version"], runs.version)
@@ -178,6 +197,9 @@ LINES = {
     ("straight", "hourglass energy # % of the internal energy; slip chatter # % of the largest slip; contact not converged in # % of the steps"): (
         ("hourglass_of_internal_energy", 100.), ("slip_chatter_share", 100.), ("contact_unconverged_share", 100.)),
     ("straight", "only # patch lengths rolled since the start: steady rolling takes # or more"): (("rolled_patch_lengths", 1.),),
+    ("plastic", "largest equivalent plastic strain # % in the rail (x = # mm, y = # mm, depth # mm)"): (
+        ("largest_plastic_strain", 100.), ("largest_plastic_strain_x_m", 1e3), ("largest_plastic_strain_y_m", 1e3), ("largest_plastic_strain_depth_m", 1e3)),
+    ("half_two", "creepage over 'Wheel/Radius', per mille #"): (("creepage_over_nominal_radius", 1e3),),
     ("track", "largest contact force # kN, # of the static load, with the wheel at x = # mm"): (
         ("largest_normal_force_N", 1e-3), ("largest_normal_force_over_static", 1.), ("largest_normal_force_x_m", 1e3)),
     ("track", "least contact force # kN, # of the static load, with the wheel at x = # mm"): (
@@ -220,6 +242,16 @@ def points_on_the_screen(runs: Runs, expect: Expect) -> None:
         values = screen[f"{row} {place + 1}"]
         wanted = factor * table[name][whole]
         expect.near(name, values, wanted[-len(values):] if len(values) != len(wanted) else wanted, absolute=0.0051)
+
+
+@compared
+def conicities_on_the_screen(runs: Runs, expect: Expect) -> None:
+    """The row of 3 mm, which EN 15302 asks for."""
+    screen, table = runs.of("points", "screen"), runs.of("points", "contact_points.csv")
+    words = "equivalent conicity at an amplitude of # mm (EN #): #, without roll #"
+    row = int(np.argmin(np.abs(table["lateral_shift_mm"] - 3.)))
+    for place, value in enumerate((3., 15302., table["equivalent_conicity"][row], table["equivalent_conicity_without_roll"][row])):
+        expect.near(f"number {place + 1}", screen[f"{words} {place + 1}"], value, absolute=5.1e-4)
 
 
 @compared
