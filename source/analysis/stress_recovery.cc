@@ -77,6 +77,7 @@ namespace tread
     number_sites(mesh, solid, extent);
     find_faces(mesh, surfaces, extent);
     surface_stress.resize(surface_sites.size());
+    area_and_limit.resize(surface_sites.size());
     edge_stress.resize(edge_sites.size());
   }
 

@@ -460,6 +460,16 @@ namespace tread
       for (std::size_t k = 0; k < range.stride(); ++k)
         history.values[first + k][lane] = entry->second->values[k];
     });
+    // Padded lanes go with the first cell of their batch.
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        for (unsigned int lane = 1; lane < n_lanes; ++lane)
+          if (cell_of_lane[b][lane] < 0)
+            for (std::size_t k = 0; k < range.stride(); ++k)
+              {
+                Lanes &values = history.values[range.history + (b - range.begin) * range.stride() + k];
+                values[lane]  = values[0];
+              }
     return n_found;
   }
 

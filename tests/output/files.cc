@@ -351,6 +351,7 @@ namespace
   {
     PatchNode element{};
     element.position = Vector3{1e-3, -2e-3, 0.5e-3, 0.};
+    element.area     = 0.4e-3 * 0.4e-3;
     element.pressure = 811e6;
     element.shear[0] = 212e6;
     element.shear[1] = -93e6;

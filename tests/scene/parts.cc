@@ -500,7 +500,7 @@ namespace
                                    0.0005 * (std::hypot(x - 8., y) > 7. && std::hypot(x - 8., y) < 7.9);
                           }));
     check.that("a bowl under the path is met", met(bowl, {"Defect/Position (mm)=0"}));
-    check.that("a bowl behind its end is not", !met(bowl, {"Defect/Position (mm)=42"}));
+    check.that("a bowl behind its end is not", !met(bowl, {"Defect/Position (mm)=45"}));
     check.that("a bowl before its start is not", !met(bowl, {"Defect/Position (mm)=-60"}));
     check.that("a bowl beside the patch is not",
                !met(bowl, {"Defect/Position (mm)=0", "Defect/Lateral position (mm)=19"}));

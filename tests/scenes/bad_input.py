@@ -47,7 +47,6 @@ SETTINGS = [
     ("Vehicle/Gravity (m per s2)=0", ["Vehicle/Gravity (m per s2)", "above 0"]),
     ("Vehicle/Wheel load (kN)=5", ["Vehicle/Wheel load (kN)", "less than the weight", "Wheel/Mass (kg)", "8.829"]),
     ("Vehicle/Axle load (t)=1.7", ["Vehicle/Axle load (t)", "less than twice", "Wheel/Mass (kg)", "1.8 t"]),
-    (["Vehicle/Axle load (t)=20", "Vehicle/Wheel load (kN)=98.1"], ["Vehicle/Axle load (t)", "Vehicle/Wheel load (kN)", "one of them"]),
     ("Vehicle/Wheel load (kN)=heavy", ["Vehicle/Wheel load (kN)", "masses"]),
     ("Rail/Poisson's ratio=0.7", ["Rail/Poisson's ratio", "allowed", "0.49"]),
     ("Rail/Yield stress (MPa)=-500", ["Rail/Yield stress (MPa)", "allowed", "0"]),
@@ -89,6 +88,7 @@ BAR = ["Rail/Shape=block", "Rail/Block width (mm)=60", "Rail/Block height (mm)=1
        "Motion/Rolled distance (mm)=60"]
 DIP = ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"]
 PAIRS = [
+    (["Vehicle/Axle load (t)=20", "Vehicle/Wheel load (kN)=98.1"], ["Vehicle/Axle load (t)", "Vehicle/Wheel load (kN)", "one of them"]),
     (["Track/Foundation=two-layer"], ["Track/Foundation", "Rail/Shape"]),
     (BAR + ["Track/Sleeper spacing (m)=0.65"], ["Track/Sleeper spacing (m)", "does not fit the rail"]),
     (BAR + ["Track/Support 0 (mm)=-600"], ["Track/Sleeper spacing (m)", "begins 30 mm before its first support", "half a spacing"]),

@@ -124,12 +124,14 @@ with tempfile.TemporaryDirectory() as folder:
     with open(path("wide.prm"), "w", encoding="utf-8") as stream:
         stream.write(f"include {RIGHT}\n{head}subsection Wheelset\n set Track gauge (mm) = 1440\nend\n")
     same = execute([RIGHT, "--contact-points", "--other-side", RIGHT, "--output", path("same")], program=program)
-    check.that("the other side by the same scene", same.returncode == 0 and table(path("same"), "contact_points.csv") == points)
+    check.that("the other side by the same scene", same.returncode == 0 and str(table(path("same"), "contact_points.csv")) == str(points))  # nan is nan
     unlike = execute([RIGHT, "--contact-points", "--other-side", path("larger.prm"), "--output", path("unlike")], program=program)
     unlike_points = table(path("unlike"), "contact_points.csv")
     check.absolute("a larger other wheel: radius difference in the middle without roll, mm", unlike_points["radius_difference_without_roll_mm"][by_shift[0.]], -0.2, 1e-6)
     shift = float(re.search(r"equal at a lateral shift of (\S+) mm", unlike.stdout)[1])
-    check.absolute("a larger other wheel: there the radii are equal, mm", np.interp(shift, unlike_points["lateral_shift_mm"], unlike_points["radius_difference_mm"]), 0., 0.01)
+    # The contact jumps there, and the difference with it.
+    rows = list(zip(unlike_points["lateral_shift_mm"], unlike_points["radius_difference_mm"]))
+    check.that("a larger other wheel: there the radii are equal", max(row for row in rows if row[0] <= shift)[1] < 0. < min(row for row in rows if row[0] >= shift)[1])
     check.that("a larger other wheel: the middle of the motion is on the own side", 0.1 < shift < 1.5)
     for wheel in ("own", "other"):
         check.below(f"{wheel} wheel in the middle: its contact from the middle of its rail head, mm", points[f"{wheel}_y_rail_mm"][40], 10.)

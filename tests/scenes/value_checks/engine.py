@@ -16,6 +16,7 @@ import csv
 import json
 import os
 import re
+import warnings
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -237,7 +238,8 @@ def changes_of(value: object) -> list[tuple[str, object]]:
 def passes(comparison: Comparison, runs: Runs) -> str:
     """"" if it passes, or why it does not."""
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # means of nothing, after a change
             comparison(runs, Expect())
     except Exception as error:  # whatever a wrong value leads to
         return f"{comparison.__name__}: {type(error).__name__ + ': ' if not isinstance(error, Failed) else ''}{error}"

@@ -186,7 +186,9 @@ def stress_of_the_surface(runs: Runs, expect: Expect) -> None:
     nodes = [int(np.argmin(np.hypot(x - at_x, y - at_y))) for at_x, at_y in zip(patch["x_mm"], patch["y_mm"])]
     for name, computed, reference in (("zz", zz, patch["pressure_MPa"]), ("zx", zx, patch["shear_x_MPa"])):
         expect.near(f"{name} is the traction", computed[nodes], -reference, relative=0.01)
-    expect.near("yz is the traction", yz[nodes], -patch["shear_y_MPa"], relative=0.05)
+    # The patch of two bodies of like steel curves half as much as the crown, with the slope y / 600.
+    slope = surface["y_mm"][nodes] / 600.
+    expect.near("yz is the traction", yz[nodes] - slope * (zz - yy)[nodes], -patch["shear_y_MPa"], relative=0.02)
     top = np.flatnonzero(-cells["z_mm"] - cells["y_mm"]**2 / 600. < 0.9)
     near = [top[np.argsort(np.hypot(cells["x_mm"][top] - surface["x_mm"][node], cells["y_mm"][top] - surface["y_mm"][node]))[:4]] for node in nodes]
     for name, values, allowed in (("xx", xx, 0.3), ("yy", yy, 0.3), ("xy", xy, 0.3)):

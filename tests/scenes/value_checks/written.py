@@ -197,8 +197,9 @@ LINES = {
     ("straight", "hourglass energy # % of the internal energy; slip chatter # % of the largest slip; contact not converged in # % of the steps"): (
         ("hourglass_of_internal_energy", 100.), ("slip_chatter_share", 100.), ("contact_unconverged_share", 100.)),
     ("straight", "only # patch lengths rolled since the start: steady rolling takes # or more"): (("rolled_patch_lengths", 1.),),
-    ("plastic", "largest equivalent plastic strain # % in the rail (x = # mm, y = # mm, depth # mm)"): (
-        ("largest_plastic_strain", 100.), ("largest_plastic_strain_x_m", 1e3), ("largest_plastic_strain_y_m", 1e3), ("largest_plastic_strain_depth_m", 1e3)),
+    ("plastic", "largest equivalent plastic strain # % in the rail (x = # mm, y = # mm, depth # mm), # % in the wheel"): (
+        ("largest_plastic_strain", 100.), ("largest_plastic_strain_x_m", 1e3), ("largest_plastic_strain_y_m", 1e3), ("largest_plastic_strain_depth_m", 1e3),
+        ("wheel_largest_plastic_strain", 100.)),
     ("half_two", "creepage over 'Wheel/Radius', per mille #"): (("creepage_over_nominal_radius", 1e3),),
     ("track", "largest contact force # kN, # of the static load, with the wheel at x = # mm"): (
         ("largest_normal_force_N", 1e-3), ("largest_normal_force_over_static", 1.), ("largest_normal_force_x_m", 1e3)),
