@@ -38,7 +38,7 @@ MOST_EXAMPLES = 2  # of entries of one list, one of which must be noticed
 # What they return is what a file holds: its names are the tests' own.
 READERS = ("schema.parameters", "files.read_table", "files.read_summary", "files.frame_or_rows", "runs.Run.summary", "runs.Run.table",
            "runs.Run.history", "runs.Run.frame")
-# Tests that are not run here: what they call is called by programs that they start, or they take seconds of a processor. By name, so that the same
+# Tests that are not run here: they spend seconds of a processor, most of them in programs that they start, in which nothing is watched. By name, so that the same
 # ones are left out on each machine, however busy it is.
 LEFT_OUT = (
     "package_test.Commands.*",

@@ -203,8 +203,8 @@ with tempfile.TemporaryDirectory() as folder:
                               ("columns", "0 0 1\n1 -.1 1\n2 -.2 1\n3 0 1\n", ["line 1", "two numbers"]),
                               ("backwards", "0 0\n2 -.1\n1 -.2\n3 0\n", ["line 3", "x must increase"]),
                               ("one point", "x z\n0 0 # begins\n", ["has 1 point;", "at least four"]),
-                              ("comments", "0 0 # begins\n1 -.1 ! falls\n2 .1; # rises\n3 0\n4 0 0\n", ["line 5", "two numbers"]),
-                              ("hill", "0 0\n1 .1\n2 .1\n3 0\n", ["below the line between its ends"])):
+                              ("comments", "0 0 # begins\n1 -.1 ! falls\n2 .1 # rises\n3 0\n4 0 0\n", ["line 5", "two numbers"]),
+                              ("hill", "0 0\n1 .1\n2 .1\n3 0\n", ["above the line between its ends", "raised weld"])):
         with open(os.path.join(folder, name + ".txt"), "w", encoding="utf-8") as stream:
             stream.write(text)
         must_fail(f"profile with {name}", base + ["-s", "Defect/Shape=profile", "-s", "Defect/Profile file=" + stream.name],
