@@ -630,16 +630,34 @@ namespace tread
   }
 
 
+  const Columns<std::array<double, 5>> &measured_profile_columns()
+  {
+    static const auto columns = columns_of<5>(
+      {{{"line", "", "Of the profile's file that the point stands in"},
+        {"y", "mm", "Point of the profile as it is used, placed and smoothed, across the track"},
+        {"z", "mm", "The same upwards"},
+        {"measured_y", "mm", "The same point before it was smoothed, across the track"},
+        {"measured_z", "mm", "The same upwards"}}});
+    return columns;
+  }
+
+
   std::vector<TableDescription> tables_of_a_run()
   {
     HistoryParts all{2, true, true, {0}};
     all.has_rail_base = all.has_flexible_axle = true;
-    return {
-      describe("history.csv", history_columns(all)),   describe("patch.csv", patch_columns()),
-      describe("patches.csv", patches_columns()),      describe("cells.csv", cell_columns(1)),
-      describe("strip.csv", strip_columns()),          describe("peak_stress.csv", peak_columns()),
-      describe("rail_seats.csv", rail_seat_columns()), describe("passages.csv", passage_columns()),
-      describe("rail_cells.csv", rail_cell_columns()), describe("rail_surface.csv", rail_surface_columns())};
+    return {describe("history.csv", history_columns(all)),
+            describe("patch.csv", patch_columns()),
+            describe("patches.csv", patches_columns()),
+            describe("cells.csv", cell_columns(1)),
+            describe("strip.csv", strip_columns()),
+            describe("peak_stress.csv", peak_columns()),
+            describe("rail_seats.csv", rail_seat_columns()),
+            describe("passages.csv", passage_columns()),
+            describe("rail_cells.csv", rail_cell_columns()),
+            describe("rail_surface.csv", rail_surface_columns()),
+            describe("measured_wheel.csv", measured_profile_columns()),
+            describe("measured_rail.csv", measured_profile_columns())};
   }
 
 

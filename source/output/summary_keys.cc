@@ -224,7 +224,7 @@ namespace tread
       {"rail_max_von_mises_x_m", "Where it was, forward from the first contact"},
       {"rail_max_von_mises_depth_m", "Where it was, below the surface"},
       {"approach_m", "Of distant points of wheel and rail to each other under the load"},
-      {"element_size_m", "Edge of the elements, of the finer grid"},
+      {"element_size_m", "Edge of the elements in rolling direction, of the finer grid"},
       {"elements", "Number of them in contact"},
       {"normal_iterations", "Steps of conjugate gradients for the pressure on the finer grid"},
       {"normal_residual", "Largest error of the gap in contact, over the approach"},

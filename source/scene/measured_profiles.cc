@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/base/input_error.h>
+#include <tread/output/columns.h>
 #include <tread/output/run_folder.h>
 #include <tread/reference/elastic.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+#include <array>
 
 namespace tread
 {
@@ -95,15 +95,13 @@ namespace tread
   {
     for (const Named &p : profiles)
       {
-        std::ostringstream table;
-        table << "line,y_mm,z_mm,measured_y_mm,measured_z_mm\n" << std::setprecision(9);
+        std::vector<std::array<double, 5>> rows;
         for (std::size_t i = 0; i < p.profile.points.size(); ++i)
           {
             const ProfilePoint &used = p.profile.points[i], &measured = p.profile.measured[i];
-            table << used.line << ',' << 1e3 * used.y << ',' << 1e3 * used.z << ',' << 1e3 * measured.y << ','
-                  << 1e3 * measured.z << '\n';
+            rows.push_back({{static_cast<double>(used.line), used.y, used.z, measured.y, measured.z}});
           }
-        folder.write("measured_" + p.body + ".csv", table.str());
+        folder.write_table("measured_" + p.body + ".csv", measured_profile_columns(), rows);
       }
   }
 } // namespace tread

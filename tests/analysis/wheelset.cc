@@ -410,8 +410,8 @@ namespace
     const WheelOnRail   hooked(wheel_curve("cylinder"), ProfileCurve(points), radius, {});
     WheelOnRail::Region region;
     region.s_begin = region.s_end = 70e-3;
-    region.reference              = {0., hooked.rail_origin_y() + 2e-3,
-                                     hooked.rail().height(hooked.rail_origin_y() + 2e-3)};
+    region.reference              = {
+                   {0., hooked.rail_origin_y() + 2e-3, hooked.rail().height(hooked.rail_origin_y() + 2e-3)}};
     const PatchSurfaces over(hooked, {}, region);
     check.absolute("rail that turns back: the surface that faces the wheel, um",
                    1e6 * (over.rail(-1e-3).height + region.reference[2]),

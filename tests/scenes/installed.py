@@ -59,7 +59,7 @@ with tempfile.TemporaryDirectory() as folder:
     said("tread-study", f"{shared}/prm/studies/friction.study", "--dry-run")
     said("tread-check-scene", f"{shared}/prm/smooth-rolling.prm")
     said("tread-compare-runs", "included", "included")
-    with open("arcs.csv", "w", encoding="utf-8") as stream:
+    with open(os.path.join(elsewhere, "arcs.csv"), "w", encoding="utf-8") as stream:
         stream.write("radius_mm,until,value\n-300,y_mm,20\n")
     said("tread-profile-from-arcs", "arcs.csv", "--output", "points.txt")
     said("tread-contact-inp", f"{shared}/contrib/contact-data/thesis.inp", "--output", "thesis")

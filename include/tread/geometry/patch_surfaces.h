@@ -24,11 +24,11 @@ namespace tread
 
     Vector3d along() const
     {
-      return {0., cosine, sine};
+      return {{0., cosine, sine}};
     }
     Vector3d normal() const
     {
-      return {0., -sine, cosine};
+      return {{0., -sine, cosine}};
     }
     /// Position along s, and over the plane, of a point of the track (m).
     double along(const Vector3d &p) const

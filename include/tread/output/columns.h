@@ -123,6 +123,8 @@ namespace tread
   const Columns<std::array<double, 11>> &rail_cell_columns();
   /// rail_surface.csv: place and displacement.
   const Columns<std::array<double, 13>> &rail_surface_columns();
+  /// Points of a measured profile: line of its file, y and z as used, as measured (m).
+  const Columns<std::array<double, 5>> &measured_profile_columns();
 
   /// All tables that a run can leave, with all columns that they can have: one support, 0, the second one of
   /// several wheels, and one cell stand for others.
