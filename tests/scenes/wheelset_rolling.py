@@ -51,7 +51,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.energy("tread: ", tread, 0.006)
 
     one = run(program, ROOT_OF_FLANGE, path("1"), {**QUIET, "Motion/Rolled distance (mm)": 14}, 2)
-    beside_half_space("flange root", one, 0.002, 0.006, 0.008)
+    beside_half_space("flange root", one, 0.002, 0.006, 0.0125)
     check.energy("flange root: ", one, 1e-3)
     lateral, vertical = force_in_track(one)
     # The normal turns inside the patch: its middle one stands for all of them as a plane would.
