@@ -165,9 +165,9 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("a table beside the track", with_rows("beside.csv", time, lateral_shift_mm=np.full(9, 600.)), "Wheelset/Lateral shift (mm)", "600")
     must_fail("a damper that acts within a step", {**free, "Guidance/Lateral damping (kN s per m)": 1e9}, "Guidance/Lateral stiffness (MN per m)", "which no guidance does")
     must_fail("the profile of a rail on the wheel", {"Wheel/Tread profile": os.path.join(ROOT, "prm", "curves", "profiles", "crown-1-5.txt")},
-              "Wheel/Tread profile", "is it the profile of a rail")
+              "Wheel/Tread profile", "there is no flange")
     must_fail("sideways too fast", with_rows("fast.csv", time, lateral_shift_mm=np.linspace(0., 60., 9)), "Guidance/File", "sideways", "at most 0.2")
-    must_fail("beyond the rail's head", {"Wheelset/Lateral shift (mm)": -66, **with_rows("beyond.csv", time, lateral_shift_mm=np.linspace(-66., -71., 9))}, "Guidance/File", "after the start", "lateral shift")
+    must_fail("beyond the rail's head", {"Wheelset/Lateral shift (mm)": -66, **with_rows("beyond.csv", time, lateral_shift_mm=np.linspace(-66., -71., 9))}, "Lateral shift (mm)' -66", "other wheel", "no wheelset stands there")
     must_fail("a wheel that turns backwards", {**with_rows("turns.csv", time, angular_velocity_rad_per_s=np.linspace(84., -84., 9)), "Motion/Angular velocity (rad per s)": "by the drive"},
               "Guidance/File", "backwards")
     must_fail("a column twice", with_rows("twice.csv", time, lateral_shift_mm=np.zeros(9), **{"lateral_shift_mm ": np.zeros(9)}), "Guidance/File", "lateral_shift_mm")
