@@ -126,7 +126,7 @@ namespace tread
               x[8 * c + j / 3][j % 3] = corners[c][j / 3][j % 3] + sign * step[c];
             std::fill(force.begin(), force.end(), Vector3{});
             for (const auto &group : groups)
-              group->add_forces(x.data(), v.data(), force.data(), 1., 0.);
+              group->add_forces(x.data(), v.data(), force.data(), 1.);
             for (unsigned int c = 0; c < n; ++c)
               {
                 for (unsigned int i = 0; i < 24; ++i)

@@ -142,6 +142,16 @@ namespace tread
   }
 
 
+  std::vector<unsigned int> Contact::nodes_near() const
+  {
+    std::vector<unsigned int> nodes;
+    for (const unsigned int i : near_contact)
+      if (const int local = surfaces.nodes[i].local; local >= 0)
+        nodes.push_back(local);
+    return nodes;
+  }
+
+
   std::optional<Vector3> Contact::contact_at_rim() const
   {
     if (rim_nodes.empty())

@@ -20,7 +20,8 @@ namespace tread
     for (const std::size_t size : {pair_friction.coefficient.size(), pair_friction.factor.size()})
       if (size != 0 && size != n_pairs)
         return false;
-    if (position.size() != n_nodes || !all_below(involved, surfaces.nodes.size()))
+    if (position.size() != n_nodes || !all_below(involved, surfaces.nodes.size()) ||
+        !all_below(near_contact, surfaces.nodes.size()))
       return false;
 
     // Entries belong to the pairs one after the other.
@@ -57,7 +58,7 @@ namespace tread
     archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
                  corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
                  travelled, allowed_travel, unconverged_steps, pair_friction.coefficient,
-                 pair_friction.factor);
+                 pair_friction.factor, near_contact);
     archive.shares(work.friction, work.normal, work.adhesion, work.imposed);
     work.on_nodes.serialize(archive);
     std::vector<unsigned int> begin_of_strip = strips.begins();

@@ -49,7 +49,8 @@ namespace tread
     if (!(parameters.damping_steps > 0. || solid.needs_velocity()))
       return 0.;
     NodalField without;
-    solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history, {}, surface_damping_time());
+    solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history);
+    surface_damping.add_forces(x_damped.data(), v.data(), damping.data(), surface_damping_time());
     if (solid.has_bulk_viscosity())
       {
         const NodalField no_velocity(v.size(), Vector3{});

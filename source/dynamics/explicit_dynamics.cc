@@ -33,6 +33,7 @@ namespace tread
     , history(solid.virgin())
     , mesh(mesh)
     , solid(solid)
+    , surface_damping(mesh, solid)
     , parameters(parameters)
     , force(mesh.nodes.size(), Vector3{})
     , x_damped(mesh.nodes.size())
@@ -231,6 +232,7 @@ namespace tread
       {
         contact->set_inverse_masses(inverse_mass);
         contact->refresh(positions().data(), v.data(), time_step);
+        surface_damping.select(contact->nodes_near());
       }
     hold_guided_nodes(v);
   }

@@ -97,6 +97,7 @@ namespace tread
     {
       check_that_nodes_stay(); // a search among nodes that fly apart fills the memory
       d.contact->refresh(x.data(), d.v.data(), unit_step);
+      d.surface_damping.select(d.contact->nodes_near());
     }
 
   private:

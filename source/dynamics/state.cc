@@ -33,7 +33,10 @@ namespace tread
     if (supports)
       supports->serialize(archive);
     if (contact)
-      contact->serialize(archive);
+      {
+        contact->serialize(archive);
+        surface_damping.select(contact->nodes_near());
+      }
     if (archive.restores())
       prepare_step();
   }

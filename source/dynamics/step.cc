@@ -261,6 +261,7 @@ namespace tread
       {
         check_stability(); // a search among nodes that fly apart fills the memory
         contact->refresh(positions().data(), v.data(), time_step);
+        surface_damping.select(contact->nodes_near());
         times.search += watch.lap();
       }
     contact->predict(v.data(), force.data(), time_step, rank_sums);

@@ -161,10 +161,12 @@ namespace tread
       rate(v.size(), Vector3{}), f(v.size()), forces_at_x(v.size(), Vector3{});
     // Damping of the surface counts like stiffness: dt^2 K (1 + 2 beta/dt) + 2 dt C <= 4. Here it acts on
     // displacements as rates.
-    const double like_stiffness = 2. * solid.surface_damping() / (1. + 2. * parameters.damping_steps);
-    const auto   add_forces     = [&](const NodalField &at, NodalField &forces) {
-      solid.add_internal_forces(at.data(), rate.data(), forces.data(), memory, Levels{first_level},
-                                      like_stiffness);
+    const double   like_stiffness = 2. * solid.surface_damping() / (1. + 2. * parameters.damping_steps);
+    SurfaceDamping all_of_surface(mesh, solid);
+    all_of_surface.select_all();
+    const auto add_forces = [&](const NodalField &at, NodalField &forces) {
+      solid.add_internal_forces(at.data(), rate.data(), forces.data(), memory, Levels{first_level});
+      all_of_surface.add_forces(at.data(), rate.data(), forces.data(), like_stiffness, Levels{first_level});
       mesh.condense_hanging_nodes(forces.data());
       mesh.shared_nodes.sum(forces.data());
     };
@@ -212,8 +214,13 @@ namespace tread
 
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
+    const auto damp_surface = [&](const unsigned int level) {
+      surface_damping.add_forces(x_damped.data(), v.data(), force.data(), surface_damping_time(),
+                                 Levels{level, level, true});
+    };
     totals.plastic.add(solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history,
-                                                    Levels{0, 0, true}, surface_damping_time()));
+                                                    Levels{0, 0, true}));
+    damp_surface(0);
     Mesh::condense(levels.hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
@@ -227,8 +234,8 @@ namespace tread
           }
         for (std::size_t k = 0; k < shares.nodes.size(); ++k)
           force_before[k] = force[shares.nodes[k]];
-        solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true},
-                                 surface_damping_time());
+        solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
+        damp_surface(level);
         Mesh::condense(levels.hanging[level].loaded, force.data());
         if (levels.reproducible)
           give_to_owners(shares);

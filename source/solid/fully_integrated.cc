@@ -60,11 +60,7 @@ namespace tread
       {
       }
 
-      void add_forces(const Vector3 *x,
-                      const Vector3 *,
-                      Vector3     *force,
-                      const double factor,
-                      const double) const override
+      void add_forces(const Vector3 *x, const Vector3 *, Vector3 *force, const double factor) const override
       {
         for (const BatchOfPoints &batch : batches)
           {

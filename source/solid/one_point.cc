@@ -11,7 +11,8 @@ namespace tread
   namespace
   {
     /// Cells of the uppermost layer.
-    struct SurfaceBatch : OnePointBatch<false>
+    template <bool affine>
+    struct SurfaceBatch : OnePointBatch<affine>
     {
       SurfaceModes modes;
     };
@@ -48,13 +49,12 @@ namespace tread
       void add_forces(const Vector3 *x,
                       const Vector3 *v,
                       Vector3       *force,
-                      const double   factor,
-                      const double   surface_damping) const override
+                      const double   factor) const override
       {
         if (parameters.reproducible)
-          add(x, v, force, factor, surface_damping, parameters.force_quantum());
+          add(x, v, force, factor, parameters.force_quantum());
         else
-          add(x, v, force, factor, surface_damping, NoRounding());
+          add(x, v, force, factor, NoRounding());
       }
 
       void add_energies(const Vector3          *x,
@@ -86,29 +86,28 @@ namespace tread
       }
 
     private:
-      static constexpr bool is_surface = std::is_same_v<Batch, SurfaceBatch>;
+      static constexpr bool is_surface =
+        std::is_same_v<Batch, SurfaceBatch<true>> || std::is_same_v<Batch, SurfaceBatch<false>>;
 
       template <typename Rounding>
       void add(const Vector3 *x,
                const Vector3 *v,
                Vector3       *force,
                const double   factor,
-               const double   surface_damping,
                const Rounding rounding) const
       {
         if (parameters.has_bulk_viscosity())
-          add<true>(x, v, force, factor, surface_damping, rounding);
+          add<true>(x, v, force, factor, rounding);
         else
-          add<false>(x, v, force, factor, surface_damping, rounding);
+          add<false>(x, v, force, factor, rounding);
       }
 
       template <bool viscous, typename Rounding>
-      void add(const Vector3                *x,
-               const Vector3                *v,
-               Vector3                      *force,
-               const double                  factor,
-               [[maybe_unused]] const double surface_damping,
-               const Rounding                rounding) const
+      void add(const Vector3                 *x,
+               [[maybe_unused]] const Vector3 *v,
+               Vector3                       *force,
+               const double                   factor,
+               const Rounding                 rounding) const
       {
         const double lambda = this->lambda, mu = this->mu;
         for (const auto &batch : this->batches)
@@ -124,8 +123,7 @@ namespace tread
               component *= volume;
             first_piola(F, S, P);
             if constexpr (is_surface)
-              batch.modes.template add<false>(F, amplitude, HourglassRates(batch, v, surface_damping),
-                                              stiffness, amplitude, P);
+              batch.modes.template add<false>(F, amplitude, stiffness, amplitude, P);
             else
               for (auto &mode : amplitude)
                 for (Lanes &component : mode)
@@ -186,18 +184,18 @@ namespace tread
                                                                       const std::vector<unsigned int> &cells,
                                                                       const SurfaceLayer &surface) const
   {
-    std::vector<unsigned int> parallelepipeds, others, of_surface;
+    std::vector<unsigned int> cells_of[2][2]; // by: at the surface, parallelepiped
     for (const unsigned int c : cells)
-      if (surface.find(c))
-        of_surface.push_back(c);
-      else
-        (is_parallelepiped(mesh.corners(c)) ? parallelepipeds : others).push_back(c);
+      cells_of[surface.find(c) != nullptr][is_parallelepiped(mesh.corners(c))].push_back(c);
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    groups.push_back(
-      std::make_unique<Group<OnePointBatch<true>>>(mesh, material, parallelepipeds, parameters, surface));
-    groups.push_back(
-      std::make_unique<Group<OnePointBatch<false>>>(mesh, material, others, parameters, surface));
-    groups.push_back(std::make_unique<Group<SurfaceBatch>>(mesh, material, of_surface, parameters, surface));
+    const auto                                    add = [&](const auto &batch, const std::vector<unsigned int> &of_group) {
+      using Batch = std::decay_t<decltype(batch)>;
+      groups.push_back(std::make_unique<Group<Batch>>(mesh, material, of_group, parameters, surface));
+    };
+    add(OnePointBatch<true>(), cells_of[0][1]);
+    add(OnePointBatch<false>(), cells_of[0][0]);
+    add(SurfaceBatch<true>(), cells_of[1][1]);
+    add(SurfaceBatch<false>(), cells_of[1][0]);
     return groups;
   }
 } // namespace tread

@@ -253,10 +253,8 @@ namespace tread
   template <unsigned int n, bool updates, typename History>
   ReproducibleSum<double> PlasticCells::add_forces(const Range   &range,
                                                    const Vector3 *x,
-                                                   const Vector3 *v,
                                                    Vector3       *force,
-                                                   History       &history,
-                                                   const double   surface_damping) const
+                                                   History       &history) const
   {
     const YieldConstants<n> material(range.elastic, range.plastic);
     ReproducibleSum<Lanes>  work;
@@ -274,19 +272,7 @@ namespace tread
         Lanes                     restoring[4][3];
         const SurfaceModes *const of_surface = range.modes_of(modes, b);
         if (of_surface)
-          {
-            const auto add = [&](const HourglassRates &rates) {
-              of_surface->template add<true>(state.F, state.amplitude, rates, -batch.stiffness, restoring, P);
-            };
-            if (surface_damping > 0.)
-              {
-                HourglassRates rates(batch, v, surface_damping);
-                rates.without_flow(state.flowed);
-                add(rates);
-              }
-            else
-              add(HourglassRates(batch, v, 0.));
-          }
+          of_surface->template add<true>(state.F, state.amplitude, -batch.stiffness, restoring, P);
         else
           for (unsigned int m = 0; m < 4; ++m)
             for (unsigned int i = 0; i < 3; ++i)
@@ -324,27 +310,21 @@ namespace tread
   }
 
 
-  void PlasticCells::add_forces(const Vector3        *x,
-                                const Vector3        *v,
-                                Vector3              *force,
-                                const PlasticHistory &history,
-                                const double          surface_damping) const
+  void PlasticCells::add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const
   {
     for_ranges([&](const Range &range, const auto n) {
-      add_forces<n(), false>(range, x, v, force, history, surface_damping);
+      add_forces<n(), false>(range, x, force, history);
     });
   }
 
 
   ReproducibleSum<double> PlasticCells::update(const Vector3  *x,
-                                               const Vector3  *v,
                                                Vector3        *force,
-                                               PlasticHistory &history,
-                                               const double    surface_damping) const
+                                               PlasticHistory &history) const
   {
     ReproducibleSum<double> work;
     for_ranges([&](const Range &range, const auto n) {
-      work.add(add_forces<n(), true>(range, x, v, force, history, surface_damping));
+      work.add(add_forces<n(), true>(range, x, force, history));
     });
     return work;
   }

@@ -88,13 +88,11 @@ namespace tread
   void Solid::add_elastic_forces(const Vector3 *x,
                                  const Vector3 *v,
                                  Vector3       *force,
-                                 const Levels   levels,
-                                 const double   surface_damping) const
+                                 const Levels   levels) const
   {
     for (const Group &group : groups)
       if (group.level >= levels.first && group.level <= levels.last)
-        group.cells->add_forces(x, v, force, levels.weighted ? std::ldexp(1., group.level) : 1.,
-                                surface_damping);
+        group.cells->add_forces(x, v, force, levels.weighted ? std::ldexp(1., group.level) : 1.);
   }
 
 

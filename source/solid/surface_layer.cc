@@ -103,7 +103,9 @@ namespace tread
           weights[mesh.cells[c].body].of_box({{edge_0->norm(), edge_1->norm(), std::abs(up * *edge_2)}});
         if (!of_box)
           continue;
-        SurfaceCell        cell;
+        SurfaceCell cell;
+        cell.stiffness = hourglass_stiffness(HexahedronIntegrals(corners), materials[mesh.cells[c].body],
+                                             hourglass_coefficient);
         const auto         along   = orthogonal(*edge_0, *edge_1);
         const unsigned int own[3]  = {first, second, normal};
         const Vector       axes[3] = {along[0], along[1], up};

@@ -115,7 +115,10 @@ namespace tread
         {
           std::string line;
           do
-            line = row_of(lines[++at].text.substr(0, lines[at].text.find('#')));
+            {
+              ++at;
+              line = row_of(lines[at].text.substr(0, lines[at].text.find('#')));
+            }
           while (line.empty());
           char text[300];
           std::snprintf(text, sizeof(text), ",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d",

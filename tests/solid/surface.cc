@@ -5,6 +5,7 @@
 #include <tread/solid/fully_integrated.h>
 #include <tread/solid/one_point.h>
 #include <tread/solid/solid.h>
+#include <tread/solid/surface_damping.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -275,8 +276,17 @@ namespace
       zones.push_back({0, plastic, [](const Point<3> &) {
                          return true;
                        }});
-    const Solid solid(mesh, {material}, SolidParameters(), zones);
+    const Solid    solid(mesh, {material}, SolidParameters(), zones);
+    SurfaceDamping surface_damping(mesh, solid);
     check.absolute("cells of a distorted uppermost layer", solid.surface().n_cells(), 9, 0.);
+    check.absolute("damped ones before any is chosen", surface_damping.n_selected(), 0, 0.);
+    // The node in the middle of one cell's neighbours.
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if ((mesh.nodes[i] - body.to_space(Point<3>(1e-3, 1e-3, 3e-3))).norm() < 1e-9)
+        surface_damping.select({i});
+    check.absolute("damped ones around a node", surface_damping.n_selected(), 4, 0.);
+    surface_damping.select_all();
+    check.absolute("damped ones of all", surface_damping.n_selected(), 9, 0.);
     PlasticHistory                   history = solid.virgin();
     std::mt19937                     random(7);
     std::uniform_real_distribution<> number(-1., 1.);
@@ -300,7 +310,8 @@ namespace
 
     const auto forces = [&](const NodalField &at, const double damping) {
       NodalField f(at.size(), Vector3{});
-      solid.add_internal_forces(at.data(), v.data(), f.data(), history, {}, damping);
+      solid.add_internal_forces(at.data(), v.data(), f.data(), history);
+      surface_damping.add_forces(at.data(), v.data(), f.data(), damping);
       return f;
     };
     const auto energy = [&](const double step) {

@@ -177,6 +177,10 @@ namespace tread
       unconverged_steps = n;
     }
 
+    /// Nodes of this rank on both surfaces that touched at the last refresh, or will have begun to touch before
+    /// the next one at the speed that they had.
+    std::vector<unsigned int> nodes_near() const;
+
     /// Position of a node at the rim of the contact faces of either body that was loaded in the last step
     /// (m): beyond the rim contact would be missed.
     std::optional<Vector3> contact_at_rim() const;
@@ -233,6 +237,7 @@ namespace tread
     ContactProblem                         problem;
     Strips                                 strips;
     std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
+    std::vector<unsigned int>              near_contact;     ///< surface nodes (@see nodes_near)
     std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
     /// Data of the involved nodes of this rank, in their order, that a prediction needs.
     struct Predicted

@@ -10,6 +10,7 @@
 #include <tread/dynamics/rail_beam.h>
 #include <tread/mesh/mesh.h>
 #include <tread/solid/solid.h>
+#include <tread/solid/surface_damping.h>
 #include <tread/track/rail_base.h>
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
@@ -218,7 +219,8 @@ namespace tread
     }
 
     const Mesh  &mesh;
-    const Solid &solid;
+    const Solid   &solid;
+    SurfaceDamping surface_damping; ///< of the cells near the contact, as it was last searched
 
   private:
     class Relaxation; ///< of relax()

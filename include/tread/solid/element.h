@@ -58,13 +58,8 @@ namespace tread
     virtual ~CellGroup() = default;
 
     /// Add factor times the forces that the cells exert on their nodes (N) when these are at x (m) and, for
-    /// bulk viscosity and for cells at the surface, move at v (m/s). @param surface_damping of the hourglass
-    /// modes of the latter over their stiffness, s.
-    virtual void add_forces(const Vector3 *x,
-                            const Vector3 *v,
-                            Vector3       *force,
-                            const double   factor,
-                            const double   surface_damping) const = 0;
+    /// bulk viscosity, move at v (m/s).
+    virtual void add_forces(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const = 0;
 
     /// Add the energies stored at x, J, whose sums over the lanes count.
     virtual void add_energies(const Vector3          *x,

@@ -79,20 +79,11 @@ namespace tread
     void forget(const unsigned int body, PlasticHistory &history) const;
 
     /// Add the forces (N) that the cells exert when their nodes move to x (m) from the state of the last
-    /// update of the history. The history remains unchanged. @param v velocities of the nodes, m/s, which
-    /// the surface's damping reads (@see CellGroup::add_forces).
-    void add_forces(const Vector3        *x,
-                    const Vector3        *v,
-                    Vector3              *force,
-                    const PlasticHistory &history,
-                    const double          surface_damping) const;
+    /// update of the history. The history remains unchanged.
+    void add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const;
 
     /// The same with an update of the history. @returns the plastic work done in it on this rank, J.
-    ReproducibleSum<double> update(const Vector3  *x,
-                                   const Vector3  *v,
-                                   Vector3        *force,
-                                   PlasticHistory &history,
-                                   const double    surface_damping) const;
+    ReproducibleSum<double> update(const Vector3 *x, Vector3 *force, PlasticHistory &history) const;
 
     /// Elastic energies of deformation and of the hourglass modes at x, J.
     std::array<ReproducibleSum<double>, 2> energies(const Vector3 *x, const PlasticHistory &history) const;
@@ -158,10 +149,8 @@ namespace tread
     template <unsigned int n, bool updates, typename History>
     ReproducibleSum<double> add_forces(const Range   &range,
                                        const Vector3 *x,
-                                       const Vector3 *v,
                                        Vector3       *force,
-                                       History       &history,
-                                       const double   surface_damping) const;
+                                       History       &history) const;
 
     /// Call work(range, n) for each range, with the number n of its backstresses as a constant.
     template <typename Work>

@@ -47,14 +47,11 @@ namespace tread
           const std::vector<PlasticZone>     &zones = {});
 
     /// Add the forces that the cells exert on their nodes (N) when these are at x (m) and, for bulk
-    /// viscosity and the damping of the surface, move at v (m/s). The caller treats hanging nodes. Cells of
-    /// plastic zones are not included. @param surface_damping of the hourglass modes of the uppermost layer
-    /// of cells over their stiffness, s.
+    /// viscosity, move at v (m/s). The caller treats hanging nodes. Cells of plastic zones are not included.
     void add_elastic_forces(const Vector3 *x,
                             const Vector3 *v,
                             Vector3       *force,
-                            const Levels   levels          = {},
-                            const double   surface_damping = 0.) const;
+                            const Levels   levels = {}) const;
 
     /// Forces of all cells. Those of plastic zones, which are on level 0, move to x from the state of the
     /// last update of the history, which remains unchanged.
@@ -62,12 +59,11 @@ namespace tread
                              const Vector3        *v,
                              Vector3              *force,
                              const PlasticHistory &history,
-                             const Levels          levels          = {},
-                             const double          surface_damping = 0.) const
+                             const Levels          levels = {}) const
     {
-      add_elastic_forces(x, v, force, levels, surface_damping);
+      add_elastic_forces(x, v, force, levels);
       if (levels.first == 0)
-        plastic_cells.add_forces(x, v, force, history, surface_damping);
+        plastic_cells.add_forces(x, force, history);
     }
 
     /// The same for cells that have never been loaded.
@@ -85,12 +81,10 @@ namespace tread
                                                    const Vector3  *v,
                                                    Vector3        *force,
                                                    PlasticHistory &history,
-                                                   const Levels    levels          = {},
-                                                   const double    surface_damping = 0.) const
+                                                   const Levels    levels = {}) const
     {
-      add_elastic_forces(x, v, force, levels, surface_damping);
-      return levels.first == 0 ? plastic_cells.update(x, v, force, history, surface_damping)
-                               : ReproducibleSum<double>();
+      add_elastic_forces(x, v, force, levels);
+      return levels.first == 0 ? plastic_cells.update(x, force, history) : ReproducibleSum<double>();
     }
 
     /// Energies stored in the cells of this rank at x.

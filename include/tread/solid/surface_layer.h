@@ -17,6 +17,7 @@ namespace tread
   {
     std::array<std::array<double, 3>, 3> axes;    ///< two in the surface, then the normal; reference position
     HourglassWeights                     weights; ///< by the cell's own modes and these axes
+    double                               stiffness; ///< of the hourglass modes before the weights, N/m
   };
 
   /// The one-point cells on this rank that have one face on the surface of contact, and the weights of their
@@ -53,48 +54,24 @@ namespace tread
   };
 
 
-  /// Rates of change with which cells of the surface are damped: of F and of the hourglass amplitudes.
-  struct HourglassRates
-  {
-    /// @param v velocities of the nodes, m/s; not read without damping.
-    HourglassRates(const OnePointBatch<false> &batch, const Vector3 *v, const double time)
-      : time(time)
-    {
-      if (time > 0.)
-        deform(batch, v, F, amplitude);
-    }
-
-    /// Amplitudes whose plastic part q is carried with F change by so much less.
-    void without_flow(const Lanes (&flowed)[4][3])
-    {
-      if (time > 0.)
-        for (unsigned int m = 0; m < 4; ++m)
-          for (unsigned int i = 0; i < 3; ++i)
-            amplitude[m][i] -= F[i][0] * flowed[m][0] + F[i][1] * flowed[m][1] + F[i][2] * flowed[m][2];
-    }
-
-    Lanes  F[3][3], amplitude[4][3];
-    double time; ///< times stiffness is damping, s
-  };
-
   /// Hourglass modes of n_lanes cells of the surface. Their energy is half the stiffness times
-  /// sum w_mi (e_i . g_m)^2 with the amplitudes g_m, the weights w_mi and the cell's axes as they are now,
-  /// e_i = F E_i, over its length in cells that yield: stretch of one per cent needs no square roots. It
-  /// depends on the nodes' positions alone and not on a common rotation, so that forces keep energy,
-  /// momentum and angular momentum.
+  /// sum_m [|g_m|^2 + sum_i (w_mi - 1) (e_i . g_m)^2] with the amplitudes g_m, the weights w_mi of the two
+  /// directions in the surface and the cell's axes in it as they are now, e_i = F E_i, over its length in
+  /// cells that yield: stretch of one per cent needs no square roots. It depends on the nodes' positions
+  /// alone and not on a common rotation, so that forces keep energy, momentum and angular momentum.
   struct SurfaceModes
   {
-    Lanes axis[3][3]   = {}; ///< E_i
-    Lanes weight[4][3] = {};
+    Lanes axis[2][3]  = {}; ///< E_i
+    Lanes added[4][2] = {}; ///< w_mi - 1
 
     void set(const unsigned int lane, const SurfaceCell &cell)
     {
-      for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int i = 0; i < 2; ++i)
         {
           for (unsigned int j = 0; j < 3; ++j)
             axis[i][j][lane] = cell.axes[i][j];
           for (unsigned int m = 0; m < 4; ++m)
-            weight[m][i][lane] = cell.weights[m][i];
+            added[m][i][lane] = cell.weights[m][i] - 1.;
         }
     }
 
@@ -103,62 +80,59 @@ namespace tread
     Lanes squares(const Lanes (&F)[3][3], const Lanes (&amplitude)[4][3]) const
     {
       Lanes sum{};
-      for (unsigned int i = 0; i < 3; ++i)
+      for (const auto &g : amplitude)
+        sum += g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+      for (unsigned int i = 0; i < 2; ++i)
         {
           Lanes e[3];
           axis_now<yields>(i, F, e);
           for (unsigned int m = 0; m < 4; ++m)
             {
               const Lanes A = e[0] * amplitude[m][0] + e[1] * amplitude[m][1] + e[2] * amplitude[m][2];
-              sum += weight[m][i] * A * A;
+              sum += added[m][i] * A * A;
             }
         }
       return sum;
     }
 
-    /// Set Q_m to stiffness times sum_i (w_mi A_mi + time e_i . dg_m/dt) e_i with A_mi = e_i . g_m, where
-    /// only directions in the surface are damped, and add to P what the same loads on A_mi give by F.
+    /// Set Q_m to stiffness times g_m + sum_i (w_mi - 1) A_mi e_i with A_mi = e_i . g_m, and add to P what the
+    /// same loads on A_mi give by F.
     template <bool yields>
     void add(const Lanes (&F)[3][3],
              const Lanes (&amplitude)[4][3],
-             const HourglassRates &rates,
-             const Lanes           stiffness,
+             const Lanes stiffness,
              Lanes (&Q)[4][3],
              Lanes (&P)[3][3]) const
     {
-      const bool is_damped = rates.time > 0.;
-      Lanes      sum[4][3] = {}; // Q may be the amplitudes' own array
-      for (unsigned int i = 0; i < 3; ++i)
+      Lanes       e[2][3], turned[2][3] = {}, along[2] = {};
+      const Lanes inverse_length[2] = {axis_now<yields>(0, F, e[0]), axis_now<yields>(1, F, e[1])};
+      for (unsigned int m = 0; m < 4; ++m)
         {
-          Lanes       e[3], turned[3] = {}, along{};
-          const Lanes inverse_length = axis_now<yields>(i, F, e);
-          for (unsigned int m = 0; m < 4; ++m)
+          const Lanes g[3] = {amplitude[m][0], amplitude[m][1], amplitude[m][2]}; // Q may be their own array
+          Lanes       sum[3] = {stiffness * g[0], stiffness * g[1], stiffness * g[2]};
+          for (unsigned int i = 0; i < 2; ++i)
             {
-              const Lanes(&g)[3] = amplitude[m];
-              const Lanes A      = e[0] * g[0] + e[1] * g[1] + e[2] * g[2];
-              Lanes       load   = weight[m][i] * A;
-              if (i < 2 && is_damped)
-                load += rates.time * (e[0] * rates.amplitude[m][0] + e[1] * rates.amplitude[m][1] +
-                                      e[2] * rates.amplitude[m][2]);
-              load *= stiffness;
+              const Lanes A    = e[i][0] * g[0] + e[i][1] * g[1] + e[i][2] * g[2];
+              const Lanes load = stiffness * added[m][i] * A;
               for (unsigned int j = 0; j < 3; ++j)
                 {
-                  sum[m][j] += load * e[j];
-                  turned[j] += load * g[j];
+                  sum[j] += load * e[i][j];
+                  turned[i][j] += load * g[j];
                 }
               if constexpr (yields)
-                along += load * A;
+                along[i] += load * A;
             }
-          if constexpr (yields)
-            for (unsigned int j = 0; j < 3; ++j)
-              turned[j] = inverse_length * (turned[j] - along * e[j]);
           for (unsigned int j = 0; j < 3; ++j)
-            for (unsigned int k = 0; k < 3; ++k)
-              P[j][k] += turned[j] * axis[i][k];
+            Q[m][j] = sum[j];
         }
-      for (unsigned int m = 0; m < 4; ++m)
+      for (unsigned int i = 0; i < 2; ++i)
         for (unsigned int j = 0; j < 3; ++j)
-          Q[m][j] = sum[m][j];
+          {
+            if constexpr (yields)
+              turned[i][j] = inverse_length[i] * (turned[i][j] - along[i] * e[i][j]);
+            for (unsigned int k = 0; k < 3; ++k)
+              P[j][k] += turned[i][j] * axis[i][k];
+          }
     }
 
   private:
