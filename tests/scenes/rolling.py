@@ -396,7 +396,9 @@ with tempfile.TemporaryDirectory() as folder:
         check.energy("one level of time steps: ", one_level, 0.005)
         full = run(program, "smooth-rolling.prm", path("full"),
                    SHORT + ["Solid/Element=fully-integrated"], 2)
-        one = run(program, "smooth-rolling.prm", path("one"), SHORT, 2)
+        # Fully integrated cells have no matched surface: both with the error of first order that such cells have.
+        unmatched = SHORT + ["Solid/Matched surface=false"]
+        one = run(program, "smooth-rolling.prm", path("one"), unmatched, 2)
         check.relative("fully integrated cells: maximum pressure", full["max_pressure_Pa"], one["max_pressure_Pa"], 0.02)
         check.relative("fully integrated cells: traction", full["longitudinal_force_N"], one["longitudinal_force_N"], 5e-3)
         # What a user is told of: assumptions at the start, measures and warnings at the end.
@@ -406,8 +408,9 @@ with tempfile.TemporaryDirectory() as folder:
         thin = run(program, "smooth-rolling.prm", path("thin"), SHORT + ["Wheel/Sector thickness (mm)=12"], 2)
         check.that("a sector of less than two semi-axes is named", any("1.7 mean semi-axes of the patch thick" in line for line in thin["assumptions"]))
         check.below("hourglass over internal energy, as large as cells of 1.3 mm have it", drive["hourglass_of_internal_energy"], 0.04)
-        check.below("slip chatter with stiffness damping", one["slip_chatter_share"], 0.06)
-        rough = run(program, "smooth-rolling.prm", path("rough"), SHORT + ["Solid/Stiffness damping (time steps)=0", "Time stepping/Levels=1"], 2)
+        check.below("slip chatter with a matched surface and its damping", drive["slip_chatter_share"], 0.06)
+        check.below("slip chatter with stiffness damping alone", one["slip_chatter_share"], 0.06)
+        rough = run(program, "smooth-rolling.prm", path("rough"), unmatched + ["Solid/Stiffness damping (time steps)=0", "Time stepping/Levels=1"], 2)
         check.that("without it: micro-slip chatters, and the run says so", rough["slip_chatter_share"] > 2. * one["slip_chatter_share"]
                    and any("no stiffness damping" in line for line in rough["assumptions"]))
         few = run(program, "smooth-rolling.prm", path("few"), SHORT + ["Contact/Largest number of sweeps=2"], 2)
