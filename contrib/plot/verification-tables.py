@@ -17,6 +17,8 @@ from collections.abc import Sequence
 from tread.comparison import compare
 from tread.commands import command_parser, run_command
 from tread.measured_runs import contact_measures, run_scene, shipped_scenes
+from tread.low_strain import (LOW_STRAIN, LOW_STRAIN_LOAD, LOW_STRAIN_SPIN, LOW_STRAIN_SPIN_CELLS, LOW_STRAIN_SPIN_LIMIT, SUMMARY_MEASURES,
+                              difference, low_strain_scene, signed)
 from tread.patches import read_patch
 from tread.files import is_complete, read_summary, reference_value
 from tread.runs import ROOT
@@ -47,18 +49,6 @@ SIZES = (0.33, 0.63, 1.3)
 FROM_NONE = "-from-none"  # what rolls 80 mm from a start without tractions
 
 
-# Measures beside Hertz (the first three) and the half-space solver, as a run's summary has them.
-SUMMARY_MEASURES = (("largest pressure", "max_pressure_Pa", "Hertz"),
-                    ("semi-axis a, by moments", "pressure_semi_axis_x_m", "Hertz"),
-                    ("semi-axis b, by moments", "pressure_semi_axis_y_m", "Hertz"),
-                    ("adhesion share", "adhesion_share", "half-space"),
-                    ("creepage at this traction", "creepage", "half-space"),
-                    ("largest shear stress", "max_shear_Pa", "half-space"),
-                    ("largest micro-slip", "max_slip_m_per_s", "half-space"))
-LOW_STRAIN = (1.3, 0.63, 0.5, 0.4, 0.33, 0.2)
-LOW_STRAIN_SHIPPED = (1.3, 0.63, 0.33, 0.2)  # the others are that of 0.63 mm with other cells
-LOW_STRAIN_LOAD = 29232. / 127100.  # over that of CONTACT's solution: radii are as many times larger
-
 # Loads and radii of the strain study: radii times S, load over S, so the patch stays what it is.
 STRAIN_SCALES = (1., 1.5, 2.5, 4.347826)
 
@@ -84,18 +74,6 @@ SENSITIVITY: tuple[tuple[str, dict], ...] = (("hourglass coefficient 0.5", {"Sol
                ("start tolerance 1e-6", {"Start/Tolerance": 1e-6}),
                ("80 mm from a start without tractions",
                 {"Start/Tractions": "none", "Motion/Rolled distance (mm)": 80}))
-
-
-def difference(summary: dict, key: str, source: str) -> float | None:
-    """Of a measure from its reference, %; points of an adhesion share."""
-    value, reference = summary.get(key), reference_value(summary, key, source)
-    if value is None or reference is None:
-        return None
-    return 100 * (value - reference) if key == "adhesion_share" else 100 * (value / reference - 1)
-
-
-def signed(value: float | None) -> str:
-    return "-" if value is None else f"{value:+.3f}" if abs(value) < 0.1 else f"{value:+.2f}"
 
 
 def order(coarse: float | None, fine: float | None, ratio: float) -> str:
@@ -149,19 +127,6 @@ def scatter(x: Sequence[float], y: Sequence[float]) -> float:
     """Standard deviation from that line."""
     slope, limit = straight_line(x, y)
     return math.sqrt(sum((b - limit - slope * a) ** 2 for a, b in zip(x, y)) / max(1, len(x) - 2))
-
-
-# Low strain, spin alone (1/m) with this coefficient of friction; elements across the patch of the half-space beside.
-LOW_STRAIN_SPIN = {"Motion/Creepage": 0, "Motion/Spin (1 per m)": 0.115, "Contact/Friction coefficient": 0.3}
-LOW_STRAIN_SPIN_CELLS = (1.3, 0.63, 0.33, 0.2)
-# Lateral over normal force to which the half-space's elements converge (doc/reference-solutions.md).
-LOW_STRAIN_SPIN_LIMIT = 0.16454 * 1.005
-
-
-def low_strain_scene(size: float) -> tuple[str, dict[str, float]]:
-    if size in LOW_STRAIN_SHIPPED:
-        return f"verification/low-strain-{size:g}.prm", {}
-    return "verification/low-strain-0.63.prm", {"Mesh/Finest cell (mm)": size}
 
 
 def low_strain_spin_table(results: str) -> str | None:
