@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tread
 {
@@ -52,19 +53,21 @@ namespace tread
         contact.lift = std::max(highest, contact.lift - 1e-3);
       }
 
-    // Least squares: the gap's second difference over its surroundings.
-    const double half = 5e-3;
-    double       sum = 0., weights = 0.;
+    contact.lateral_radius = fitted_lateral_radius(surfaces, contact.y, 5e-3);
+    return contact;
+  }
+
+
+  double fitted_lateral_radius(const RunningSurfaces &surfaces, const double y, const double half)
+  {
+    double sum = 0., weights = 0.;
     for (int i = 1; i <= 50; ++i)
       {
         const double d = half * i / 50.;
-        sum +=
-          d * d * (surfaces.gap(contact.y + d) + surfaces.gap(contact.y - d) - 2. * surfaces.gap(contact.y));
+        sum += d * d * (surfaces.gap(y + d) + surfaces.gap(y - d) - 2. * surfaces.gap(y));
         weights += d * d * d * d;
       }
-    if (sum > 0.)
-      contact.lateral_radius = weights / sum;
-    return contact;
+    return sum > 0. ? weights / sum : std::numeric_limits<double>::infinity();
   }
 
 

@@ -138,6 +138,25 @@ namespace tread
   }
 
 
+  reference::HertzEllipse hertz_over_patch(const Scene &scene, const double normal_force)
+  {
+    reference::HertzEllipse ellipse = hertz(scene, normal_force);
+    if (scene.is_positioned() || !scene.has_fitted_lateral_radius())
+      return ellipse;
+    reference::RollingCase c = half_space_case(scene, normal_force, 0.);
+    for (unsigned int pass = 0; pass < 30; ++pass)
+      {
+        const double radius = fitted_lateral_radius(scene.surfaces(), scene.first_contact().y, ellipse.semi_axis_y);
+        const double before = ellipse.semi_axis_y;
+        c.curvature_y       = 0.5 / std::min(radius, Scene::largest_lateral_radius);
+        ellipse             = hertz(c);
+        if (std::abs(ellipse.semi_axis_y - before) < 1e-6 * before)
+          return ellipse;
+      }
+    return hertz(scene, normal_force); // two sizes in turn: that of 5 mm
+  }
+
+
   double half_space_stretch(const Scene &scene)
   {
     const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
@@ -224,7 +243,7 @@ namespace tread
     summary.set("first_contact_y_m", scene.first_contact().y);
 
     // A wheel that has lifted off is compared with the patch of the static load.
-    const reference::HertzEllipse ellipse = hertz(scene, normal > 0. ? normal : scene.static_load());
+    const reference::HertzEllipse ellipse = hertz_over_patch(scene, normal > 0. ? normal : scene.static_load());
     const auto with_hertz = [&](const char *name, const char *label, const double scale, const double value,
                                 const double reference) {
       summary.compare(name, label, scale, value, "Hertz", reference);

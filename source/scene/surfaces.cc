@@ -420,10 +420,14 @@ namespace tread
 
   double Scene::lateral_radius() const
   {
-    if (!surfaces().tread_offset && rail.angle() == 0. && rail.measured_head.empty())
+    if (!has_fitted_lateral_radius())
       return rail.is_block() ? rail.crown_radius : rail.standard_profile().crown_radius();
-    // Flatter gaps touch along a line, for which Hertz's ellipse means nothing.
-    constexpr double largest_radius = 10.;
-    return std::min(first_contact().lateral_radius, largest_radius);
+    return std::min(first_contact().lateral_radius, largest_lateral_radius);
+  }
+
+
+  bool Scene::has_fitted_lateral_radius() const
+  {
+    return surfaces().tread_offset || rail.angle() != 0. || !rail.measured_head.empty();
   }
 } // namespace tread

@@ -4,6 +4,7 @@
 
 import csv
 import json
+import math
 import os
 import resource
 import sys
@@ -37,6 +38,22 @@ with tempfile.TemporaryDirectory() as folder:
                unexplained_keys({"wheel_3_creepage": 0., "wheel_3_made_up": 0., "cell_12_x_m": 0., "creepage_half_space_uncertainty": 0., "made_up_Pa": 0.,
                                  "patches": [{"x_m": 0., "made_up_m": 0.}], "reference": {"creepage": {"half-space": {"value": 0., "made_up": 0.}}}},
                                 explained_keys(program)) == ["made_up_Pa", "patches/1/made_up_m", "reference/max_pressure_Pa/Hertz/made_up", "wheel_2_made_up"])
+
+    # Hertz's radius is that over the patch that comes out: a crown of 200 mm within 2 mm of the middle, 50 mm beyond.
+    with open(path("two-radii.txt"), "w", encoding="utf-8") as stream:
+        for k in range(-150, 151):
+            y, near = 0.1 * k, min(abs(0.1 * k), 2.)
+            slope = near / math.sqrt(200.**2 - near**2)
+            beyond = abs(y) - near + 50. * slope / math.sqrt(1. + slope**2)  # on the circle that goes on with the same slope
+            z = math.sqrt(200.**2 - near**2) - 200. + math.sqrt(50.**2 - beyond**2) - 50. / math.sqrt(1. + slope**2)
+            stream.write(f"{y:.3f} {z:.7f}\n")
+    small = ["Vehicle/Wheel load (kN)=0.5", "Wheel/Mass (kg)=20", "Mesh/Finest cell (mm)=0.1"]
+    crown = reference_only("Rail/Shape=block", "Rail/Crown radius (mm)=200", *small)
+    both = reference_only(f"Rail/Measured head={path('two-radii.txt')}", *small)
+    check.that("a patch within the inner radius", 1e3 * crown["reference"]["semi_axis_y_m"]["Hertz"]["value"] < 1.2)
+    for key in ("max_pressure_Pa", "semi_axis_x_m", "semi_axis_y_m"):
+        check.relative(f"a head of two radii: Hertz has that of the patch, {key}", both["reference"][key]["Hertz"]["value"],
+                       crown["reference"][key]["Hertz"]["value"], 0.005)
 
     # Against CONTACT, whose values are of first order: extrapolated from its elements of 0.2 and 0.1 mm. What the edge of
     # the patch on those two grids leaves in them is 0.1 or 0.2 %, more in what sits at that edge.

@@ -33,6 +33,10 @@ namespace tread
   /// @param center_x where the wheel stands; a defect there lets it down or lifts it, but leaves y.
   FirstContact first_contact(const RunningSurfaces &surfaces, const double center_x);
 
+  /// Lateral radius of the gap over `half` at both sides of y, by least squares of its second differences, m;
+  /// infinite: concave.
+  double fitted_lateral_radius(const RunningSurfaces &surfaces, const double y, const double half);
+
   /// Height at y of a line z(y) that was turned about the origin by `angle` from y to z (rad), for angles up
   /// to 0.1 and slopes below 5.
   double turned_line(const std::function<double(double)> &line, const double angle, const double y);

@@ -39,6 +39,10 @@ namespace tread
   /// Hertz's patch of the scene's wheel and rail. @param normal_force N, > 0
   reference::HertzEllipse hertz(const Scene &scene, double normal_force);
 
+  /// The same with the lateral radius over the patch that comes out, where it is no number of the scene; over
+  /// 5 mm where no size of the patch agrees with its own radius.
+  reference::HertzEllipse hertz_over_patch(const Scene &scene, double normal_force);
+
   /// Difference between the stretches of the rail's and the wheel's surface along x under the pressure alone,
   /// averaged with the pressure as weight: eps_x = -(1 + nu)(1 - 2 nu)/E b/(a + b) 3/4 p_max on each
   /// half-space (Johnson 1985, section 3.2, integrated over the ellipse). Zero for like bodies.

@@ -295,8 +295,12 @@ namespace tread
     }
     /// Rolling radius of the wheel at the first contact; of both wheels of a wheelset the nominal one, m.
     double rolling_radius() const;
-    /// Lateral radius of the gap between the surfaces where they touch, m.
-    double lateral_radius() const;
+    /// Lateral radius of the gap between the surfaces where they touch, m: that of the rail, or fitted over
+    /// 5 mm at both sides. Flatter gaps than the largest touch along a line, for which Hertz's ellipse means
+    /// nothing.
+    static constexpr double largest_lateral_radius = 10.;
+    double                  lateral_radius() const;
+    bool                    has_fitted_lateral_radius() const;
 
   private:
     /// Read a file and settings, unchecked.
