@@ -63,12 +63,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("a table that stands still: angular velocity, rad/s", constant["angular_velocity_rad_per_s"], 84.4, 1e-9)
 
     # Friction that falls with slip, or with pressure, or on a spot of the rail, beside the half-space's with the same; each is far from Coulomb's.
-    sliding = {**COARSE, "Motion/Lateral creepage": 0.005}
+    sliding = {**COARSE, "Motion/Lateral creepage": 0.005, "Motion/Rolled distance (mm)": 16}
     coulomb = run(program, SCENE, path("coulomb"), sliding, 1, ["--reference-only"])
     for what, settings in (("falling", {"Contact/Friction law": "falling", "Contact/Kinetic friction coefficient": 0.1, "Contact/Falling slip speed (m per s)": 0.1,
                                         "Contact/Friction memory (mm)": 0.03}),
                            ("with pressure", {"Contact/Friction pressures (MPa)": "0, 700", "Contact/Friction pressure factors": "1, 0.3"}),
-                           ("on a spot", {"Contact/Friction places (mm)": "-18, -17", "Contact/Friction factors": "1, 0.5"})):
+                           ("on a spot", {"Contact/Friction places (mm)": "-9, -8", "Contact/Friction factors": "1, 0.5"})):
         summary = run(program, SCENE, path("friction"), {**sliding, **settings})
         computed, beside = summary["patches"][0], summary["half_space_patches"][0]
         for direction in ("longitudinal", "lateral"):
