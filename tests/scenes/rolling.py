@@ -558,11 +558,12 @@ with tempfile.TemporaryDirectory() as folder:
         seen, cut_short = set(), set()
 
         def is_first(settings, ignored):
-            kind = frozenset((key, value) for key, value in settings.items() if key.split("/")[-1] not in ignored)
+            kind = frozenset((key, value) for key, value in settings.items() if key not in ignored and key.split("/")[-1] not in ignored)
             return not (kind in seen or seen.add(kind))
 
         no_mesh = ("Title", "Rounded trailing edge (mm)", "Depth (mm)", "Creepage", "Friction coefficient", "Traction coefficient",
-                   "Yield stress (MPa)", "Tangent modulus (GPa)", "Finest cell (mm)")
+                   "Yield stress (MPa)", "Tangent modulus (GPa)", "Finest cell (mm)", "Defect/Length (mm)",
+                   "Stiffness damping (time steps)", "Courant number", "Lateral creepage", "Spin (1 per m)")
         start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "0", "Mesh/Fine layers": "2",
                  "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false"}
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
