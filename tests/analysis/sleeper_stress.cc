@@ -43,8 +43,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
     uneven.pressure.push_back(1e6 * (1. + 0.2 * i + (i % 5 == 0 ? 0.7 : 0.)));
   const SleeperShape shape = SleeperShape::ns90();
   check.relative("half an NS90, kg", 2520. * shape.volume(), 140., 0.005);
+  // The preconditioner's iterations are counted on one rank. Cells of 10 mm take nine tenths of the time.
+  const bool   alone            = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
   unsigned int first_iterations = 0;
-  for (const double cell : {0.04, 0.02, 0.01})
+  for (const double cell : alone ? std::vector<double>{0.04, 0.02, 0.01} : std::vector<double>{0.04, 0.02})
     {
       SleeperStressParameters p;
       p.cell_size              = cell;

@@ -12,10 +12,12 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
+from loaded_once import execute_often
 from tread import schema
 from tread.files import parameters_in
-from tread.runs import ROOT, execute
+from tread.runs import ROOT
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
 COMPLETION = os.path.join(ROOT, "contrib/completion/tread.bash")
@@ -113,6 +115,11 @@ class Scenes(unittest.TestCase):
 
 @unittest.skipUnless(PROGRAM, "no program named")
 class TheProgram(unittest.TestCase):
+    def setUp(self):
+        faster = mock.patch.object(schema, "execute", lambda arguments, program: execute_often(arguments, program))
+        faster.start()
+        self.addCleanup(faster.stop)
+
     def test_names_defaults_and_meanings_are_current(self):
         known = schema.parameters()
         found = [(f"{section}/{name}", default, meaning) for section, entries in schema.listing(PROGRAM) for name, default, meaning in entries]
@@ -135,16 +142,16 @@ class TheProgram(unittest.TestCase):
                             ("Contact/Friction factors", "1,-1")):
             entry = schema.parameters()[name]
             self.assertFalse(schema.fits(schema.value_of(value, entry), entry), name)
-            self.assertIn(f"'{name}' cannot be '{value}'", execute(["-s", f"{name}={value}", "--print-parameters"], program=PROGRAM).stderr)
+            self.assertIn(f"'{name}' cannot be '{value}'", execute_often(["-s", f"{name}={value}", "--print-parameters"], PROGRAM).stderr)
 
     def test_the_program_means_the_same(self):
         for name in ("Motion/Sped", "Motion/Crepage", "Motion/Length (mm)", "Contact/Finest cell (mm)", "Defect/Shap", "Creepage", "wheel/mass (kg)", "Foo/Bar",
                      "Mesh/Finest cell", "Motion/Speed (m/s)", "Track/Pad damping (kN)"):
-            said = execute(["-s", f"{name}=1", "--print-parameters"], program=PROGRAM).stderr
+            said = execute_often(["-s", f"{name}=1", "--print-parameters"], PROGRAM).stderr
             self.assertIn(schema.not_among(name, schema.parameters()), said, name)
 
     def test_a_scene_as_the_program_prints_it_is_accepted(self):
-        printed = execute(["--print-parameters"], program=PROGRAM).stdout
+        printed = execute_often(["--print-parameters"], PROGRAM).stdout
         for name, text in parameters_in(printed.splitlines()).items():
             entry = schema.parameters()[name]
             self.assertTrue(schema.fits(schema.value_of(text, entry), entry), name)

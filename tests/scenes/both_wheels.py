@@ -66,7 +66,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"half-space, 3 mm: {name} of one wheel", alone["patches"][0][name], own[name], 1e-4)
 
     # Finite elements: both rails and both wheels feel the same in the middle; mirrored positions have mirrored answers.
-    summary = run(program, SCENE, path("held"), {**HELD, "Wheelset/Lateral shift (mm)": 0}, 2)
+    summary = run(program, SCENE, path("held"), {**HELD, "Wheelset/Lateral shift (mm)": 0})
     own, other = (of(summary["patches"], wheel) for wheel in ("own", "other"))
     for name in ("normal_force_N", "max_pressure_Pa", "area_m2", "length_m"):
         check.relative(f"middle: {name} of the other wheel", other[name], own[name], 1e-6)
@@ -78,7 +78,7 @@ with tempfile.TemporaryDirectory() as folder:
     sides = {}
     for shift in (2, -2):
         name = f"shift{shift}"
-        sides[shift] = run(program, SCENE, path(name), {**HELD, "Wheelset/Lateral shift (mm)": shift}, 2)
+        sides[shift] = run(program, SCENE, path(name), {**HELD, "Wheelset/Lateral shift (mm)": shift})
         rows = history_of(path(name))
         both = rows["normal_force_N"][-1], rows["other_normal_force_N"][-1]
         check.that(f"{shift} mm: the forces of both wheels in the history", 0.4 < both[1] / both[0] < 0.6)
@@ -95,7 +95,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Free: the difference of the rolling radii turns the wheelset, and its yaw leads the contacts, which move across more than the axle.
     free = {"Motion/Rolled distance (mm)": 120, "Output/Write volume": "false", "Output/History interval (mm)": 2}
-    waved = run(program, SCENE, path("free"), free, 2)
+    waved = run(program, SCENE, path("free"), free)
     rows = history_of(path("free"))
     x = rows["position_m"] - rows["position_m"][0]
     settled = x > 0.05
@@ -111,7 +111,7 @@ with tempfile.TemporaryDirectory() as folder:
     short = {**free, "Motion/Rolled distance (mm)": 20}
     axle = lambda factor: {"Wheelset/Axle torsional stiffness (MN m per rad)": TORSION * factor, "Wheelset/Axle bending stiffness (MN m2)": 6.6 * factor}
     for name, settings in (("rigid", {}), ("stiff", axle(300))):
-        run(program, SCENE, path(name), {**short, **settings}, 2)
+        run(program, SCENE, path(name), {**short, **settings})
     rigid, stiff = history_of(path("rigid")), history_of(path("stiff"))
     short |= axle(1)
     bent, _ = (run(program, SCENE, path(f"ranks{ranks}"), short, ranks) for ranks in (1, 3))
@@ -121,11 +121,11 @@ with tempfile.TemporaryDirectory() as folder:
     check.energy("flexible axle: ", bent, 0.02)
     # The drive turns each wheel about its own axle, which a yaw that lasts tilts by half a milliradian: its work is 0.8 % of what is dissipated.
     leaning = run(program, SCENE, path("leaning"), {**short, "Wheelset/Lateral shift (mm)": -4, "Wheelset/Yaw (mrad)": 6, "Rail/Margin (mm)": 30,
-                                                    "Wheel/Sector margin (mm)": 30, "Wheelset/Axle bending stiffness (MN m2)": 2}, 2)
+                                                    "Wheel/Sector margin (mm)": 30, "Wheelset/Axle bending stiffness (MN m2)": 2})
     check.energy("soft axle of a yawed wheelset: ", leaning, 4e-3)
     # Pushed to where its flange stands beside the rail's profile.
     pushed = run(program, SCENE, path("pushed"), {**free, "Motion/Rolled distance (mm)": 40, "Guidance/Lateral force (kN)": 800, "Mesh/Fine half width (mm)": 17,
-                                                  "Wheel/Sector width (mm)": 44}, 2)
+                                                  "Wheel/Sector width (mm)": 44})
     check.that("no half-space answer beside a run: it ends, and says so",
                pushed["completed"] and "half_space_patches" not in pushed and any("no half-space answer" in warning for warning in pushed["warnings"]))
     for name in ("lateral_shift_m", "yaw_rad", "other_normal_force_N", "other_longitudinal_force_N"):
@@ -150,7 +150,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     found, wanted = differ(bent, one)
     check.absolute("flexible axle: difference of the creepages, 1e-3", 1e3 * found, 1e3 * wanted, 0.4)
-    settled = run(program, SCENE, path("settled"), {**free, "Motion/Rolled distance (mm)": 60, "Wheelset/Axle torsional stiffness (MN m per rad)": TORSION}, 2)
+    settled = run(program, SCENE, path("settled"), {**free, "Motion/Rolled distance (mm)": 60, "Wheelset/Axle torsional stiffness (MN m per rad)": TORSION})
     found, wanted = differ(settled, history_of(path("settled")))
     check.absolute("axle that twists: difference of the creepages, 1e-3", 1e3 * found, 1e3 * wanted, 0.4)
     power = lambda patches: sum(patch["frictional_power_W"] for patch in settled[patches])

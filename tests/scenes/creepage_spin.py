@@ -14,7 +14,7 @@ SCENE = "verification/creepage-spin-0.63.prm"
 check = Check()
 with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
-    one = run(program, SCENE, path("1"), ["Output/Write volume=false"], 2)
+    one = run(program, SCENE, path("1"), ["Output/Write volume=false"])
     half_space = run(program, SCENE, path("half-space"), more=["--reference-only"])
 
     def share(summary, direction):
@@ -52,18 +52,18 @@ with tempfile.TemporaryDirectory() as folder:
     steep = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9", "Output/Write volume=false", "Contact/Friction coefficient=0.4", "Motion/Creepage=0.004",
              "Contact/Kinetic friction coefficient=0.1", "Contact/Falling slip speed (m per s)=0.5"]
     for law in ("falling", "Stribeck"):
-        alone = run(program, "smooth-rolling.prm", path(f"{law} alone"), [*steep, f"Contact/Friction law={law}"], 2)
+        alone = run(program, "smooth-rolling.prm", path(f"{law} alone"), [*steep, f"Contact/Friction law={law}"])
         half_space = alone["reference"]["traction_coefficient"]["half-space"]["value"]
         check.relative(f"{law}, memory found: traction coefficient", alone["traction_coefficient"], half_space, 0.02)
         check.below(f"{law}, memory found: chatter", alone["slip_chatter_share"], 0.06)
         check.that(f"{law}, memory found: nothing is said of it", not any("memory" in line for line in alone["warnings"]))
-    forgets = run(program, "smooth-rolling.prm", path("forgets"), [*steep, "Contact/Friction law=falling", "Contact/Friction memory (mm)=0", "Motion/Rolled distance (mm)=12"], 2)
+    forgets = run(program, "smooth-rolling.prm", path("forgets"), [*steep, "Contact/Friction law=falling", "Contact/Friction memory (mm)=0", "Motion/Rolled distance (mm)=12"])
     check.that("without memory: it is named as the cure", any("'Contact/Friction memory (mm)' 0 lets slip oscillate" in line and "automatic" in line for line in forgets["warnings"]))
 
     # The wheel slides onto a spot with half the friction: all of the patch has it at the end.
     run(program, SCENE, path("spot"), ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=26",
                                         "Motion/Creepage=0.05", "Motion/Lateral creepage=0", "Motion/Spin (1 per m)=0",
-                                        "Contact/Friction places (mm)=-14, -10", "Contact/Friction factors=1, 0.5"], 2)
+                                        "Contact/Friction places (mm)=-14, -10", "Contact/Friction factors=1, 0.5"])
     rows = rows_of(path("spot"), "history.csv")
     # A share of 1e-3 acts on slopes of the crown.
     check.relative("sliding before the spot: traction over friction", rows[2]["traction_coefficient"] / 0.3, 1., 0.003)
@@ -73,11 +73,11 @@ with tempfile.TemporaryDirectory() as folder:
     # times the force. With part of the patch in adhesion: the half-space's.
     falls_with_pressure = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=12", "Motion/Lateral creepage=0",
                            "Motion/Spin (1 per m)=0", "Contact/Friction pressures (MPa)=0, 4000", "Contact/Friction pressure factors=1, 0"]
-    rolls = run(program, SCENE, path("rolls"), falls_with_pressure + ["Motion/Creepage=0.003"], 2)
+    rolls = run(program, SCENE, path("rolls"), falls_with_pressure + ["Motion/Creepage=0.003"])
     wanted = run(program, SCENE, path("rolls, half-space"), falls_with_pressure + ["Motion/Creepage=0.003"], more=["--reference-only"])
     check.relative("falls with pressure, rolling: traction coefficient", share(rolls, "longitudinal"), share(wanted, "longitudinal"), 0.01)
     check.absolute("falls with pressure, rolling: adhesion share, %", 100. * rolls["adhesion_share"], 100. * wanted["adhesion_share"], 5.)  # 1.3 mm: 4.2
-    slides = run(program, SCENE, path("slides"), falls_with_pressure + ["Motion/Creepage=0.05"], 2)
+    slides = run(program, SCENE, path("slides"), falls_with_pressure + ["Motion/Creepage=0.05"])
     check.relative("falls with pressure, sliding: traction over friction", share(slides, "longitudinal") / 0.3,
                    1. - 0.75 * wanted["max_pressure_Pa"] / 4e9, 0.005)
     # Beside a run stands the half-space that slides as it does, and the same way.

@@ -9,7 +9,8 @@ import sys
 import tempfile
 import zlib
 
-from tread.runs import execute
+from tread.runs import must_end_well
+from loaded_once import execute_often
 from tread_runner import Check, rows_of, script
 
 program = sys.argv[1]
@@ -45,7 +46,7 @@ def write_parameters(folder, settings):
     arguments = ["--print-parameters"]
     for setting in settings:
         arguments += ["-s", setting]
-    printed = execute(arguments, program=program, check=True)
+    printed = must_end_well(execute_often(arguments, program))
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "parameters.prm"), "w", encoding="utf-8") as stream:
         stream.write(printed.stdout)
@@ -80,7 +81,7 @@ def write(folder, rows, speed=SPEED, defect=False, shift=0.0, columns=("normal_f
 
 
 def fails(name, arguments, words, code=1):
-    result = execute(arguments, program=program)
+    result = execute_often(arguments, program)
     lines = result.stderr.splitlines()
     if not check.that(name, result.returncode == code and len(lines) == 1 and all(word in lines[0] for word in words)):
         print(result.returncode, result.stderr)
@@ -92,7 +93,7 @@ with tempfile.TemporaryDirectory() as folder:
     write(path("run"), 2000, defect=True)
     write(path("twin"), 2000, shift=0.4 * ROW)
     both = ["--dynamic-force", path("run"), "--smooth-twin", path("twin")]
-    result = execute(both, program=program)
+    result = execute_often(both, program)
     if not check.that("a run and its twin: exit code 0", result.returncode == 0):
         print(result.stdout, result.stderr)
         check.exit()
@@ -145,11 +146,11 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("spectrum.csv: wavelength x frequency over speed", largest["wavelength_m"] * largest["frequency_Hz"] / SPEED, 1.0, 1e-6)
     check.relative("spectrum.csv: its amplitude", largest["normal_force_N"], contact["oscillations"][0]["amplitude_N"], 0.01)
 
-    said = {window: execute(both + ["--window", window, "--from", "-100", "--to", "100", "--output", path("section")], program=program, check=True).stdout
+    said = {window: must_end_well(execute_often(both + ["--window", window, "--from", "-100", "--to", "100", "--output", path("section")], program)).stdout
             for window in ("rectangular", "Hann")}
     check.that("a section that ends while the force swings: side lobes are named", "side lobes" in said["rectangular"])
     check.that("a Hann window has none", "WARNING" not in said["Hann"])
-    quiet = execute(both + ["--quiet", "--output", path("quiet")], program=program, check=True)
+    quiet = must_end_well(execute_often(both + ["--quiet", "--output", path("quiet")], program))
     check.that("--quiet: nothing on the screen, the tables are there", quiet.stdout == "" and os.path.exists(path("quiet/dynamic.json")))
     with open(path("section/dynamic.json"), encoding="utf-8") as stream:
         section = json.load(stream)
@@ -161,7 +162,7 @@ with tempfile.TemporaryDirectory() as folder:
     # straight line misses up to (2 pi f h)^2/8 of a wave, the mean of a row (2 pi f h)^2/24.
     write(path("steps-run"), 2000, defect=True, steps=26.4e-6)
     write(path("steps-twin"), 2000, steps=24.8e-6)
-    result = execute(["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")], program=program)
+    result = execute_often(["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")], program)
     if check.that("a twin with other time steps: exit code 0", result.returncode == 0):
         rows = rows_of(path("steps-run"), "dynamic.csv")
         worst = max(abs(row["normal_force_N"] - blow((row["position_m"] - BEGIN) / SPEED)) for row in rows
@@ -213,18 +214,18 @@ with tempfile.TemporaryDirectory() as folder:
     write(path("stopped"), 1500)
     stopped = ["--dynamic-force", path("run"), "--smooth-twin", path("stopped"), "--output", path("stopped-section")]
     fails("a twin that stopped before the run", stopped, ["stopped", "to 74.", "does not cover", "to 199."])
-    check.that("a section that it covers", execute(stopped + ["--to", "70"], program=program).returncode == 0)
+    check.that("a section that it covers", execute_often(stopped + ["--to", "70"], program).returncode == 0)
     fails("a section of a few rows", both + ["--from", "10", "--to", "11"], ["4 intervals", "at least 16"])
-    said = execute(both + ["--from", "-100", "--to", "300", "--output", path("section")], program=program, check=True).stdout
+    said = must_end_well(execute_often(both + ["--from", "-100", "--to", "300", "--output", path("section")], program)).stdout
     check.that("a section beyond the history: where it ends instead", "WARNING: --to 300.00 mm" in said and "reaches 199." in said and "--from" not in said)
     with open(path("run/history.csv"), "rb") as stream:
         sum_of_history = zlib.crc32(stream.read())
     write_summary(path("run"), completed=True, history_crc32=sum_of_history)
-    check.that("a history with its checksum", "has no summary" not in execute(both, program=program, check=True).stdout)
+    check.that("a history with its checksum", "has no summary" not in must_end_well(execute_often(both, program)).stdout)
     write_summary(path("run"), completed=True, history_crc32=sum_of_history ^ 1)
     fails("a history that was edited", both, ["run/history.csv", "changed"])
     write_summary(path("run"), completed=False, history_crc32=sum_of_history)
-    check.that("a run that was interrupted is named", f"WARNING: {path('run')} has no summary of a completed run" in execute(both, program=program, check=True).stdout)
+    check.that("a run that was interrupted is named", f"WARNING: {path('run')} has no summary of a completed run" in must_end_well(execute_often(both, program)).stdout)
     write_summary(path("run"), completed=True)
     write(path("contact"), 2000, columns=("normal_force_N",))
     fails("a column that the twin has not", ["--dynamic-force", path("run"), "--smooth-twin", path("contact")],
@@ -251,7 +252,7 @@ with tempfile.TemporaryDirectory() as folder:
     write_parameters(path("run"), ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1", "Defect/Position (mm)=-40",
                                    "Output/History interval (mm)=0.5", "Scene/Title=a dip", "Motion/Speed (km per h)=140"])
     write_parameters(path("twin"), ["Motion/Speed (km per h)=140.0"])
-    allowed = execute(both, program=program)
+    allowed = execute_often(both, program)
     if not check.that("defect, output and title differ, and 140 is 140.0", allowed.returncode == 0):
         print(allowed.stderr)
     for setting, before in (("Motion/Speed (km per h)=100", "140"), ("Contact/Friction coefficient=0.4", "0.5"),
@@ -271,14 +272,14 @@ with tempfile.TemporaryDirectory() as folder:
             read = dict(parameter=parameter, path="tread.txt", bytes=len(content), crc32=zlib.crc32(content))
             stream.write(f"# file read: {json.dumps(read)}\n")
     has_read("run", "Wheel/Tread profile", b"0 0")
-    said = execute(both, program=program, check=True).stdout
+    said = must_end_well(execute_often(both, program)).stdout
     check.that("a twin that does not say what it has read is named", "WARNING" in said and "'Wheel/Tread profile'" in said and "not known" in said)
     has_read("twin", "Wheel/Tread profile", b"0 1")
     fails("the twin has read another content", both, ["no smooth twin", "'Wheel/Tread profile'", "'tread.txt'", str(zlib.crc32(b"0 0")), str(zlib.crc32(b"0 1"))])
     write_parameters(path("twin"), ["Motion/Speed (km per h)=140"])
     has_read("twin", "Wheel/Tread profile", b"0 0")
     has_read("run", "Defect/Profile file", b"0 0.1")
-    check.that("the same content, and a defect's file", "not known" not in execute(both, program=program, check=True).stdout)
+    check.that("the same content, and a defect's file", "not known" not in must_end_well(execute_often(both, program)).stdout)
     os.remove(path("twin/parameters.prm"))
     fails("no parameters", both, ["twin/parameters.prm"])
 

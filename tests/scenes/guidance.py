@@ -9,7 +9,8 @@ import tempfile
 import numpy as np
 
 from tread.files import read_summary
-from tread.runs import ROOT, execute
+from tread.runs import ROOT
+from loaded_once import execute_often
 from tread_runner import Check, run, run_stopped, table
 
 program = sys.argv[1]
@@ -42,8 +43,8 @@ with tempfile.TemporaryDirectory() as folder:
     # Moved sideways at a thousandth of the speed, to the middle of the track: the slip of a wheel that slides there at that creepage.
     time = np.linspace(0., 1.2 * DISTANCE / SPEED, 9)
     ramp = write_motion(path("ramp.csv"), {"time_s": time, "lateral_shift_mm": SPEED * time - 1e3 * 1e-3 * DISTANCE})
-    moved = run(program, SCENE, path("moved"), {**COARSE, **ramp}, 2)
-    slid = run(program, SCENE, path("slid"), {**COARSE, "Motion/Lateral creepage": 0.001}, 2)
+    moved = run(program, SCENE, path("moved"), {**COARSE, **ramp})
+    slid = run(program, SCENE, path("slid"), {**COARSE, "Motion/Lateral creepage": 0.001})
     share = lambda summary, name: summary[f"{name}_force_N"] / summary["normal_force_N"]
     for name in ("longitudinal", "lateral"):
         check.absolute(f"moved sideways: {name} over vertical force", share(moved, name), share(slid, name), 2e-3)
@@ -51,24 +52,24 @@ with tempfile.TemporaryDirectory() as folder:
     check.energy("moved sideways: ", moved, 2e-3)
     check.absolute("moved sideways: lateral creepage of the half-space beside it", moved["half_space_patches"][0]["lateral_creepage"],
                    slid["half_space_patches"][0]["lateral_creepage"], 2e-5)
-    still = run(program, SCENE, path("still"), {**COARSE, "Motion/Rolled distance (mm)": 10}, 2)
+    still = run(program, SCENE, path("still"), {**COARSE, "Motion/Rolled distance (mm)": 10})
     check.that("without motion the lateral force is another", abs(share(still, "lateral") - share(slid, "lateral")) > 0.1)
     # A table in which nothing moves, and free rolling beside it: the half-space rolls as beside a wheel that is held.
     constant = write_motion(path("constant.csv"), {"time_s": time, "lateral_shift_mm": 0. * time})
-    constant = run(program, SCENE, path("constant"), {**COARSE, **constant, "Motion/Rolled distance (mm)": 10}, 2)
+    constant = run(program, SCENE, path("constant"), {**COARSE, **constant, "Motion/Rolled distance (mm)": 10})
     for name in ("creepage", "longitudinal_force_N", "lateral_force_N"):
         check.relative(f"a table that stands still: {name} of the half-space beside it", constant["half_space_patches"][0][name],
                        still["half_space_patches"][0][name], 1e-6)
     check.relative("a table that stands still: angular velocity, rad/s", constant["angular_velocity_rad_per_s"], 84.4, 1e-9)
 
     # Friction that falls with slip, or with pressure, or on a spot of the rail, beside the half-space's with the same; each is far from Coulomb's.
-    sliding = {**COARSE, "Motion/Lateral creepage": 0.005}
+    sliding = {**COARSE, "Motion/Lateral creepage": 0.005, "Motion/Rolled distance (mm)": 16}
     coulomb = run(program, SCENE, path("coulomb"), sliding, 1, ["--reference-only"])
     for what, settings in (("falling", {"Contact/Friction law": "falling", "Contact/Kinetic friction coefficient": 0.1, "Contact/Falling slip speed (m per s)": 0.1,
                                         "Contact/Friction memory (mm)": 0.03}),
                            ("with pressure", {"Contact/Friction pressures (MPa)": "0, 700", "Contact/Friction pressure factors": "1, 0.3"}),
-                           ("on a spot", {"Contact/Friction places (mm)": "-18, -17", "Contact/Friction factors": "1, 0.5"})):
-        summary = run(program, SCENE, path("friction"), {**sliding, **settings}, 2)
+                           ("on a spot", {"Contact/Friction places (mm)": "-9, -8", "Contact/Friction factors": "1, 0.5"})):
+        summary = run(program, SCENE, path("friction"), {**sliding, **settings})
         computed, beside = summary["patches"][0], summary["half_space_patches"][0]
         for direction in ("longitudinal", "lateral"):
             check.absolute(f"friction {what}: {direction} over normal force", share(computed, direction), share(beside, direction), 4e-3)
@@ -89,7 +90,7 @@ with tempfile.TemporaryDirectory() as folder:
     turned = write_motion(path("turn.csv"), {"time_s": time, **{name: value * time / at_end for name, value in end.items()},
                                              "angular_velocity_rad_per_s": 84.4 + 0.02 * time / at_end})
     both = {**COARSE, **turned, "Motion/Angular velocity (rad per s)": "by the drive"}
-    turning = run(program, SCENE, path("turning"), both, 2)
+    turning = run(program, SCENE, path("turning"), both)
     rows = history_of(path("turning"))
     check.relative("turning: yaw at the end, mrad", 1e3 * np.interp(0., rows["position_m"], rows["yaw_rad"]), 0.01, 0.01)
     for key in ("longitudinal_force_N", "lateral_force_N"):
@@ -98,18 +99,18 @@ with tempfile.TemporaryDirectory() as folder:
     check.energy("turning: ", turning, 2e-3)
 
     # A roll that lifts the wheel off the rail.
-    flown = run(program, SCENE, path("flown"), {**COARSE, **write_motion(path("lift.csv"), {"time_s": time, "roll_mrad": np.minimum(0., 0.3 * (time[2] - time) / time[1])})}, 2)
+    flown = run(program, SCENE, path("flown"), {**COARSE, **write_motion(path("lift.csv"), {"time_s": time, "roll_mrad": np.minimum(0., 0.3 * (time[2] - time) / time[1])})})
     check.that("a wheel that leaves the rail is told", any("has left it" in warning for warning in flown["warnings"]))
 
     # Free: held in its place by what it finds at the start, and moved by a force of its own.
     free = {"Guidance/Kind": "springs", "Guidance/Lateral stiffness (MN per m)": 5, "Guidance/Yaw inertia (kg m2)": 600,
             "Guidance/Yaw stiffness (MN m per rad)": 5}
-    run(program, SCENE, path("free"), {**COARSE, **free}, 2)
+    run(program, SCENE, path("free"), {**COARSE, **free})
     history = history_of(path("free"))
     check.below("free: moves by, um", 1e6 * np.abs(history["lateral_shift_m"]).max(), 0.01)
     check.absolute("free: guidance and contact are in balance, share of the load", (history["guidance_force_N"] + history["lateral_force_N"]).mean() / 1e4,
                    0., 3e-3)
-    pushed = run(program, SCENE, path("pushed"), {**COARSE, **free, "Guidance/Lateral force (kN)": 10}, 2)
+    pushed = run(program, SCENE, path("pushed"), {**COARSE, **free, "Guidance/Lateral force (kN)": 10})
     history = history_of(path("pushed"))
     interval = np.diff(history["time_s"], prepend=0.)
     momentum = np.cumsum(interval * (history["guidance_force_N"] + history["lateral_force_N"]))
@@ -172,7 +173,7 @@ with tempfile.TemporaryDirectory() as folder:
               "Guidance/File", "backwards")
     must_fail("a column twice", with_rows("twice.csv", time, lateral_shift_mm=np.zeros(9), **{"lateral_shift_mm ": np.zeros(9)}), "Guidance/File", "lateral_shift_mm")
     must_fail("two angular velocities", with_rows("two.csv", time, angular_velocity_rad_per_s=np.full(9, 84.4)), "Motion/Angular velocity (rad per s)")
-    upright = execute([os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--dry-run", "-s", "Guidance/Kind=springs"], program=program)
+    upright = execute_often([os.path.join(ROOT, "prm", "smooth-rolling.prm"), "--dry-run", "-s", "Guidance/Kind=springs"], program)
     check.that("an upright wheel on springs", upright.returncode == 1 and "Guidance/Kind" in upright.stderr and "Wheelset/Lateral shift (mm)" in upright.stderr)
 
 check.exit()

@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from tread.runs import arguments_of, execute
+from loaded_once import execute_often
 from tread_runner import Check, rows_of, run
 
 program = sys.argv[1]
@@ -80,7 +81,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Bad input: one line, no files.
     def must_fail(what, arguments, words):
         output = os.path.join(folder, "bad")
-        result = execute([*arguments_of(SCENE, COARSE, output), *arguments], program=program)
+        result = execute_often([*arguments_of(SCENE, COARSE, output), *arguments], program)
         said = result.stderr.strip().splitlines()
         print("   ", *said)
         check.that(f"{what}: one line that names it, exit code 1, nothing written",

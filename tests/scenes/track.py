@@ -124,7 +124,7 @@ with tempfile.TemporaryDirectory() as folder:
     def sleeper(*more, ranks=1):
         return subprocess.run(command(["--sleeper-stress", path("1"), *more], ranks, program), env=environment(), capture_output=True, text=True)
 
-    solved = sleeper("--cell-size", "30")
+    solved = sleeper("--cell-size", "50")
     print(solved.stdout, solved.stderr)
     with open(os.path.join(path("1"), "sleeper_stress.json"), encoding="utf-8") as stream:
         stress = json.load(stream)
@@ -136,10 +136,10 @@ with tempfile.TemporaryDirectory() as folder:
     # The mass of the solid sleeper and the one that the run moved are two numbers, and that they differ is said.
     check.relative("mass of the run's sleeper, kg", stress["scene_sleeper_mass_kg"], 200., 1e-12)
     check.that("another mass than the run's is said", "of the run is 200:" in solved.stdout)
-    check.that("3 ranks", sleeper("--cell-size", "30", "--output", path("sleeper"), ranks=3).returncode == 0)
+    check.that("3 ranks", sleeper("--cell-size", "50", "--output", path("sleeper"), ranks=3).returncode == 0)
     with open(os.path.join(path("sleeper"), "sleeper_stress.json"), encoding="utf-8") as stream:
         check.relative("3 ranks against 1: largest von Mises stress", json.load(stream)["max_von_mises_Pa"], stress["max_von_mises_Pa"], 1e-7)
-    check.that("on ballast", sleeper("--cell-size", "40", "--bottom", "ballast", "--output", path("on-ballast")).returncode == 0)
+    check.that("on ballast", sleeper("--cell-size", "50", "--bottom", "ballast", "--output", path("on-ballast")).returncode == 0)
     with open(os.path.join(path("on-ballast"), "sleeper_stress.json"), encoding="utf-8") as stream:
         on_ballast = json.load(stream)
     # It bends, so that the seat sinks more than a rigid half would.

@@ -11,8 +11,10 @@ import sys
 import time
 
 import tread
-from tread.files import read_table
+from tread.files import read_summary, read_table
 from tread.runs import ROOT, arguments_of, command, environment, execute, must_end_well
+
+from loaded_once import execute_often
 
 
 @functools.lru_cache(maxsize=None)
@@ -36,7 +38,11 @@ def unexplained_keys(summary, explained):
 def run(program, scene, output, settings=(), ranks=1, more=()):
     """Run a scene to its end and return its summary, all of whose keys must have a meaning; anything else ends the test."""
     try:
-        summary = tread.run(scene, settings, ranks=ranks, output=output, options=more, program=program).summary
+        if ranks > 1:
+            summary = tread.run(scene, settings, ranks=ranks, output=output, options=more, program=program).summary
+        else:
+            must_end_well(execute_often([*arguments_of(scene, settings, output), *more], program))
+            summary = read_summary(output)
         unexplained = unexplained_keys(summary, explained_keys(program))
     except tread.Error as error:
         sys.exit(f"{scene} on {ranks} rank(s): {error}")
@@ -116,7 +122,7 @@ class Check:
 
     def refused(self, what, program, scene, output, settings, words, more=()):
         """A scene that must end at once with one line that has all of the words."""
-        ended = execute(arguments_of(scene, settings, output) + list(more), program=program)
+        ended = execute_often(arguments_of(scene, settings, output) + list(more), program)
         lines = [line for line in ended.stderr.splitlines() if line.startswith("tread:")]
         if not self.that(f"{what}: exit code 1, one line with {words}", ended.returncode == 1 and len(lines) == 1
                          and all(word in lines[0] for word in words)):

@@ -21,7 +21,7 @@ PATCH = ("normal_force_N", "traction_coefficient", "max_pressure_Pa", "patch_are
 
 
 def on_rigid_foundation(path):
-    """The first wheel drives with 0.30, the second one with 0.15. Alone, and together on 1, 2 and 3 ranks."""
+    """The first wheel drives with 0.30, the second one with 0.15. Alone, and together on 1 and 3 ranks."""
     alone = [run(program, RIGID, path("first"), COARSE),
              run(program, RIGID, path("second"), COARSE + ["Motion/Traction coefficient=0.15"])]
     together = run(program, RIGID, path("both"), COARSE + BEHIND)
@@ -36,23 +36,23 @@ def on_rigid_foundation(path):
         check.relative(f"wheel {number + 1} as alone: largest pressure in the last row of the history (Pa)",
                        last_both[prefix + "max_pressure_Pa"], last_own["max_pressure_Pa"], 0.01)
     check.energy("two wheels: ", together, 3e-3)
-    for ranks in (2, 3):
-        parallel = run(program, RIGID, path(f"{ranks}"), COARSE + BEHIND, ranks=ranks)
-        for key in ("normal_force_N", "max_pressure_Pa", "wheel_2_max_pressure_Pa", "wheel_2_frictional_power_W"):
-            check.relative(f"{ranks} ranks against 1: {key}", parallel[key], together[key], 1e-6)
+    parallel = run(program, RIGID, path("3"), COARSE + BEHIND, ranks=3)
+    for key in ("normal_force_N", "max_pressure_Pa", "wheel_2_max_pressure_Pa", "wheel_2_frictional_power_W"):
+        check.relative(f"3 ranks against 1: {key}", parallel[key], together[key], 1e-6)
 
 
 def on_track(path):
     """Static support forces of two wheels are those of each alone, less the rail's weight that is then counted twice."""
     scene, supports = "tutorial/two-wheels.prm", range(-8, 6)
-    load, weight_of_span = 11906. * 9.81, 0.6 * 0.06 * 0.15 * 7800. * 9.81
-    free = ["Motion/Traction coefficient=0", "Further wheels/Traction coefficients=", "Motion/Rolled distance (mm)=4",
+    load, weight_of_span = 11906. * 9.81, 0.6 * 0.08 * 0.15 * 7800. * 9.81
+    # Cells of 20 mm fit the wider bar, a fifth as many as of 10 mm.
+    free = ["Rail/Block width (mm)=80", "Motion/Traction coefficient=0", "Further wheels/Traction coefficients=", "Motion/Rolled distance (mm)=4",
             "Output/History interval (mm)=0.5", "Output/Supports=" + ",".join(str(i) for i in supports), "Contact/Tolerance=1e-12"]
-    two = run(program, scene, path("two"), free, ranks=2)
+    two = run(program, scene, path("two"), free)
     check.energy("two wheels on the track: ", two, 0.02)
     alone = ["Further wheels/Distances (mm)="]
-    run(program, scene, path("front"), free + alone, ranks=2)
-    run(program, scene, path("rear"), free + alone + ["Motion/Start (mm)=-2100"], ranks=2)
+    run(program, scene, path("front"), free + alone)
+    run(program, scene, path("rear"), free + alone + ["Motion/Start (mm)=-2100"])
     rows = {name: rows_of(path(name), "history.csv")[0] for name in ("two", "front", "rear")}
     for i in supports[1:-1]:
         force = {name: row[f"support_{i}_pad_N"] for name, row in rows.items()}

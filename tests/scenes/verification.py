@@ -23,7 +23,7 @@ scale, pressure, pressure_rms, shear_rms, slip_rms, adhesion, creepage, energy =
 check = Check()
 with tempfile.TemporaryDirectory() as folder:
     peaks = ["Peak stress/Region=range", "Peak stress/From (mm)=-12", "Peak stress/To (mm)=-6"]
-    summary = run(program, f"verification/{scene}.prm", folder, ["Output/Write volume=false"] + peaks, 2)
+    summary = run(program, f"verification/{scene}.prm", folder, ["Output/Write volume=false"] + peaks)
     measures = os.path.join(folder, "measures.json")
     compared = script("plot/compare-contact.py", folder, os.path.join(ROOT, "contrib", "contact-data", contact), "--scale", str(scale),
                       "--json", measures)

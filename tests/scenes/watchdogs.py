@@ -9,7 +9,8 @@ import random
 import sys
 import tempfile
 
-from tread.runs import arguments_of, execute
+from tread.runs import arguments_of
+from loaded_once import execute_often
 from tread_runner import Check
 
 program = sys.argv[1]
@@ -21,7 +22,7 @@ with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
 
     def run(name, settings):
-        return execute(arguments_of(SCENE, SHORT + settings, path(name)), program=program)
+        return execute_often(arguments_of(SCENE, SHORT + settings, path(name)), program)
 
     def warned(name, settings, *words):
         """A run that ends, with one warning that has these words, on the screen and in its summary."""
@@ -62,7 +63,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name, added, seen in (("1 um of noise", lambda y: 1e-3 * generator.uniform(-1., 1.), True),
                               ("waves of half a cell", lambda y: 2e-3 * math.cos(2. * math.pi * y / 0.65), True),
                               ("no noise", lambda y: 0., False)):
-        said = execute(arguments_of(SCENE, SHORT + head("head.txt", added), path("dry")) + ["--dry-run"], program=program)
+        said = execute_often(arguments_of(SCENE, SHORT + head("head.txt", added), path("dry")) + ["--dry-run"], program)
         check.that(f"{name}: named before the run: {seen}", said.returncode == 0 and ("detail of" in said.stdout) == seen)
 
     # The same block and steps as above, which stay far below the limits of a user: those of here are below what they do.

@@ -11,7 +11,8 @@ import tempfile
 import numpy as np
 
 from tread.manchester import positions, solve
-from tread.runs import ROOT, execute
+from tread.runs import ROOT
+from loaded_once import execute_often
 from tread_runner import Check, rows_of, run, table
 
 program = sys.argv[1]
@@ -92,7 +93,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("the benchmark is not conformal", not own["warnings"] and not surface["warnings"])
 
     # Contact points: rows, symmetry, the flange.
-    result = execute([RIGHT, "--contact-points", "--output", path("points")], program=program)
+    result = execute_often([RIGHT, "--contact-points", "--output", path("points")], program)
     check.that("--contact-points ends well", result.returncode == 0)
     points = table(path("points"), "contact_points.csv")
     # The wheel stands on the rail where the table says so.
@@ -123,9 +124,9 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write(f"include {RIGHT}\n{head}subsection Wheel\n set Radius (mm) = 460.2\nend\n")
     with open(path("wide.prm"), "w", encoding="utf-8") as stream:
         stream.write(f"include {RIGHT}\n{head}subsection Wheelset\n set Track gauge (mm) = 1440\nend\n")
-    same = execute([RIGHT, "--contact-points", "--other-side", RIGHT, "--output", path("same")], program=program)
+    same = execute_often([RIGHT, "--contact-points", "--other-side", RIGHT, "--output", path("same")], program)
     check.that("the other side by the same scene", same.returncode == 0 and str(table(path("same"), "contact_points.csv")) == str(points))  # nan is nan
-    unlike = execute([RIGHT, "--contact-points", "--other-side", path("larger.prm"), "--output", path("unlike")], program=program)
+    unlike = execute_often([RIGHT, "--contact-points", "--other-side", path("larger.prm"), "--output", path("unlike")], program)
     unlike_points = table(path("unlike"), "contact_points.csv")
     check.absolute("a larger other wheel: radius difference in the middle without roll, mm", unlike_points["radius_difference_without_roll_mm"][by_shift[0.]], -0.2, 1e-6)
     shift = float(re.search(r"equal at a lateral shift of (\S+) mm", unlike.stdout)[1])
@@ -150,7 +151,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Steep cones on short profiles touch at several rolls: both sides of the track have the same, that of the way out of the middle.
     klingel = os.path.join(ROOT, "prm", "curves", "klingel.prm")
-    check.that("contact points of steep cones", execute([klingel, "--contact-points", "--output", path("steep")], program=program).returncode == 0)
+    check.that("contact points of steep cones", execute_often([klingel, "--contact-points", "--output", path("steep")], program).returncode == 0)
     steep = table(path("steep"), "contact_points.csv")
     by_shift = dict(zip(steep["lateral_shift_mm"], steep["radius_difference_mm"]))
     check.that("steep cones: as many shifts to both sides", set(by_shift) == {-shift for shift in by_shift} and len(by_shift) > 50)
@@ -159,7 +160,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # What cannot be.
     def must_fail(what, arguments, *words):
-        failed = execute([RIGHT, "--output", path("bad"), *arguments], program=program)
+        failed = execute_often([RIGHT, "--output", path("bad"), *arguments], program)
         lines = [line for line in failed.stderr.splitlines() if line.startswith("tread:")]
         if not check.that(f"{what}: exit code 1, one line with {words}", failed.returncode == 1 and len(lines) == 1
                           and all(word in lines[0] for word in words)):

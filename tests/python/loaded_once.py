@@ -1,0 +1,1 @@
+../scenes/loaded_once.py
