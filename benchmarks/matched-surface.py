@@ -18,7 +18,7 @@ from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
 
 SIZES = (1.3, 1.0, 0.63, 0.5, 0.33, 0.2)
-KINDS = {"without": {"Solid/Matched surface": "false"}, "with": {}}
+KINDS: dict[str, dict[str, object]] = {"without": {"Solid/Matched surface": "false"}, "with": {}}
 
 
 def main() -> None:

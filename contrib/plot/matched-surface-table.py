@@ -34,7 +34,7 @@ SCENES: tuple[tuple[str, str, dict], ...] = (
     ("flange root", "curves/flange-root.prm", {}),
     ("conformal", "curves/conformal.prm", {}),
     ("two patches", "curves/two-patches.prm", {}))
-KINDS = {"without": {"Solid/Matched surface": "false"}, "with": {}}
+KINDS: dict[str, dict[str, object]] = {"without": {"Solid/Matched surface": "false"}, "with": {}}
 
 # Of the table of energies: heading, key of summary.json.
 ENERGIES = (("energy residual [% of the dissipated]", "energy_residual_of_dissipated"),

@@ -27,7 +27,7 @@ from unittest import mock
 import numpy as np
 
 import tread
-from tread import arcs, files, limits, measured_runs, schema, studies, tables
+from tread import arcs, files, limits, low_strain, measured_runs, schema, studies, tables
 from tread.comparison import compare
 from tread.patches import read_patch, read_patches
 from tread.files import read_table
@@ -853,6 +853,25 @@ class StudiesFromPython(InFolder):
             self.assertEqual(tread.Run("out/creepage-0.001").frame(), ("frame", history, ["time_s", "position_m"]))
         with mock.patch.dict(sys.modules, {"pandas": None}):
             self.assertEqual(tread.Run("out/creepage-0.001").frame("history.csv"), history)
+
+
+class LowStrain(unittest.TestCase):
+    def test_scenes_of_sizes(self):
+        for size in low_strain.LOW_STRAIN:
+            scene, settings = low_strain.low_strain_scene(size)
+            cell = settings.get("Mesh/Finest cell (mm)")
+            with open(os.path.join(ROOT, "prm", scene), encoding="utf-8") as stream:
+                own = float(re.search(r"set Finest cell \(mm\) *= *(\S+)", stream.read())[1])
+            self.assertEqual(own if cell is None else cell, size)
+        self.assertEqual(low_strain.low_strain_scene(0.5), ("verification/low-strain-0.63.prm", {"Mesh/Finest cell (mm)": 0.5}))
+
+    def test_differences(self):
+        summary = {"creepage": 0.99e-3, "adhesion_share": 0.66, "reference": {"creepage": {"half-space": {"value": 1e-3}},
+                                                                                "adhesion_share": {"half-space": {"value": 0.62}}}}
+        self.assertAlmostEqual(low_strain.difference(summary, "creepage", "half-space"), -1.)
+        self.assertAlmostEqual(low_strain.difference(summary, "adhesion_share", "half-space"), 4.)
+        self.assertIsNone(low_strain.difference(summary, "max_pressure_Pa", "Hertz"))
+        self.assertEqual([low_strain.signed(value) for value in (None, 0.0123, -2.345)], ["-", "+0.012", "-2.35"])
 
 
 class Commands(unittest.TestCase):
