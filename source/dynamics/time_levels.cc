@@ -218,8 +218,8 @@ namespace tread
       surface_damping.add_forces(x_damped.data(), v.data(), force.data(), surface_damping_time(),
                                  Levels{level, level, true});
     };
-    totals.plastic.add(solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history,
-                                                    Levels{0, 0, true}));
+    totals.plastic.add(
+      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true}));
     damp_surface(0);
     Mesh::condense(levels.hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)

@@ -146,7 +146,8 @@ namespace tread
     reference::RollingCase c = half_space_case(scene, normal_force, 0.);
     for (unsigned int pass = 0; pass < 30; ++pass)
       {
-        const double radius = fitted_lateral_radius(scene.surfaces(), scene.first_contact().y, ellipse.semi_axis_y);
+        const double radius =
+          fitted_lateral_radius(scene.surfaces(), scene.first_contact().y, ellipse.semi_axis_y);
         const double before = ellipse.semi_axis_y;
         c.curvature_y       = 0.5 / std::min(radius, Scene::largest_lateral_radius);
         ellipse             = hertz(c);
@@ -243,7 +244,8 @@ namespace tread
     summary.set("first_contact_y_m", scene.first_contact().y);
 
     // A wheel that has lifted off is compared with the patch of the static load.
-    const reference::HertzEllipse ellipse = hertz_over_patch(scene, normal > 0. ? normal : scene.static_load());
+    const reference::HertzEllipse ellipse =
+      hertz_over_patch(scene, normal > 0. ? normal : scene.static_load());
     const auto with_hertz = [&](const char *name, const char *label, const double scale, const double value,
                                 const double reference) {
       summary.compare(name, label, scale, value, "Hertz", reference);

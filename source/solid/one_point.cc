@@ -46,10 +46,7 @@ namespace tread
       {
       }
 
-      void add_forces(const Vector3 *x,
-                      const Vector3 *v,
-                      Vector3       *force,
-                      const double   factor) const override
+      void add_forces(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const override
       {
         if (parameters.reproducible)
           add(x, v, force, factor, parameters.force_quantum());
@@ -103,11 +100,11 @@ namespace tread
       }
 
       template <bool viscous, typename Rounding>
-      void add(const Vector3                 *x,
+      void add(const Vector3                  *x,
                [[maybe_unused]] const Vector3 *v,
-               Vector3                       *force,
-               const double                   factor,
-               const Rounding                 rounding) const
+               Vector3                        *force,
+               const double                    factor,
+               const Rounding                  rounding) const
       {
         const double lambda = this->lambda, mu = this->mu;
         for (const auto &batch : this->batches)
@@ -188,7 +185,7 @@ namespace tread
     for (const unsigned int c : cells)
       cells_of[surface.find(c) != nullptr][is_parallelepiped(mesh.corners(c))].push_back(c);
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    const auto                                    add = [&](const auto &batch, const std::vector<unsigned int> &of_group) {
+    const auto add = [&](const auto &batch, const std::vector<unsigned int> &of_group) {
       using Batch = std::decay_t<decltype(batch)>;
       groups.push_back(std::make_unique<Group<Batch>>(mesh, material, of_group, parameters, surface));
     };

@@ -312,9 +312,7 @@ namespace tread
 
   void PlasticCells::add_forces(const Vector3 *x, Vector3 *force, const PlasticHistory &history) const
   {
-    for_ranges([&](const Range &range, const auto n) {
-      add_forces<n(), false>(range, x, force, history);
-    });
+    for_ranges([&](const Range &range, const auto n) { add_forces<n(), false>(range, x, force, history); });
   }
 
 
@@ -323,9 +321,8 @@ namespace tread
                                                PlasticHistory &history) const
   {
     ReproducibleSum<double> work;
-    for_ranges([&](const Range &range, const auto n) {
-      work.add(add_forces<n(), true>(range, x, force, history));
-    });
+    for_ranges(
+      [&](const Range &range, const auto n) { work.add(add_forces<n(), true>(range, x, force, history)); });
     return work;
   }
 

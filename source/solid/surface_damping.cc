@@ -62,17 +62,13 @@ namespace tread
     std::vector<char> is_near(n_nodes, 0);
     for (const unsigned int i : nodes)
       is_near[i] = 1;
-    select_if([&](const unsigned int i) {
-      return is_near[i] != 0;
-    });
+    select_if([&](const unsigned int i) { return is_near[i] != 0; });
   }
 
 
   void SurfaceDamping::select_all()
   {
-    select_if([](const unsigned int) {
-      return true;
-    });
+    select_if([](const unsigned int) { return true; });
   }
 
 
@@ -115,8 +111,8 @@ namespace tread
         Lanes F[3][3], amplitude[4][3], F_rate[3][3], rate[4][3];
         deform(batch, x, F, amplitude);
         deform(batch, v, F_rate, rate);
-        const Lanes damping = -time * (levels.weighted ? std::ldexp(1., batch.level) : 1.) * batch.selected *
-                              batch.stiffness;
+        const Lanes damping =
+          -time * (levels.weighted ? std::ldexp(1., batch.level) : 1.) * batch.selected * batch.stiffness;
         Lanes P[3][3] = {}, Q[4][3] = {};
         for (unsigned int i = 0; i < 2; ++i)
           {
@@ -130,9 +126,8 @@ namespace tread
             for (unsigned int m = 0; m < 4; ++m)
               {
                 const Lanes(&g)[3] = amplitude[m];
-                const Lanes load =
-                  damping * (e[0] * rate[m][0] + e[1] * rate[m][1] + e[2] * rate[m][2] + e_rate[0] * g[0] +
-                             e_rate[1] * g[1] + e_rate[2] * g[2]);
+                const Lanes load   = damping * (e[0] * rate[m][0] + e[1] * rate[m][1] + e[2] * rate[m][2] +
+                                              e_rate[0] * g[0] + e_rate[1] * g[1] + e_rate[2] * g[2]);
                 for (unsigned int j = 0; j < 3; ++j)
                   {
                     Q[m][j] += load * e[j];

@@ -362,14 +362,13 @@ namespace
   }
 
 
-  /// One turned cube: power of the damping of each mode and direction, and its forces on large amplitudes that
-  /// turn with the cube.
+  /// One turned cube: power of the damping of each mode and direction, and its forces on large amplitudes
+  /// that turn with the cube.
   void check_damping(tests::Check &check)
   {
     const double          edge = 1e-3, angle = 0.7, rate = 0.3, time = 2e-7;
-    const Mesh            mesh(MPI_COMM_SELF,
-                               {tests::make_box("cube", Point<3>(), Point<3>(edge, edge, edge), {{1, 1, 1}},
-                                                {{tests::Side::top, Boundary::contact}})});
+    const Mesh            mesh(MPI_COMM_SELF, {tests::make_box("cube", Point<3>(), Point<3>(edge, edge, edge),
+                                                               {{1, 1, 1}}, {{tests::Side::top, Boundary::contact}})});
     const ElasticMaterial material;
     const Solid           solid(mesh, {material}, SolidParameters());
     SurfaceDamping        damping(mesh, solid);
@@ -384,10 +383,11 @@ namespace
         sum += dot(f[i], v[i]);
       return sum;
     };
-    const NodalField x       = tests::turned(reference_positions(mesh), angle);
-    const auto      &nodes   = mesh.cells[0].nodes;
-    const NodalField axes    = tests::turned({Vector3{1., 0., 0., 0.}, Vector3{0., 1., 0., 0.}, Vector3{0., 0., 1., 0.}}, angle);
-    double           worst[2] = {0., 0.};
+    const NodalField x     = tests::turned(reference_positions(mesh), angle);
+    const auto      &nodes = mesh.cells[0].nodes;
+    const NodalField axes =
+      tests::turned({Vector3{1., 0., 0., 0.}, Vector3{0., 1., 0., 0.}, Vector3{0., 0., 1., 0.}}, angle);
+    double worst[2] = {0., 0.};
     for (unsigned int m = 0; m < 4; ++m)
       for (unsigned int d = 0; d < 3; ++d)
         {
@@ -399,17 +399,19 @@ namespace
             }
           // The amplitude is the sum over the nodes times the pattern: 8 times what each node does.
           const double expected = d < 2 ? -stiffness * time * 64. * rate * rate : 0.;
-          worst[0] = std::max(worst[0], std::abs(power(x, v) - expected) / (stiffness * time * 64. * rate * rate));
+          worst[0] =
+            std::max(worst[0], std::abs(power(x, v) - expected) / (stiffness * time * 64. * rate * rate));
           const double turning = 500.;
           for (unsigned int i = 0; i < x.size(); ++i)
             v[i] = cross(turning * Vector3{0.36, -0.48, 0.8, 0.}, displaced[i]);
           const double speed = turning * 8. * 0.02 * edge; // at which the amplitude turns
-          NodalField f(x.size(), Vector3{});
+          NodalField   f(x.size(), Vector3{});
           damping.add_forces(displaced.data(), v.data(), f.data(), time);
           worst[1] = std::max(worst[1], tests::largest(f) / (stiffness * time * speed));
         }
-    check.below("power of the damping: stiffness times (rate of the amplitude)^2 in the surface, 0 along the normal",
-                worst[0], 1e-12);
+    check.below(
+      "power of the damping: stiffness times (rate of the amplitude)^2 in the surface, 0 along the normal",
+      worst[0], 1e-12);
     check.below("damping forces on large amplitudes that turn, over those of such rates", worst[1], 1e-12);
   }
 } // namespace

@@ -177,8 +177,8 @@ namespace tread
       unconverged_steps = n;
     }
 
-    /// Nodes of this rank on both surfaces that touched at the last refresh, or will have begun to touch before
-    /// the next one at the speed that they had.
+    /// Nodes of this rank on both surfaces that touched at the last refresh, or will have begun to touch
+    /// before the next one at the speed that they had.
     std::vector<unsigned int> nodes_near() const;
 
     /// Position of a node at the rim of the contact faces of either body that was loaded in the last step

@@ -218,7 +218,7 @@ namespace tread
       return true_mass;
     }
 
-    const Mesh  &mesh;
+    const Mesh    &mesh;
     const Solid   &solid;
     SurfaceDamping surface_damping; ///< of the cells near the contact, as it was last searched
 

@@ -59,7 +59,10 @@ namespace tread
 
     /// Add factor times the forces that the cells exert on their nodes (N) when these are at x (m) and, for
     /// bulk viscosity, move at v (m/s).
-    virtual void add_forces(const Vector3 *x, const Vector3 *v, Vector3 *force, const double factor) const = 0;
+    virtual void add_forces(const Vector3 *x,
+                            const Vector3 *v,
+                            Vector3       *force,
+                            const double   factor) const = 0;
 
     /// Add the energies stored at x, J, whose sums over the lanes count.
     virtual void add_energies(const Vector3          *x,

@@ -95,8 +95,8 @@ namespace tread
       return sum;
     }
 
-    /// Set Q_m to stiffness times g_m + sum_i (w_mi - 1) A_mi e_i with A_mi = e_i . g_m, and add to P what the
-    /// same loads on A_mi give by F.
+    /// Set Q_m to stiffness times g_m + sum_i (w_mi - 1) A_mi e_i with A_mi = e_i . g_m, and add to P what
+    /// the same loads on A_mi give by F.
     template <bool yields>
     void add(const Lanes (&F)[3][3],
              const Lanes (&amplitude)[4][3],
