@@ -64,9 +64,9 @@ with tempfile.TemporaryDirectory() as folder:
             # Spin alone slips on a rim narrower than a cell of 1.3 mm.
             check.absolute(name + "adhesion share, half-space's", summary["adhesion_share"],
                            summary["reference"]["adhesion_share"]["half-space"]["value"], 0.02 if traction > 0. else 0.03)
-            # Spin alone slips at the rim, which cells of 1.3 mm see coarsely.
+            # Found: 0.1 %. Spin alone slips at the rim, which cells of 1.3 mm see coarsely: 1.4 %.
             check.relative(name + "power, half-space's, W", summary["frictional_power_W"],
-                           summary["reference"]["frictional_power_W"]["half-space"]["value"], 0.03 if traction > 0. else 0.1)
+                           summary["reference"]["frictional_power_W"]["half-space"]["value"], 0.004 if traction > 0. else 0.022)
             check.relative(name + "lateral force by friction, half-space's, N",
                            summary["lateral_force_N"] - smooth["lateral_force_N"], half_space["lateral_force_N"], 0.05)
             check.that(name + "is long enough to be steady", summary["long_enough_to_be_steady"])
