@@ -11,14 +11,13 @@ from __future__ import annotations
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import available_ranks, contact_measures, in_turn, run_scene, steps_seconds
+from tread.measured_runs import MATCHED_SURFACE, available_ranks, contact_measures, in_turn, run_scene, steps_seconds
 from tread.low_strain import (LOW_STRAIN_LOAD, LOW_STRAIN_SPIN, LOW_STRAIN_SPIN_CELLS, LOW_STRAIN_SPIN_LIMIT, SUMMARY_MEASURES, difference,
                               low_strain_scene, signed)
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
 
 SIZES = (1.3, 1.0, 0.63, 0.5, 0.33, 0.2)
-KINDS: dict[str, dict[str, object]] = {"without": {"Solid/Matched surface": "false"}, "with": {}}
 
 
 def main() -> None:
@@ -35,8 +34,8 @@ def main() -> None:
             kind: lambda turn, kind=kind, changes=changes: dict(
                 run_scene(scene, folder("rolling", kind, turn), {**settings, **changes, "Output/Write volume": "false"}),
                 folder=folder("rolling", kind, turn))
-            for kind, changes in KINDS.items()})
-        for kind, changes in KINDS.items():
+            for kind, changes in MATCHED_SURFACE.items()})
+        for kind, changes in MATCHED_SURFACE.items():
             summary = best[kind]
             summaries.append(summary)
             spin = None

@@ -13,7 +13,7 @@ import os
 
 from tread.commands import command_parser, run_command
 from tread.files import is_complete, read_summary
-from tread.measured_runs import run_scene
+from tread.measured_runs import MATCHED_SURFACE, run_scene
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, rows_of
 
@@ -34,7 +34,6 @@ SCENES: tuple[tuple[str, str, dict], ...] = (
     ("flange root", "curves/flange-root.prm", {}),
     ("conformal", "curves/conformal.prm", {}),
     ("two patches", "curves/two-patches.prm", {}))
-KINDS: dict[str, dict[str, object]] = {"without": {"Solid/Matched surface": "false"}, "with": {}}
 
 # Of the table of energies: heading, key of summary.json.
 ENERGIES = (("energy residual [% of the dissipated]", "energy_residual_of_dissipated"),
@@ -79,9 +78,9 @@ def main() -> None:
     arguments = parser.parse_args()
     forces, energies = [], []
     for name, scene, settings in SCENES:
-        folders = {kind: folder(arguments.results, name, kind) for kind in (*KINDS, "half-space")}
+        folders = {kind: folder(arguments.results, name, kind) for kind in (*MATCHED_SURFACE, "half-space")}
         if arguments.run and fnmatch.fnmatch(name, arguments.scenes):
-            for kind, changes in KINDS.items():
+            for kind, changes in MATCHED_SURFACE.items():
                 run_scene(scene, folders[kind], {**settings, **changes, "Output/Write volume": "false"})
             run_scene(scene, folders["half-space"], settings, ranks=1, more=["--reference-only"])
         if not all(is_complete(of_run) for of_run in folders.values()):
@@ -90,7 +89,7 @@ def main() -> None:
             forces += kept["matched"]
             energies += kept["energies"]
             continue
-        without, matched, half_space = (read_summary(folders[kind]) for kind in (*KINDS, "half-space"))
+        without, matched, half_space = (read_summary(folders[kind]) for kind in (*MATCHED_SURFACE, "half-space"))
         forces.append([name] + [arrow(before, after, "+") for before, after in zip(differences(without, half_space), differences(matched, half_space))])
         energies.append([name] + [arrow(100 * without[key], 100 * matched[key], "") for _, key in ENERGIES]
                         + [f"{number(1e9 * without['time_step_s'])} → {number(1e9 * matched['time_step_s'])}"])

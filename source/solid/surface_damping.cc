@@ -88,6 +88,8 @@ namespace tread
                                   const double   time,
                                   const Levels   levels) const
   {
+    if (time == 0.)
+      return;
     if (reproducible)
       add_forces(x, v, force, time, levels, quantum);
     else

@@ -18,6 +18,9 @@ from .runs import ROOT, ProgramError, arguments_of, command, environment, execut
 
 Name = TypeVar("Name")
 
+# Changes of the settings with which a scene shows what a matched surface does.
+MATCHED_SURFACE: dict[str, dict[str, object]] = {"without": {"Solid/Matched surface": "false"}, "with": {}}
+
 
 def shipped(scene: str) -> str:
     """The path of a scene of prm/."""
