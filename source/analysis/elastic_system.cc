@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/analysis/elastic_system.h>
 #include <tread/base/gathered.h>
-#include <tread/solid/surface_layer.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -109,8 +108,7 @@ namespace tread
             }
           loose.cells.push_back(cell);
         }
-      // Hourglass modes of single cells at the surface are no matter of whole bodies' modes.
-      const auto groups = element.make_groups(loose, material, cells, SurfaceLayer());
+      const auto groups = element.make_groups(loose, material, cells);
 
       NodalField x(8 * n), v(8 * n, Vector3{}), force(8 * n);
       for (unsigned int i = 0; i < 8 * n; ++i)

@@ -36,8 +36,10 @@ namespace tread
 
   NodalField ExplicitDynamics::cell_forces() const
   {
-    NodalField forces(v.size(), Vector3{});
-    solid.add_internal_forces(positions().data(), v.data(), forces.data(), history);
+    NodalField       forces(v.size(), Vector3{});
+    const NodalField x = positions();
+    solid.add_internal_forces(x.data(), v.data(), forces.data(), history);
+    matched_surface.add_forces(x.data(), v.data(), forces.data(), 0.);
     return forces;
   }
 
@@ -50,12 +52,13 @@ namespace tread
       return 0.;
     NodalField without;
     solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history);
-    surface_damping.add_forces(x_damped.data(), v.data(), damping.data(), surface_damping_time());
+    matched_surface.add_forces(x_damped.data(), v.data(), damping.data(), surface_damping_time());
     if (solid.has_bulk_viscosity())
       {
         const NodalField no_velocity(v.size(), Vector3{});
         without.assign(v.size(), Vector3{});
         solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
+        matched_surface.add_forces(positions().data(), no_velocity.data(), without.data(), 0.);
       }
     const NodalField &elastic = solid.has_bulk_viscosity() ? without : forces;
     for (unsigned int i = 0; i < v.size(); ++i)
@@ -133,7 +136,9 @@ namespace tread
 
   StrainEnergy ExplicitDynamics::strain_energy() const
   {
-    const StrainEnergySums sums = solid.strain_energy_sums(positions().data(), history);
+    const NodalField x    = positions();
+    StrainEnergySums sums = solid.strain_energy_sums(x.data(), history);
+    sums.hourglass.add(matched_surface.energy(x.data()));
     return {sums.strain.value(mesh.comm), sums.hourglass.value(mesh.comm)};
   }
 

@@ -23,7 +23,7 @@ namespace tread
     constexpr double moments   = 0x1p-36; ///< kg m and kg m^2, up to 1e5: a hundred wheels
     constexpr double loss      = 0x1p-50; ///< J in a step, up to 8; a run dissipates some J in 1e5 steps
     constexpr double stiffness = 0x1p-12; ///< N/m, up to 2e12: a cell of steel of 10 m
-  }                                       // namespace
+  } // namespace
 
 
   ExplicitDynamics::ExplicitDynamics(const Mesh               &mesh,
@@ -33,7 +33,7 @@ namespace tread
     , history(solid.virgin())
     , mesh(mesh)
     , solid(solid)
-    , surface_damping(mesh, solid)
+    , matched_surface(mesh, solid)
     , parameters(parameters)
     , force(mesh.nodes.size(), Vector3{})
     , x_damped(mesh.nodes.size())
@@ -232,7 +232,7 @@ namespace tread
       {
         contact->set_inverse_masses(inverse_mass);
         contact->refresh(positions().data(), v.data(), time_step);
-        surface_damping.select(contact->nodes_near());
+        matched_surface.select(contact->nodes_near());
       }
     hold_guided_nodes(v);
   }

@@ -97,7 +97,7 @@ namespace tread
     {
       check_that_nodes_stay(); // a search among nodes that fly apart fills the memory
       d.contact->refresh(x.data(), d.v.data(), unit_step);
-      d.surface_damping.select(d.contact->nodes_near());
+      d.matched_surface.select(d.contact->nodes_near());
     }
 
   private:
@@ -282,6 +282,7 @@ namespace tread
   {
     std::copy(body_force.begin(), body_force.end(), d.force.begin());
     d.solid.add_internal_forces(x.data(), at_rest.data(), d.force.data(), d.history);
+    d.matched_surface.add_forces(x.data(), at_rest.data(), d.force.data(), 0.);
     d.mesh.condense_hanging_nodes(d.force.data());
     if (d.supports)
       {

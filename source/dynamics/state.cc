@@ -35,7 +35,7 @@ namespace tread
     if (contact)
       {
         contact->serialize(archive);
-        surface_damping.select(contact->nodes_near());
+        matched_surface.select(contact->nodes_near());
       }
     if (archive.restores())
       prepare_step();

@@ -162,7 +162,7 @@ namespace tread
     // Damping of the surface counts like stiffness: dt^2 K (1 + 2 beta/dt) + 2 dt C <= 4. Here it acts on
     // displacements as rates.
     const double   like_stiffness = 2. * solid.surface_damping() / (1. + 2. * parameters.damping_steps);
-    SurfaceDamping all_of_surface(mesh, solid);
+    MatchedSurface all_of_surface(mesh, solid);
     all_of_surface.select_all();
     const auto add_forces = [&](const NodalField &at, NodalField &forces) {
       solid.add_internal_forces(at.data(), rate.data(), forces.data(), memory, Levels{first_level});
@@ -214,13 +214,13 @@ namespace tread
 
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
-    const auto damp_surface = [&](const unsigned int level) {
-      surface_damping.add_forces(x_damped.data(), v.data(), force.data(), surface_damping_time(),
+    const auto add_matched = [&](const unsigned int level) {
+      matched_surface.add_forces(x_damped.data(), v.data(), force.data(), surface_damping_time(),
                                  Levels{level, level, true});
     };
     totals.plastic.add(
       solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true}));
-    damp_surface(0);
+    add_matched(0);
     Mesh::condense(levels.hanging[0].loaded, force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
@@ -235,7 +235,7 @@ namespace tread
         for (std::size_t k = 0; k < shares.nodes.size(); ++k)
           force_before[k] = force[shares.nodes[k]];
         solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
-        damp_surface(level);
+        add_matched(level);
         Mesh::condense(levels.hanging[level].loaded, force.data());
         if (levels.reproducible)
           give_to_owners(shares);

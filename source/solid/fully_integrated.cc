@@ -139,8 +139,7 @@ namespace tread
   std::vector<std::unique_ptr<const CellGroup>> FullyIntegrated::make_groups(
     const Mesh                      &mesh,
     const ElasticMaterial           &material,
-    const std::vector<unsigned int> &cells,
-    const SurfaceLayer &) const
+    const std::vector<unsigned int> &cells) const
   {
     std::vector<std::unique_ptr<const CellGroup>> groups;
     groups.push_back(std::make_unique<Group>(mesh, material, cells, force_quantum));

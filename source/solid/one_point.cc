@@ -2,7 +2,6 @@
 #include <tread/solid/batched_group.h>
 #include <tread/solid/one_point.h>
 #include <tread/solid/one_point_batch.h>
-#include <tread/solid/surface_layer.h>
 
 #include <cmath>
 
@@ -10,36 +9,24 @@ namespace tread
 {
   namespace
   {
-    /// Cells of the uppermost layer.
     template <bool affine>
-    struct SurfaceBatch : OnePointBatch<affine>
-    {
-      SurfaceModes modes;
-    };
-
-    /// @tparam Batch OnePointBatch or SurfaceBatch.
-    template <typename Batch>
-    class Group : public BatchedGroup<Batch>
+    class Group : public BatchedGroup<OnePointBatch<affine>>
     {
     public:
+      using Batch = OnePointBatch<affine>;
+
       Group(const Mesh                      &mesh,
             const ElasticMaterial           &material,
             const std::vector<unsigned int> &cells,
-            const SolidParameters           &parameters,
-            const SurfaceLayer              &surface)
-        : BatchedGroup<Batch>(mesh,
-                              material,
-                              cells,
-                              [&](Batch                     &batch,
-                                  const unsigned int         lane,
-                                  const HexahedronIntegrals &integrals,
-                                  const unsigned int         cell) {
-                                batch.set(
-                                  lane, integrals,
-                                  hourglass_stiffness(integrals, material, parameters.hourglass_coefficient));
-                                if constexpr (is_surface)
-                                  batch.modes.set(lane, *surface.find(cell));
-                              })
+            const SolidParameters           &parameters)
+        : BatchedGroup<Batch>(
+            mesh,
+            material,
+            cells,
+            [&](Batch &batch, const unsigned int lane, const HexahedronIntegrals &integrals, unsigned int) {
+              batch.set(lane, integrals,
+                        hourglass_stiffness(integrals, material, parameters.hourglass_coefficient));
+            })
         , parameters(parameters)
         , density(parameters.density_scale * material.density)
         , wave_speed(material.pressure_wave_speed())
@@ -65,12 +52,9 @@ namespace tread
             green_lagrange(F, E);
             strain.add(batch.volume * HenckyPoint<Lanes>(E).energy(this->lambda, this->mu));
             Lanes squares{};
-            if constexpr (is_surface)
-              squares = batch.modes.template squares<false>(F, amplitude);
-            else
-              for (const auto &mode : amplitude)
-                for (const Lanes &component : mode)
-                  squares += component * component;
+            for (const auto &mode : amplitude)
+              for (const Lanes &component : mode)
+                squares += component * component;
             hourglass.add(0.5 * batch.stiffness * squares);
           }
       }
@@ -83,9 +67,6 @@ namespace tread
       }
 
     private:
-      static constexpr bool is_surface =
-        std::is_same_v<Batch, SurfaceBatch<true>> || std::is_same_v<Batch, SurfaceBatch<false>>;
-
       template <typename Rounding>
       void add(const Vector3 *x,
                const Vector3 *v,
@@ -119,12 +100,9 @@ namespace tread
             for (Lanes &component : S)
               component *= volume;
             first_piola(F, S, P);
-            if constexpr (is_surface)
-              batch.modes.template add<false>(F, amplitude, stiffness, amplitude, P);
-            else
-              for (auto &mode : amplitude)
-                for (Lanes &component : mode)
-                  component *= stiffness;
+            for (auto &mode : amplitude)
+              for (Lanes &component : mode)
+                component *= stiffness;
             add_forces_of(batch, force, P, amplitude, rounding);
           }
       }
@@ -176,23 +154,17 @@ namespace tread
   }
 
 
-  std::vector<std::unique_ptr<const CellGroup>> OnePoint::make_groups(const Mesh            &mesh,
-                                                                      const ElasticMaterial &material,
-                                                                      const std::vector<unsigned int> &cells,
-                                                                      const SurfaceLayer &surface) const
+  std::vector<std::unique_ptr<const CellGroup>> OnePoint::make_groups(
+    const Mesh                      &mesh,
+    const ElasticMaterial           &material,
+    const std::vector<unsigned int> &cells) const
   {
-    std::vector<unsigned int> cells_of[2][2]; // by: at the surface, parallelepiped
+    std::vector<unsigned int> cells_of[2]; // parallelepipeds last
     for (const unsigned int c : cells)
-      cells_of[surface.find(c) != nullptr][is_parallelepiped(mesh.corners(c))].push_back(c);
+      cells_of[is_parallelepiped(mesh.corners(c))].push_back(c);
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    const auto add = [&](const auto &batch, const std::vector<unsigned int> &of_group) {
-      using Batch = std::decay_t<decltype(batch)>;
-      groups.push_back(std::make_unique<Group<Batch>>(mesh, material, of_group, parameters, surface));
-    };
-    add(OnePointBatch<true>(), cells_of[0][1]);
-    add(OnePointBatch<false>(), cells_of[0][0]);
-    add(SurfaceBatch<true>(), cells_of[1][1]);
-    add(SurfaceBatch<false>(), cells_of[1][0]);
+    groups.push_back(std::make_unique<Group<true>>(mesh, material, cells_of[1], parameters));
+    groups.push_back(std::make_unique<Group<false>>(mesh, material, cells_of[0], parameters));
     return groups;
   }
 } // namespace tread

@@ -219,15 +219,66 @@ namespace tread
         }
     }
 
+    /// Set e to an axis of the surface over its length: in steel that yields this is not near 1. @returns one
+    /// over the length.
+    Lanes unit_axis(const SurfaceModes &modes, const unsigned int i, Lanes (&e)[3]) const
+    {
+      modes.turn(i, F, e);
+      // Newton's method from a value that is right for no stretch: to round-off for stretches up to 2.
+      const Lanes square  = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+      Lanes       inverse = 2. / (1. + square);
+      for (unsigned int pass = 0; pass < 6; ++pass)
+        inverse *= 1.5 - 0.5 * square * inverse * inverse;
+      for (Lanes &component : e)
+        component *= inverse;
+      return inverse;
+    }
+
+    /// Add to the forces Q on the amplitudes, and to P, what the weights of the surface change.
+    void add_weighted(const SurfaceModes &modes,
+                      const Lanes         stiffness,
+                      Lanes (&Q)[4][3],
+                      Lanes (&P)[3][3]) const
+    {
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          Lanes       e[3], turned[3] = {}, along{};
+          const Lanes inverse_length = unit_axis(modes, i, e);
+          for (unsigned int m = 0; m < 4; ++m)
+            {
+              const Lanes(&g)[3] = amplitude[m];
+              const Lanes A      = e[0] * g[0] + e[1] * g[1] + e[2] * g[2];
+              const Lanes load   = stiffness * modes.added[m][i] * A;
+              for (unsigned int j = 0; j < 3; ++j)
+                {
+                  Q[m][j] += load * e[j];
+                  turned[j] += load * g[j];
+                }
+              along += load * A;
+            }
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int k = 0; k < 3; ++k)
+              P[j][k] += inverse_length * (turned[j] - along * e[j]) * modes.axis[i][k];
+        }
+    }
+
     /// @param stiffness of the amplitudes, N/m. @param modes null: below the surface.
     Lanes hourglass_energy(const Lanes stiffness, const SurfaceModes *modes) const
     {
-      if (modes)
-        return 0.5 * stiffness * modes->template squares<true>(F, amplitude);
       Lanes sum{};
       for (const auto &mode : amplitude)
         for (const Lanes &component : mode)
           sum += component * component;
+      for (unsigned int i = 0; modes && i < 2; ++i)
+        {
+          Lanes e[3];
+          unit_axis(*modes, i, e);
+          for (unsigned int m = 0; m < 4; ++m)
+            {
+              const Lanes A = e[0] * amplitude[m][0] + e[1] * amplitude[m][1] + e[2] * amplitude[m][2];
+              sum += modes->added[m][i] * A * A;
+            }
+        }
       return 0.5 * stiffness * sum;
     }
 
@@ -271,12 +322,11 @@ namespace tread
             component *= -batch.volume;
         Lanes                     restoring[4][3];
         const SurfaceModes *const of_surface = range.modes_of(modes, b);
+        for (unsigned int m = 0; m < 4; ++m)
+          for (unsigned int i = 0; i < 3; ++i)
+            restoring[m][i] = -batch.stiffness * state.amplitude[m][i];
         if (of_surface)
-          of_surface->template add<true>(state.F, state.amplitude, -batch.stiffness, restoring, P);
-        else
-          for (unsigned int m = 0; m < 4; ++m)
-            for (unsigned int i = 0; i < 3; ++i)
-              restoring[m][i] = -batch.stiffness * state.amplitude[m][i];
+          state.add_weighted(*of_surface, -batch.stiffness, restoring, P);
         // What the amplitudes do, differentiated: their plastic part is carried with F.
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)

@@ -58,7 +58,7 @@ namespace tread
               cells.push_back(c);
           if (cells.empty())
             continue;
-          for (auto &group : element->make_groups(mesh, materials[body], cells, surface_layer))
+          for (auto &group : element->make_groups(mesh, materials[body], cells))
             groups.push_back({level, std::move(group)});
         }
   }
@@ -124,9 +124,7 @@ namespace tread
                                                                  const unsigned int               body,
                                                                  const std::vector<unsigned int> &cells) const
   {
-    return element_named(parameters.element)
-      .make(parameters)
-      ->make_groups(mesh, materials[body], cells, surface_layer);
+    return element_named(parameters.element).make(parameters)->make_groups(mesh, materials[body], cells);
   }
 
 

@@ -106,13 +106,13 @@ namespace tread
         SurfaceCell cell;
         cell.stiffness = hourglass_stiffness(HexahedronIntegrals(corners), materials[mesh.cells[c].body],
                                              hourglass_coefficient);
-        const auto         along   = orthogonal(*edge_0, *edge_1);
-        const unsigned int own[3]  = {first, second, normal};
-        const Vector       axes[3] = {along[0], along[1], up};
+        const auto         along  = orthogonal(*edge_0, *edge_1);
+        const unsigned int own[3] = {first, second, normal};
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            cell.axes[i][j] = along[i][j];
         for (unsigned int i = 0; i < 3; ++i)
           {
-            for (unsigned int j = 0; j < 3; ++j)
-              cell.axes[i][j] = axes[i][j];
             for (unsigned int m = 0; m < 3; ++m)
               cell.weights[own[m]][i] = (*of_box)[m][i];
             cell.weights[3][i] = (*of_box)[3][i];

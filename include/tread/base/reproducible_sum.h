@@ -86,6 +86,14 @@ namespace tread
       carry();
     }
 
+    ReproducibleSum operator-() const
+    {
+      ReproducibleSum negative(*this);
+      for (T &bin : negative.bins)
+        bin = -bin;
+      return negative;
+    }
+
     /// The sum of all lanes.
     ReproducibleSum<double> of_lanes() const
     {

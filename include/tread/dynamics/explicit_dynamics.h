@@ -9,8 +9,8 @@
 #include <tread/dynamics/node_levels.h>
 #include <tread/dynamics/rail_beam.h>
 #include <tread/mesh/mesh.h>
+#include <tread/solid/matched_surface.h>
 #include <tread/solid/solid.h>
-#include <tread/solid/surface_damping.h>
 #include <tread/track/rail_base.h>
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
@@ -220,7 +220,7 @@ namespace tread
 
     const Mesh    &mesh;
     const Solid   &solid;
-    SurfaceDamping surface_damping; ///< of the cells near the contact, as it was last searched
+    MatchedSurface matched_surface; ///< of the cells near the contact, as it was last searched
 
   private:
     class Relaxation; ///< of relax()

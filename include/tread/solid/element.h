@@ -15,8 +15,6 @@
 
 namespace tread
 {
-  class SurfaceLayer;
-
   struct SolidParameters
   {
     std::string element = "one-point"; ///< one of elements()
@@ -99,10 +97,10 @@ namespace tread
     virtual double relative_cost(const std::array<dealii::Point<3>, 8> &corners) const = 0;
 
     /// Put cells of the mesh, all of this material, into groups.
-    virtual std::vector<std::unique_ptr<const CellGroup>> make_groups(const Mesh            &mesh,
-                                                                      const ElasticMaterial &material,
-                                                                      const std::vector<unsigned int> &cells,
-                                                                      const SurfaceLayer &surface) const = 0;
+    virtual std::vector<std::unique_ptr<const CellGroup>> make_groups(
+      const Mesh                      &mesh,
+      const ElasticMaterial           &material,
+      const std::vector<unsigned int> &cells) const = 0;
   };
 
   /// What a scene has to know of an element to offer it.

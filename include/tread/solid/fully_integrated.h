@@ -25,10 +25,10 @@ namespace tread
                                    const ElasticMaterial     &material,
                                    const double               hourglass_factor) const override;
     double relative_cost(const std::array<dealii::Point<3>, 8> &corners) const override;
-    std::vector<std::unique_ptr<const CellGroup>> make_groups(const Mesh                      &mesh,
-                                                              const ElasticMaterial           &material,
-                                                              const std::vector<unsigned int> &cells,
-                                                              const SurfaceLayer &surface) const override;
+    std::vector<std::unique_ptr<const CellGroup>> make_groups(
+      const Mesh                      &mesh,
+      const ElasticMaterial           &material,
+      const std::vector<unsigned int> &cells) const override;
 
   private:
     double  density_scale;
