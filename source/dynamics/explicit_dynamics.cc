@@ -23,7 +23,7 @@ namespace tread
     constexpr double moments   = 0x1p-36; ///< kg m and kg m^2, up to 1e5: a hundred wheels
     constexpr double loss      = 0x1p-50; ///< J in a step, up to 8; a run dissipates some J in 1e5 steps
     constexpr double stiffness = 0x1p-12; ///< N/m, up to 2e12: a cell of steel of 10 m
-  } // namespace
+  }                                       // namespace
 
 
   ExplicitDynamics::ExplicitDynamics(const Mesh               &mesh,

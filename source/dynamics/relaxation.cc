@@ -97,7 +97,11 @@ namespace tread
     {
       check_that_nodes_stay(); // a search among nodes that fly apart fills the memory
       d.contact->refresh(x.data(), d.v.data(), unit_step);
-      d.matched_surface.select(d.contact->nodes_near());
+      // Cells that were near at some time stay matched, or the balance could depend on what it decides.
+      const std::vector<unsigned int> near = d.contact->nodes_near();
+      nodes_near.insert(nodes_near.end(), near.begin(), near.end());
+      d.matched_surface.select(nodes_near);
+      d.matched_surface.settle();
     }
 
   private:
@@ -130,13 +134,14 @@ namespace tread
       return inverse[i] > 0. && d.mesh.shared_nodes.is_owned(i);
     }
 
-    ExplicitDynamics   &d;
-    NodalField         &x;          ///< positions, as there is no damping time
-    const NodalField    at_rest;    ///< no velocities
-    NodalField          mass;       ///< in [0], N/m, as the step has no unit
-    std::vector<double> inverse;    ///< of these, 0 where nodes are held or carried
-    NodalField          body_force; ///< weight, true centrifugal force and external forces, N
-    NodalField          previous;   ///< forces remembered, N
+    ExplicitDynamics         &d;
+    NodalField               &x;          ///< positions, as there is no damping time
+    const NodalField          at_rest;    ///< no velocities
+    NodalField                mass;       ///< in [0], N/m, as the step has no unit
+    std::vector<double>       inverse;    ///< of these, 0 where nodes are held or carried
+    NodalField                body_force; ///< weight, true centrifugal force and external forces, N
+    NodalField                previous;   ///< forces remembered, N
+    std::vector<unsigned int> nodes_near; ///< the contact at any of its searches
     struct OfWheel
     {
       double hub_mass = 0.;        ///< of the nodes that the hub carries

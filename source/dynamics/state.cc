@@ -35,6 +35,7 @@ namespace tread
     if (contact)
       {
         contact->serialize(archive);
+        matched_surface.serialize(archive);
         matched_surface.select(contact->nodes_near());
       }
     if (archive.restores())

@@ -260,12 +260,8 @@ namespace tread
     if (contact->refresh_due())
       {
         check_stability(); // a search among nodes that fly apart fills the memory
-        const NodalField x = positions();
-        contact->refresh(x.data(), v.data(), time_step);
-        // What the cells store changes with the stiffness of those that are chosen anew or no longer.
-        totals.damping.add(matched_surface.energy(x.data()));
+        contact->refresh(positions().data(), v.data(), time_step);
         matched_surface.select(contact->nodes_near());
-        totals.damping.add(-matched_surface.energy(x.data()));
         times.search += watch.lap();
       }
     contact->predict(v.data(), force.data(), time_step, rank_sums);

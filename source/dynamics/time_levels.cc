@@ -215,8 +215,9 @@ namespace tread
   void ExplicitDynamics::add_forces_due(const unsigned int due)
   {
     const auto add_matched = [&](const unsigned int level) {
-      matched_surface.add_forces(x_damped.data(), v.data(), force.data(), surface_damping_time(),
-                                 Levels{level, level, true});
+      totals.external_work.add(-matched_surface.advance(
+        x_damped.data(), v.data(), force.data(), surface_damping_time(),
+        damping_time + 0.5 * std::ldexp(time_step, level), Levels{level, level, true}));
     };
     totals.plastic.add(
       solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true}));

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <type_traits>
 
 namespace tread
 {
@@ -13,6 +15,7 @@ namespace tread
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.surface().find(c))
         cells.push_back(c);
+    shares.assign(cells.size(), 0.);
     std::stable_sort(cells.begin(), cells.end(), [&](const unsigned int a, const unsigned int b) {
       return solid.cell_levels()[a] < solid.cell_levels()[b];
     });
@@ -22,12 +25,17 @@ namespace tread
   template <typename Chosen>
   void MatchedSurface::select_if(const Chosen &is_chosen)
   {
+    for (const Batch &batch : batches)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        if (batch.cell[lane] != none)
+          shares[batch.cell[lane]] = batch.share[lane];
     batches.resize(0);
-    n_cells           = 0;
     unsigned int lane = n_lanes;
-    for (const unsigned int c : cells)
+    for (unsigned int k = 0; k < cells.size(); ++k)
       {
-        if (!is_chosen(mesh.cells[c]))
+        const unsigned int c         = cells[k];
+        const bool         is_wanted = is_chosen(mesh.cells[c]);
+        if (!is_wanted && shares[k] == 0.)
           continue;
         const unsigned int level = solid.cell_levels()[c];
         if (lane == n_lanes || batches.back().level != level)
@@ -35,6 +43,7 @@ namespace tread
             lane = 0;
             batches.emplace_back();
             batches.back().level = level;
+            std::fill_n(batches.back().cell, n_lanes, none);
             for (unsigned int a = 0; a < 8; ++a)
               std::fill_n(batches.back().node[a], n_lanes, mesh.cells[c].nodes[a]);
           }
@@ -42,6 +51,9 @@ namespace tread
         Batch             &batch = batches.back();
         batch.set(lane, HexahedronIntegrals(mesh.corners(c)), cell.stiffness);
         batch.modes.set(lane, cell);
+        batch.cell[lane]   = k;
+        batch.share[lane]  = shares[k];
+        batch.wanted[lane] = is_wanted ? 1. : 0.;
         for (unsigned int a = 0; a < 8; ++a)
           batch.node[a][lane] = mesh.cells[c].nodes[a];
         if (solid.plastic().contains(c))
@@ -49,7 +61,6 @@ namespace tread
             for (Lanes &added : mode)
               added[lane] = 0.;
         ++lane;
-        ++n_cells;
       }
   }
 
@@ -69,6 +80,53 @@ namespace tread
   void MatchedSurface::select_all()
   {
     select_if([](const Mesh::Cell &) { return true; });
+    settle();
+  }
+
+
+  void MatchedSurface::settle()
+  {
+    for (Batch &batch : batches)
+      batch.share = batch.wanted;
+  }
+
+
+  std::size_t MatchedSurface::n_cells() const
+  {
+    std::size_t n = 0;
+    for (const Batch &batch : batches)
+      n += n_lanes - std::count(batch.cell, batch.cell + n_lanes, none);
+    return n;
+  }
+
+
+  void MatchedSurface::serialize(Archive &archive)
+  {
+    struct Kept
+    {
+      Archive::Key node; ///< the first one of the cell
+      double       share;
+    };
+    const auto key_of = [&](const unsigned int c) {
+      return mesh.node_key(mesh.cells[c].nodes[0]);
+    };
+    std::vector<Kept> own;
+    for (const Batch &batch : batches)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        if (batch.cell[lane] != none)
+          own.push_back({key_of(cells[batch.cell[lane]]), batch.share[lane]});
+    const std::vector<Kept> all = archive.records(archive.restores() ? std::vector<Kept>() : own);
+    if (!archive.restores())
+      return;
+    batches.resize(0);
+    std::map<Archive::Key, double> by_key;
+    for (const Kept &kept : all)
+      by_key[kept.node] = kept.share;
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      {
+        const auto kept = by_key.find(key_of(cells[k]));
+        shares[k]       = kept == by_key.end() ? 0. : kept->second;
+      }
   }
 
 
@@ -90,9 +148,66 @@ namespace tread
                 squares += batch.modes.added[m][i] * A * A;
               }
           }
-        sum.add(0.5 * batch.stiffness * squares);
+        sum.add(0.5 * batch.share * batch.stiffness * squares);
       }
     return sum.of_lanes();
+  }
+
+
+  template <typename Batches, typename Rounding, typename Change>
+  void MatchedSurface::add(Batches       &batches,
+                           const Vector3 *x,
+                           const Vector3 *v,
+                           Vector3       *force,
+                           const double   time,
+                           const Levels   levels,
+                           const Rounding rounding,
+                           const Change  &change)
+  {
+    constexpr bool advances = !std::is_const_v<Batches>;
+    for (auto &batch : batches)
+      {
+        if (batch.level < levels.first || batch.level > levels.last)
+          continue;
+        Lanes F[3][3], g[4][3], F_rate[3][3] = {}, g_rate[4][3] = {};
+        deform(batch, x, F, g);
+        if (advances || time > 0.)
+          deform(batch, v, F_rate, g_rate);
+        Lanes e[2][3], A[2][4], A_rate[2][4];
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            Lanes e_rate[3];
+            batch.modes.turn(i, F, e[i]);
+            batch.modes.turn(i, F_rate, e_rate);
+            for (unsigned int m = 0; m < 4; ++m)
+              {
+                A[i][m]      = e[i][0] * g[m][0] + e[i][1] * g[m][1] + e[i][2] * g[m][2];
+                A_rate[i][m] = e[i][0] * g_rate[m][0] + e[i][1] * g_rate[m][1] + e[i][2] * g_rate[m][2] +
+                               e_rate[0] * g[m][0] + e_rate[1] * g[m][1] + e_rate[2] * g[m][2];
+              }
+          }
+        change(batch, A, A_rate);
+        const Lanes stiffness =
+          -(levels.weighted ? std::ldexp(1., batch.level) : 1.) * batch.share * batch.stiffness;
+        Lanes P[3][3] = {}, Q[4][3] = {};
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            Lanes turned[3] = {};
+            for (unsigned int m = 0; m < 4; ++m)
+              {
+                const Lanes load = stiffness * (batch.modes.added[m][i] * A[i][m] + time * A_rate[i][m]);
+                for (unsigned int j = 0; j < 3; ++j)
+                  {
+                    Q[m][j] += load * e[i][j];
+                    turned[j] += load * g[m][j];
+                  }
+              }
+            for (unsigned int j = 0; j < 3; ++j)
+              for (unsigned int k = 0; k < 3; ++k)
+                P[j][k] += turned[j] * batch.modes.axis[i][k];
+          }
+        add_forces_of(batch, force, P, Q, rounding);
+      }
   }
 
 
@@ -102,54 +217,44 @@ namespace tread
                                   const double   time,
                                   const Levels   levels) const
   {
+    const auto stays = [](const Batch &, const auto &, const auto &) {
+    };
     if (solid.reproducible())
-      add_forces(x, v, force, time, levels, solid.force_quantum());
+      add(batches, x, v, force, time, levels, solid.force_quantum(), stays);
     else
-      add_forces(x, v, force, time, levels, NoRounding());
+      add(batches, x, v, force, time, levels, NoRounding(), stays);
   }
 
 
-  template <typename Rounding>
-  void MatchedSurface::add_forces(const Vector3 *x,
-                                  const Vector3 *v,
-                                  Vector3       *force,
-                                  const double   time,
-                                  const Levels   levels,
-                                  const Rounding rounding) const
+  ReproducibleSum<double> MatchedSurface::advance(const Vector3 *x,
+                                                  const Vector3 *v,
+                                                  Vector3       *force,
+                                                  const double   time,
+                                                  const double   back,
+                                                  const Levels   levels)
   {
-    for (const Batch &batch : batches)
-      {
-        if (batch.level < levels.first || batch.level > levels.last)
-          continue;
-        Lanes F[3][3], amplitude[4][3], F_rate[3][3] = {}, rate[4][3] = {};
-        deform(batch, x, F, amplitude);
-        if (time > 0.)
-          deform(batch, v, F_rate, rate);
-        const Lanes stiffness = -(levels.weighted ? std::ldexp(1., batch.level) : 1.) * batch.stiffness;
-        Lanes       P[3][3] = {}, Q[4][3] = {};
-        for (unsigned int i = 0; i < 2; ++i)
+    ReproducibleSum<Lanes> lost;
+    const auto             change = [&](Batch &batch, const Lanes(&A)[2][4], const Lanes(&A_rate)[2][4]) {
+      // Forces do work with the mean of those at both ends of a step, one with the old shares and one with
+      // the new: what is stored changes as if in the middle.
+      const double longest = std::ldexp(1. / steps_to_grow, batch.level);
+      const Lanes  way     = batch.wanted - batch.share;
+      const Lanes  most    = broadcast(longest);
+      const Lanes  grown   = way > most ? most : (way < -most ? -most : way);
+      Lanes        squares{};
+      for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int m = 0; m < 4; ++m)
           {
-            Lanes e[3], e_rate[3], turned[3] = {};
-            batch.modes.turn(i, F, e);
-            batch.modes.turn(i, F_rate, e_rate);
-            for (unsigned int m = 0; m < 4; ++m)
-              {
-                const Lanes(&g)[3] = amplitude[m];
-                const Lanes A      = e[0] * g[0] + e[1] * g[1] + e[2] * g[2];
-                const Lanes A_rate = e[0] * rate[m][0] + e[1] * rate[m][1] + e[2] * rate[m][2] +
-                                     e_rate[0] * g[0] + e_rate[1] * g[1] + e_rate[2] * g[2];
-                const Lanes load = stiffness * (batch.modes.added[m][i] * A + time * A_rate);
-                for (unsigned int j = 0; j < 3; ++j)
-                  {
-                    Q[m][j] += load * e[j];
-                    turned[j] += load * g[j];
-                  }
-              }
-            for (unsigned int j = 0; j < 3; ++j)
-              for (unsigned int k = 0; k < 3; ++k)
-                P[j][k] += turned[j] * batch.modes.axis[i][k];
+            const Lanes middle = A[i][m] - back * A_rate[i][m];
+            squares += batch.modes.added[m][i] * middle * middle;
           }
-        add_forces_of(batch, force, P, Q, rounding);
-      }
+      lost.add(-0.5 * grown * batch.stiffness * squares);
+      batch.share += grown;
+    };
+    if (solid.reproducible())
+      add(batches, x, v, force, time, levels, solid.force_quantum(), change);
+    else
+      add(batches, x, v, force, time, levels, NoRounding(), change);
+    return lost.of_lanes();
   }
 } // namespace tread

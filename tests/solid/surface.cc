@@ -284,14 +284,14 @@ namespace
     const Solid    solid(mesh, {material}, SolidParameters(), zones);
     MatchedSurface matched_surface(mesh, solid);
     check.absolute("cells of a distorted uppermost layer", solid.surface().n_cells(), 9, 0.);
-    check.absolute("selected ones before any is chosen", matched_surface.n_selected(), 0, 0.);
+    check.absolute("selected ones before any is chosen", matched_surface.n_cells(), 0, 0.);
     // The node in the middle of one cell's neighbours.
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if ((mesh.nodes[i] - body.to_space(Point<3>(1e-3, 1e-3, 3e-3))).norm() < 1e-9)
         matched_surface.select({i});
-    check.absolute("selected ones around a node", matched_surface.n_selected(), 4, 0.);
+    check.absolute("selected ones around a node", matched_surface.n_cells(), 4, 0.);
     matched_surface.select_all();
-    check.absolute("selected ones of all", matched_surface.n_selected(), 9, 0.);
+    check.absolute("selected ones of all", matched_surface.n_cells(), 9, 0.);
     PlasticHistory                   history = solid.virgin();
     std::mt19937                     random(7);
     std::uniform_real_distribution<> number(-1., 1.);

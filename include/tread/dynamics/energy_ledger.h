@@ -9,7 +9,9 @@ namespace tread
   /// Stored and dissipated energies since the start, J; sums over all ranks.
   struct EnergyLedger
   {
-    double external_work = 0.; ///< drive, guidance, suspension, weight, prescribed forces, imposed sliding
+    /// Drive, guidance, suspension, weight, prescribed forces, imposed sliding, and cells of the surface that
+    /// become or cease to be matched.
+    double external_work = 0.;
     double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far

@@ -293,7 +293,7 @@ namespace tread
     DampingSample begin_damping_sample() const;           ///< before a step
     void end_damping_sample(const DampingSample &sample); ///< when the velocities of the step are known
 
-    /// Forces of the cells that are due in this step, times 2^level.
+    /// Forces of the cells that are due in this step, times 2^level, with an update of their state.
     void add_forces_due(const unsigned int due);
     /// Where slow shares do not depend on the ranks: give what the cells of this level have added to the
     /// forces since force_before to the ranks that own the nodes. Collective.
