@@ -36,7 +36,6 @@ namespace tread
       {
         contact->serialize(archive);
         matched_surface.serialize(archive);
-        matched_surface.select(contact->nodes_near());
       }
     if (archive.restores())
       prepare_step();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <type_traits>
 
 namespace tread
@@ -29,13 +30,24 @@ namespace tread
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         if (batch.cell[lane] != none)
           shares[batch.cell[lane]] = batch.share[lane];
+    make_batches([&](const unsigned int k) -> std::optional<bool> {
+      if (is_chosen(mesh.cells[cells[k]]))
+        return true;
+      return shares[k] > 0. ? std::optional<bool>(false) : std::nullopt;
+    });
+  }
+
+
+  template <typename Wanted>
+  void MatchedSurface::make_batches(const Wanted &is_wanted)
+  {
     batches.resize(0);
     unsigned int lane = n_lanes;
     for (unsigned int k = 0; k < cells.size(); ++k)
       {
-        const unsigned int c         = cells[k];
-        const bool         is_wanted = is_chosen(mesh.cells[c]);
-        if (!is_wanted && shares[k] == 0.)
+        const unsigned int        c      = cells[k];
+        const std::optional<bool> wanted = is_wanted(k);
+        if (!wanted)
           continue;
         const unsigned int level = solid.cell_levels()[c];
         if (lane == n_lanes || batches.back().level != level)
@@ -53,7 +65,7 @@ namespace tread
         batch.modes.set(lane, cell);
         batch.cell[lane]   = k;
         batch.share[lane]  = shares[k];
-        batch.wanted[lane] = is_wanted ? 1. : 0.;
+        batch.wanted[lane] = *wanted ? 1. : 0.;
         for (unsigned int a = 0; a < 8; ++a)
           batch.node[a][lane] = mesh.cells[c].nodes[a];
         if (solid.plastic().contains(c))
@@ -105,7 +117,7 @@ namespace tread
     struct Kept
     {
       Archive::Key node; ///< the first one of the cell
-      double       share;
+      double       share, wanted;
     };
     const auto key_of = [&](const unsigned int c) {
       return mesh.node_key(mesh.cells[c].nodes[0]);
@@ -114,19 +126,21 @@ namespace tread
     for (const Batch &batch : batches)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         if (batch.cell[lane] != none)
-          own.push_back({key_of(cells[batch.cell[lane]]), batch.share[lane]});
+          own.push_back({key_of(cells[batch.cell[lane]]), batch.share[lane], batch.wanted[lane]});
     const std::vector<Kept> all = archive.records(archive.restores() ? std::vector<Kept>() : own);
     if (!archive.restores())
       return;
-    batches.resize(0);
-    std::map<Archive::Key, double> by_key;
+    std::map<Archive::Key, const Kept *> by_key;
     for (const Kept &kept : all)
-      by_key[kept.node] = kept.share;
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      {
-        const auto kept = by_key.find(key_of(cells[k]));
-        shares[k]       = kept == by_key.end() ? 0. : kept->second;
-      }
+      by_key[kept.node] = &kept;
+    std::fill(shares.begin(), shares.end(), 0.);
+    make_batches([&](const unsigned int k) -> std::optional<bool> {
+      const auto kept = by_key.find(key_of(cells[k]));
+      if (kept == by_key.end())
+        return {};
+      shares[k] = kept->second->share;
+      return kept->second->wanted > 0.;
+    });
   }
 
 

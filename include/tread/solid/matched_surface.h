@@ -61,7 +61,7 @@ namespace tread
     /// Number of cells of this rank that are selected or still have a share.
     std::size_t n_cells() const;
 
-    /// Store the shares, or restore them: select() follows.
+    /// Store or restore which cells are selected, and the shares.
     void serialize(Archive &archive);
 
   private:
@@ -87,9 +87,12 @@ namespace tread
                     const Rounding rounding,
                     const Change  &change);
 
-    /// Make batches of the cells that are chosen or have a share.
     template <typename Chosen>
     void select_if(const Chosen &is_chosen);
+    /// Make batches of the cells k for which is_wanted(k) says whether they are selected; none: they have no
+    /// share.
+    template <typename Wanted>
+    void make_batches(const Wanted &is_wanted);
 
     const Mesh               &mesh;
     const Solid              &solid;
