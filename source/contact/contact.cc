@@ -139,7 +139,7 @@ namespace tread
     time_to_refresh = std::numeric_limits<double>::max();
     Vector3             turning{};
     unsigned int        n_loaded = 0;
-    std::vector<double> gap(coupling.rows.size()), normal_speed(coupling.rows.size());
+    std::vector<double> gap(coupling.rows.size()), closing_speed(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
         const MortarRow &row = coupling.rows[j];
@@ -149,8 +149,8 @@ namespace tread
             distance += coupling.entries[i].coefficient * all_x[coupling.entries[i].node];
             u += coupling.entries[i].coefficient * all_v[coupling.entries[i].node];
           }
-        gap[j]          = dot(distance, row.normal);
-        normal_speed[j] = std::abs(dot(u, row.normal));
+        gap[j]           = dot(distance, row.normal);
+        closing_speed[j] = -dot(u, row.normal);
         if (norm(impulse_of_node[row.slave]) > 0.)
           {
             const double sliding = norm(u - dot(u, row.normal) * row.normal);
@@ -180,7 +180,7 @@ namespace tread
     std::vector<char> is_near(involved.size(), false);
     for (unsigned int k = 0; k < chosen.size(); ++k)
       if (const unsigned int j = chosen[k];
-          norm(impulse[k]) > 0. || gap[j] <= 2. * normal_speed[j] * time_to_refresh)
+          norm(impulse[k]) > 0. || gap[j] <= closing_speed[j] * time_to_refresh)
         for (unsigned int i = problem.constraints[k].begin; i < problem.constraints[k].end; ++i)
           is_near[problem.entries[i].node] = true;
     near_contact.clear();

@@ -169,19 +169,19 @@ namespace tread
 
 
   template <typename Batches, typename Rounding, typename Change>
-  void MatchedSurface::add(Batches       &batches,
-                           const Vector3 *x,
-                           const Vector3 *v,
-                           Vector3       *force,
-                           const double   time,
-                           const Levels   levels,
-                           const Rounding rounding,
-                           const Change  &change)
+  [[gnu::flatten]] void MatchedSurface::add(Batches       &batches,
+                                            const Vector3 *x,
+                                            const Vector3 *v,
+                                            Vector3       *force,
+                                            const double   time,
+                                            const Levels   levels,
+                                            const Rounding rounding,
+                                            const Change  &change)
   {
     constexpr bool advances = !std::is_const_v<Batches>;
     for (auto &batch : batches)
       {
-        if (batch.level < levels.first || batch.level > levels.last)
+        if (batch.level < levels.first || batch.level > levels.last || !any(batch.share + batch.wanted > 0.))
           continue;
         Lanes F[3][3], g[4][3], F_rate[3][3] = {}, g_rate[4][3] = {};
         deform(batch, x, F, g);
