@@ -15,6 +15,7 @@
 #include "fields.h"
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 using namespace tread;
@@ -359,6 +360,41 @@ namespace
     check.below("sum of damping forces over the largest" + name, norm(damping_sum) / of_damping, 1e-10);
     check.below("sum of their moments, the same times 3 mm" + name,
                 norm(damping_moment) / (of_damping * 3e-3), 1e-10);
+
+    // Shares grow and fade over some steps; what the cells lose by it is told.
+    if (!yields)
+      {
+        MatchedSurface            growing(mesh, solid);
+        std::vector<unsigned int> all_nodes(x.size());
+        std::iota(all_nodes.begin(), all_nodes.end(), 0u);
+        double lost = 0.;
+        for (const bool grows : {true, false})
+          {
+            growing.select(grows ? all_nodes : std::vector<unsigned int>());
+            check.absolute("cells that grow, or fade", growing.n_cells(), 9, 0.);
+            for (unsigned int step = 0; step < 16; ++step)
+              {
+                if (step == 4)
+                  check.relative("energy after a quarter of the steps", growing.energy(x.data()).value(),
+                                 (grows ? 0.25 : 0.75) * matched_surface.energy(x.data()).value(), 1e-12);
+                NodalField ignored(x.size(), Vector3{});
+                lost += growing.advance(x.data(), v.data(), ignored.data(), time, 0.).value();
+                check.below("energy and what was lost", std::abs(growing.energy(x.data()).value() + lost),
+                            1e-12 * std::abs(matched_surface.energy(x.data()).value()));
+              }
+            NodalField now(x.size(), Vector3{}), settled(x.size(), Vector3{});
+            growing.add_forces(x.data(), v.data(), now.data(), time);
+            if (grows)
+              matched_surface.add_forces(x.data(), v.data(), settled.data(), time);
+            double worst = 0.;
+            for (unsigned int i = 0; i < x.size(); ++i)
+              worst = std::max(worst, norm(now[i] - settled[i]));
+            check.below(grows ? "forces when grown, against settled ones" : "forces when faded",
+                        worst / of_damping, 1e-12);
+          }
+        growing.select({});
+        check.absolute("cells after they have faded", growing.n_cells(), 0, 0.);
+      }
 
     // Damping takes no power from a rigid motion.
     for (unsigned int i = 0; i < x.size(); ++i)
