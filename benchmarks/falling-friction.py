@@ -63,11 +63,14 @@ def main() -> None:
         summaries.append(own)
         rows.append(row + [f"{traction:.4f}", f"{wanted:.4f}", f"{100 * (traction / wanted - 1):+.2f}", f"{100 * own['slip_chatter_share']:.1f}",
                            str(len(own["warnings"]))])
-    print(markdown(["law", "friction", "slip speed [m/s]", "load [kN]", "speed [km/h]", "creepage", "cells [mm]", "traction", "half-space",
-                    "difference [%]", "chatter [%]", "warnings"], rows))
-    for summary in summaries:
-        for text in summary["warnings"]:
-            print(text)
+    table = markdown(["law", "friction", "slip speed [m/s]", "load [kN]", "speed [km/h]", "creepage", "cells [mm]", "traction", "half-space",
+                      "difference [%]", "chatter [%]", "warnings"], rows)
+    if arguments.seed == 1:
+        fill("verification.md", "falling-friction", f"{table}\n\n" + provenance("benchmarks/falling-friction.py", summaries))
+    else:
+        print(table)
+    for text in sorted({text for summary in summaries for text in summary["warnings"]}):
+        print(text)
 
 
 if __name__ == "__main__":

@@ -617,6 +617,13 @@ namespace
     check.absolute("memory as given, um", memory({"Contact/Friction memory (mm)=0.07"}), 70., 1e-9);
     check.absolute("none where waves carry away what falls, um",
                    memory({"Contact/Falling slip speed (m per s)=80"}), 0., 0.);
+    // A fall of 0.2 x 1.06 GPa over 8 m/s is twice what waves carry, and two fifths of it in cells of 25
+    // times the density, which shake all the same.
+    check.relative(
+      "memory with scaled density, um",
+      memory({"Contact/Falling slip speed (m per s)=8", "Scene/Density scale=25", "Scene/Quasi-static=true"}),
+      memory({"Contact/Falling slip speed (m per s)=8"}), 1e-12);
+    check.that("memory of a slow fall", memory({"Contact/Falling slip speed (m per s)=8"}) > 1.);
     check.that("none at all is a doubt",
                has(scene_of(falling, {"Contact/Friction memory (mm)=0"})->doubts(), "lets slip oscillate"));
     check.that("what is taken is not", scene_of(falling)->doubts().empty());
