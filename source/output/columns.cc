@@ -173,7 +173,8 @@ namespace tread
       using R = EnergyLedger;
       static const Columns<R> columns{
         {"external_work", "J",
-         "Work of drive, guidance, suspension, weight and imposed sliding since the start",
+         "Work of drive, guidance, suspension, weight, imposed sliding and cells of the surface that become "
+         "matched, since the start",
          [](const R &r) {
            return r.external_work;
          }},

@@ -17,7 +17,8 @@ namespace tread
          return q.energy.residual_share();
        }},
       {"external_work", "J",
-       "Work of drive, guidance, suspension, weight and imposed sliding since the start (of the last "
+       "Work of drive, guidance, suspension, weight, imposed sliding and cells of the surface that become "
+       "matched, since the start (of the last "
        "passage)",
        [](const Q &q) {
          return q.energy.external_work;

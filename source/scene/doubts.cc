@@ -6,6 +6,8 @@
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/islands.h>
 #include <tread/scene/scene.h>
+#include <tread/solid/element.h>
+#include <tread/solid/surface_lattice.h>
 
 #include <algorithm>
 #include <cmath>
@@ -213,10 +215,38 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// Bodies whose surface cannot be matched, not even that of cubes. @see SurfaceWeights
+    std::string unmatched_surface(const Scene &scene)
+    {
+      if (!scene.solid.matched_surface || !element_named(scene.solid.element).has_hourglass_modes)
+        return "";
+      const double coefficient = scene.solid.hourglass_coefficient;
+      std::string  bodies, ratios;
+      for (const auto &[name, material] :
+           {std::pair("the wheel", &scene.wheel.material), std::pair("the rail", &scene.rail.material)})
+        if (!SurfaceWeights(material->poisson_ratio, coefficient).of_box({{1., 1., 1.}}))
+          {
+            bodies += (bodies.empty() ? "" : " and ") + std::string(name);
+            ratios += (ratios.empty() ? "" : " and ") + format("%g", material->poisson_ratio);
+          }
+      return bodies.empty() ? ""
+                            : format("'Solid/Matched surface' has no effect on %s: there are no positive "
+                                     "weights for a Poisson's "
+                                     "ratio of %s and a 'Hourglass coefficient' of %g; creepages and forces "
+                                     "under spin keep the "
+                                     "error of the cells, some per cent with ten cells in the patch",
+                                     bodies.c_str(), ratios.c_str(), coefficient);
+    }
+  } // namespace
+
+
   std::vector<std::string> Scene::doubts() const
   {
     std::vector<std::string> list = implausible_values();
-    for (const std::string &doubt : {missed_defect(), unseen_detail_along(), narrow_island(), short_memory()})
+    for (const std::string &doubt :
+         {missed_defect(), unseen_detail_along(), narrow_island(), short_memory(), unmatched_surface(*this)})
       if (!doubt.empty())
         list.push_back(doubt);
     return list;

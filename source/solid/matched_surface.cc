@@ -138,6 +138,8 @@ namespace tread
       const auto kept = by_key.find(key_of(cells[k]));
       if (kept == by_key.end())
         return {};
+      if (!(kept->second->share >= 0. && kept->second->share <= 1.))
+        archive.miss();
       shares[k] = kept->second->share;
       return kept->second->wanted > 0.;
     });

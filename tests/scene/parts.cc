@@ -593,6 +593,21 @@ namespace
   }
 
   /// Which memory friction takes that falls.
+  void check_unmatched(tests::Check &check)
+  {
+    const auto says = [](const Settings &settings, const std::string &words) {
+      return has(scene_of(settings)->doubts(), words);
+    };
+    const std::string words = "'Solid/Matched surface' has no effect on ";
+    check.that("steel is matched", !says({}, words));
+    check.that("the wheel is not",
+               says({"Wheel/Poisson's ratio=0.42"}, words + "the wheel: there are no positive weights for a "
+                                                            "Poisson's ratio of 0.42"));
+    check.that("neither is", says({"Solid/Hourglass coefficient=0.05"}, words + "the wheel and the rail"));
+    check.that("nobody asked for it",
+               !says({"Rail/Poisson's ratio=0.42", "Solid/Matched surface=false"}, words));
+  }
+
   void check_memory(tests::Check &check)
   {
     const Settings falling{"Contact/Friction law=falling",
@@ -951,6 +966,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_detail(check, folder);
   check_unused_tables(check);
   check_memory(check);
+  check_unmatched(check);
   check_profiles(check, folder);
   check_corrugation(check, folder);
   check_maps(check, folder);

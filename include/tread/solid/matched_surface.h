@@ -45,7 +45,7 @@ namespace tread
                     const double   time,
                     const Levels   levels = {}) const;
 
-    /// The same with the shares of the next time step. @param back time by which nodes were at x after the
+    /// The same with the shares of the next time step; v is always read. @param back time by which nodes were at x after the
     /// middle of the last step, when shares change, s. @returns energy that the cells of this rank lose by
     /// that change, J.
     ReproducibleSum<double> advance(const Vector3 *x,

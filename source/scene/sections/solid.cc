@@ -16,12 +16,15 @@ namespace tread
       "Matched surface", matched_surface,
       "Whether the hourglass stiffness of the uppermost layer of one-point cells is weighted so that "
       "the surface has the tangential stiffness that belongs to its normal one. Without it a mesh "
-      "acts as if the surface shear stress began a tenth of a cell ahead of the pressure.");
+      "acts as if the surface shear stress began a tenth of a cell ahead of the pressure. It acts on "
+      "cells near the contact.");
     section.add(
       "Surface damping (time steps)", surface_damping,
       "Damping of the hourglass modes that 'Matched surface' softens, in directions of the surface, "
-      "over their unweighted stiffness. 0 lets the micro-slip of coarse cells chatter; above 1.6 the "
-      "stable time step becomes shorter.",
+      "over their unweighted stiffness. 0 lets the micro-slip of coarse cells chatter; larger values "
+      "shorten the stable time step, of cubes above 1.6, of other cells and with a larger 'Hourglass "
+      "coefficient' "
+      "sooner.",
       Double(0., 10.));
     section.add(
       "Stiffness damping (time steps)", stiffness_damping,
