@@ -13,7 +13,6 @@ import os
 import random
 
 from tread.commands import command_parser, run_command
-from tread.files import read_summary
 from tread.measured_runs import run_scene
 from tread.runs import ROOT, ProgramError
 from tread.tables import fill, markdown, provenance
@@ -57,8 +56,7 @@ def main() -> None:
         except ProgramError as error:
             rows.append(row + [str(error)] + [""] * 4)
             continue
-        run_scene(SCENE, of_case("half-space"), settings, ranks=1, more=["--reference-only"])
-        half_space = read_summary(of_case("half-space"))
+        half_space = run_scene(SCENE, of_case("half-space"), settings, ranks=1, more=["--reference-only"])
         traction, wanted = (summary["longitudinal_force_N"] / summary["normal_force_N"] for summary in (own, half_space))
         summaries.append(own)
         rows.append(row + [f"{traction:.4f}", f"{wanted:.4f}", f"{100 * (traction / wanted - 1):+.2f}", f"{100 * own['slip_chatter_share']:.1f}",

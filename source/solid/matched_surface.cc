@@ -9,6 +9,35 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Set e_i = F E_i and A_mi = e_i . g_m, m.
+    void set_amplitudes(const SurfaceModes &modes,
+                        const Lanes (&F)[3][3],
+                        const Lanes (&g)[4][3],
+                        Lanes (&e)[2][3],
+                        Lanes (&A)[2][4])
+    {
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          modes.turn(i, F, e[i]);
+          for (unsigned int m = 0; m < 4; ++m)
+            A[i][m] = e[i][0] * g[m][0] + e[i][1] * g[m][1] + e[i][2] * g[m][2];
+        }
+    }
+
+    /// Sum of (w_mi - 1) A_mi^2, m^2.
+    Lanes added_squares(const SurfaceModes &modes, const Lanes (&A)[2][4])
+    {
+      Lanes sum{};
+      for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int m = 0; m < 4; ++m)
+          sum += modes.added[m][i] * A[i][m] * A[i][m];
+      return sum;
+    }
+  } // namespace
+
+
   MatchedSurface::MatchedSurface(const Mesh &mesh, const Solid &solid)
     : mesh(mesh)
     , solid(solid)
@@ -151,20 +180,10 @@ namespace tread
     ReproducibleSum<Lanes> sum;
     for (const Batch &batch : batches)
       {
-        Lanes F[3][3], amplitude[4][3];
-        deform(batch, x, F, amplitude);
-        Lanes squares{};
-        for (unsigned int i = 0; i < 2; ++i)
-          {
-            Lanes e[3];
-            batch.modes.turn(i, F, e);
-            for (unsigned int m = 0; m < 4; ++m)
-              {
-                const Lanes A = e[0] * amplitude[m][0] + e[1] * amplitude[m][1] + e[2] * amplitude[m][2];
-                squares += batch.modes.added[m][i] * A * A;
-              }
-          }
-        sum.add(0.5 * batch.share * batch.stiffness * squares);
+        Lanes F[3][3], g[4][3], e[2][3], A[2][4];
+        deform(batch, x, F, g);
+        set_amplitudes(batch.modes, F, g, e, A);
+        sum.add(0.5 * batch.share * batch.stiffness * added_squares(batch.modes, A));
       }
     return sum.of_lanes();
   }
@@ -190,17 +209,14 @@ namespace tread
         if (advances || time > 0.)
           deform(batch, v, F_rate, g_rate);
         Lanes e[2][3], A[2][4], A_rate[2][4];
+        set_amplitudes(batch.modes, F, g, e, A);
         for (unsigned int i = 0; i < 2; ++i)
           {
             Lanes e_rate[3];
-            batch.modes.turn(i, F, e[i]);
             batch.modes.turn(i, F_rate, e_rate);
             for (unsigned int m = 0; m < 4; ++m)
-              {
-                A[i][m]      = e[i][0] * g[m][0] + e[i][1] * g[m][1] + e[i][2] * g[m][2];
-                A_rate[i][m] = e[i][0] * g_rate[m][0] + e[i][1] * g_rate[m][1] + e[i][2] * g_rate[m][2] +
-                               e_rate[0] * g[m][0] + e_rate[1] * g[m][1] + e_rate[2] * g[m][2];
-              }
+              A_rate[i][m] = e[i][0] * g_rate[m][0] + e[i][1] * g_rate[m][1] + e[i][2] * g_rate[m][2] +
+                             e_rate[0] * g[m][0] + e_rate[1] * g[m][1] + e_rate[2] * g[m][2];
           }
         change(batch, A, A_rate);
         const Lanes stiffness =
@@ -257,14 +273,11 @@ namespace tread
       const Lanes  way     = batch.wanted - batch.share;
       const Lanes  most    = broadcast(longest);
       const Lanes  grown   = way > most ? most : (way < -most ? -most : way);
-      Lanes        squares{};
+      Lanes        middle[2][4];
       for (unsigned int i = 0; i < 2; ++i)
         for (unsigned int m = 0; m < 4; ++m)
-          {
-            const Lanes middle = A[i][m] - back * A_rate[i][m];
-            squares += batch.modes.added[m][i] * middle * middle;
-          }
-      lost.add(-0.5 * grown * batch.stiffness * squares);
+          middle[i][m] = A[i][m] - back * A_rate[i][m];
+      lost.add(-0.5 * grown * batch.stiffness * added_squares(batch.modes, middle));
       batch.share += grown;
     };
     if (solid.reproducible())

@@ -45,9 +45,9 @@ namespace tread
                     const double   time,
                     const Levels   levels = {}) const;
 
-    /// The same with the shares of the next time step; v is always read. @param back time by which nodes were at x after the
-    /// middle of the last step, when shares change, s. @returns energy that the cells of this rank lose by
-    /// that change, J.
+    /// The same with the shares of the next time step; v is always read. @param back from the middle of the
+    /// last step, when shares change, to the instant of x, s. @returns energy that the cells of this rank
+    /// lose by that change, J.
     ReproducibleSum<double> advance(const Vector3 *x,
                                     const Vector3 *v,
                                     Vector3       *force,
