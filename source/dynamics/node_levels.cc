@@ -103,8 +103,7 @@ namespace tread
                   for (const unsigned int parent : hangs[i]->parents)
                     marks[parent][0] = 1.;
               }
-        if (reproducible) // the rank that has a whole share need not have any of the cells
-          mesh.shared_nodes.sum(marks.data());
+        mesh.shared_nodes.sum(marks.data()); // the owner, who may have a whole share, need not have a cell
         SlowShares &shares = slow_shares[level];
         for (unsigned int own = 0; own < level; ++own)
           {
@@ -143,18 +142,6 @@ namespace tread
   void NodeLevels::serialize(Archive &archive, const Mesh &mesh)
   {
     archive.same(slow_shares_known);
-    if (reproducible)
-      {
-        serialize_by_key(archive, mesh);
-        return;
-      }
-    for (SlowShares &shares : slow_shares)
-      slow_shares_known = archive.own(shares.steady) && slow_shares_known;
-  }
-
-
-  void NodeLevels::serialize_by_key(Archive &archive, const Mesh &mesh)
-  {
     struct Share
     {
       unsigned int level;
@@ -164,28 +151,35 @@ namespace tread
     const auto by_name = [](const Share &a, const Share &b) {
       return std::tie(a.level, a.key) < std::tie(b.level, b.key);
     };
+    const auto for_shares = [&](const auto &work) {
+      for (unsigned int level = 1; level <= max_level(); ++level)
+        for (std::size_t k = 0; k < slow_shares[level].nodes.size(); ++k)
+          work(level, slow_shares[level].nodes[k], slow_shares[level].steady[k]);
+    };
     std::vector<Share> list;
-    for (unsigned int level = 1; level <= max_level() && !archive.restores(); ++level)
-      for (std::size_t k = 0; k < slow_shares[level].nodes.size(); ++k)
-        if (const unsigned int i = slow_shares[level].nodes[k]; mesh.shared_nodes.is_owned(i))
-          {
-            const Vector3 steady = slow_shares[level].steady[k];
-            list.push_back({level, mesh.node_key(i), {steady[0], steady[1], steady[2]}});
-          }
+    if (!archive.restores())
+      for_shares([&](const unsigned int level, const unsigned int i, const Vector3 &steady) {
+        list.push_back({level, mesh.node_key(i), {steady[0], steady[1], steady[2]}});
+      });
     list = archive.records(list);
-    std::sort(list.begin(), list.end(), by_name);
-    for (unsigned int level = 1; level <= max_level() && archive.restores(); ++level)
-      for (std::size_t k = 0; k < slow_shares[level].nodes.size(); ++k)
-        if (const unsigned int i = slow_shares[level].nodes[k]; mesh.shared_nodes.is_owned(i))
-          {
-            const Share wanted{level, mesh.node_key(i), {}};
-            const auto  found = std::lower_bound(list.begin(), list.end(), wanted, by_name);
-            if (found == list.end() || by_name(wanted, *found))
-              archive.miss();
-            else
-              slow_shares[level].steady[k] =
-                Vector3{found->steady[0], found->steady[1], found->steady[2], 0.};
-          }
+
+    bool as_divided = true;
+    for (SlowShares &shares : slow_shares)
+      as_divided = archive.own(shares.steady) && as_divided;
+    if (as_divided)
+      return;
+    // The owner of a node has what all ranks had of it: what follows is linear in the shares.
+    std::stable_sort(list.begin(), list.end(), by_name);
+    for_shares([&](const unsigned int level, const unsigned int i, Vector3 &steady) {
+      steady = Vector3{};
+      const auto [begin, end] =
+        std::equal_range(list.begin(), list.end(), Share{level, mesh.node_key(i), {}}, by_name);
+      if (begin == end)
+        archive.miss();
+      if (mesh.shared_nodes.is_owned(i))
+        for (auto share = begin; share != end; ++share)
+          steady += Vector3{share->steady[0], share->steady[1], share->steady[2], 0.};
+    });
   }
 
 

@@ -70,8 +70,8 @@ namespace tread
       return runs.size() - 1;
     }
 
-    /// Store or restore the steady shares of slow cells' forces. On other ranks they begin anew, unless they
-    /// do not depend on the ranks. Collective.
+    /// Store or restore the steady shares of slow cells' forces. On other ranks the owner of a node gets the
+    /// sum. Collective.
     void serialize(Archive &archive, const Mesh &mesh);
 
     std::vector<unsigned int>      of_node;
@@ -86,7 +86,6 @@ namespace tread
     std::size_t memory_consumption() const;
 
   private:
-    void serialize_by_key(Archive &archive, const Mesh &mesh);
     /// By node of the mesh; null: it does not hang.
     using Hangs = std::vector<const Mesh::HangingNode *>;
 
