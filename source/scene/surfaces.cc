@@ -353,7 +353,15 @@ namespace tread
 
   double Scene::peak_half_width() const
   {
-    return peak_stress.half_width > 0. ? peak_stress.half_width : hertz(*this, static_load()).semi_axis_y;
+    if (peak_stress.half_width > 0.)
+      return peak_stress.half_width;
+    const double of_patch = hertz(*this, static_load()).semi_axis_y;
+    if (peak_stress.place != PeakPlace::trailing_edge || (shapes->defect && defect.shape != "dip"))
+      return of_patch;
+    // To where the edge of a round defect runs along the path as much as across. Beyond, it is rounded over
+    // less and less of its own direction: at the sides it is sharp, and elasticity has no limit there.
+    const double width = defect.width > 0. ? defect.width : defect.length;
+    return std::min(of_patch, 0.5 * width * std::sqrt(0.5));
   }
 
 

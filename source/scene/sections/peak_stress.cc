@@ -29,7 +29,8 @@ namespace tread
     section.add("To (mm)", to, "x of the end of a range.", Double(-1e5, 1e5));
     section.add("Half width (mm)", half_width,
                 "Half width of the region, to both sides of the first contact; 0: that of the patch under "
-                "the static load.",
+                "the static load, and of a dip's trailing edge no more than to where it runs along the path "
+                "as much as across it.",
                 Double(0., 100.));
     section.add("Depth (mm)", depth, "Depth of the region below the surface.", Double(0.1, 100.));
   }
