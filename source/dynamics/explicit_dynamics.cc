@@ -105,20 +105,26 @@ namespace tread
     size_rank_sums();
     set_node_levels(); // the hub moves in every step
 
-    std::array<ReproducibleSum<double>, 5> sums;
+    std::array<ReproducibleSum<double>, 6> sums;
     for (unsigned int i = 0; i < v.size(); ++i)
-      if (wheel_of(i) == number && !carried[i] && mesh.shared_nodes.is_owned(i))
+      if (wheel_of(i) == number && mesh.shared_nodes.is_owned(i))
         {
+          if (carried[i])
+            {
+              sums[5].add(true_mass[i]);
+              continue;
+            }
           const Vector3 arm = position(i) - wheel_hub.middle(), off_axle = wheel_hub.off_axle(arm);
           sums[0].add(true_mass[i]);
           sums[1].add(true_mass[i] * dot(off_axle, off_axle));
           for (unsigned int d = 0; d < 3; ++d)
             sums[2 + d].add(true_mass[i] * arm[d]);
         }
-    std::array<double, 5> of_all;
+    std::array<double, 6> of_all;
     for (unsigned int k = 0; k < sums.size(); ++k)
       of_all[k] = sums[k].value(mesh.comm);
     wheel_hub.take_out(of_all[0], of_all[1], Vector3{of_all[2], of_all[3], of_all[4], 0.});
+    wheel_hub.settle_with(parameters.density_scale * of_all[5], parameters.density_scale * of_all[0]);
   }
 
 

@@ -552,6 +552,13 @@ namespace tread
   }
 
 
+  bool Scene::settles() const
+  {
+    return general.quasi_static && !shapes->defect && track.foundation == Foundation::rigid &&
+           !wheelset.has_flexible_axle();
+  }
+
+
   std::vector<std::string> Scene::assumptions(const bool has_tractions) const
   {
     std::vector<std::string> list;
@@ -564,6 +571,9 @@ namespace tread
       list.push_back("mass damping of " + text_of(mass_damping) +
                      " per s: motion of the cells on top of the rigid bodies' fades by half in " +
                      text_of(std::round(1e5 * 2. * std::log(2.) / mass_damping) / 100.) + " ms");
+    if (settles())
+      list.push_back("the axle rises and sinks until contact carries the load, within about the length of a "
+                     "patch: the mass of the wheel is a load only");
     if (guidance.kind != Guidance::rigid && (scale > 1. || mass_damping > 0.))
       list.push_back(
         "a wheelset that moves across its track has the inertia of the scaled, or damped, cells: "

@@ -198,6 +198,12 @@ namespace tread
     p.gravity                   = scene.vehicle.gravity;
     p.yaw_inertia               = scene.guidance.yaw_inertia;
     p.roll_inertia              = scene.wheelset.both_wheels ? p.yaw_inertia : 0.;
+    if (scene.settles())
+      {
+        const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+        p.settling = {n_wheels * ellipse.stiffness, 2. * ellipse.semi_axis_x / scene.motion.speed,
+                      scene.wheelset.both_wheels ? scene.wheelset.track.wheel_origin() : 0.};
+      }
     if (scene.wheelset.has_flexible_axle())
       p.axle = {scene.wheelset.axle_torsion, scene.wheelset.axle_bending, scene.wheelset.axle_damping,
                 scene.wheelset.track.wheel_origin()};

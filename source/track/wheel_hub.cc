@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/track/wheel_hub.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
 namespace tread
 {
+  double SettlingOfHub::mass() const
+  {
+    const double per_radian = time / (2. * std::numbers::pi);
+    return std::max(stiffness * per_radian * per_radian, carried_mass);
+  }
+
+
+  double SettlingOfHub::damping() const
+  {
+    return std::sqrt(2. * stiffness * (mass() + cell_mass));
+  }
+
+
   void WheelHub::place(const Vector3 middle, const double yaw, const double roll)
   {
     motion.yaw  = yaw;
@@ -123,15 +138,19 @@ namespace tread
     const double of_wheels =
       flexible && flexible->bends() ? 2. * FlexibleAxle::about_diameter(inertia_of_wheel()) : 0.;
     const double yaw_inertia = parameters.yaw_inertia - of_wheels;
+    double       settling    = 0.; // work
     if (rolls())
       {
-        motion.roll_rate -= time_step * moment[0] / (parameters.roll_inertia - of_wheels);
+        const double damper =
+          parameters.settling ? -per_roll(parameters.settling->damping()) * before.roll_rate : 0.;
+        motion.roll_rate += time_step * (damper - moment[0]) / roll_inertia(of_wheels);
         motion.roll += time_step * motion.roll_rate;
+        settling = 0.5 * time_step * damper * (before.roll_rate + motion.roll_rate);
       }
     if (guidance == Guidance::rigid)
       {
         lateral_guidance = -lateral;
-        return 0.;
+        return settling;
       }
     const double yaw_moment  = dot(moment, present.z);
     double       yaw_support = 0.; // moment of guidance
@@ -168,10 +187,10 @@ namespace tread
     if (!rolls())
       motion.roll += time_step * motion.roll_rate;
     const double roll_support = rolls() ? 0. : moment[0]; // about -x, against that of the cells
-    return 0.5 * time_step *
-           (lateral_guidance * (before.velocity_y + motion.velocity_y) +
-            yaw_support * (before.yaw_rate + motion.yaw_rate) +
-            roll_support * (before.roll_rate + motion.roll_rate));
+    return settling + 0.5 * time_step *
+                        (lateral_guidance * (before.velocity_y + motion.velocity_y) +
+                         yaw_support * (before.yaw_rate + motion.yaw_rate) +
+                         roll_support * (before.roll_rate + motion.roll_rate));
   }
 
 
@@ -188,8 +207,9 @@ namespace tread
         moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double vertical_force = force[2] + static_force() - suspension;
-    const double acceleration   = vertical_force / parameters.mass;
+    const double damper = parameters.settling ? parameters.settling->damping() * motion.velocity_z : 0.;
+    const double vertical_force = force[2] + static_force() - suspension - damper;
+    const double acceleration   = vertical_force / mass_up();
 
     motion.velocity_z += time_step * acceleration;
     const Vector3 moments = turned(reference_first_moment, motion.angle); // of the rest
@@ -280,11 +300,12 @@ namespace tread
   {
     const Vector3 moments =
       turned(reference_first_moment, motion.angle - time_back * motion.angular_velocity);
-    return 0.5 * parameters.mass * dot(velocity(), velocity()) +
+    const double in_plane = motion.velocity_x * motion.velocity_x + motion.velocity_y * motion.velocity_y;
+    return 0.5 * (parameters.mass * in_plane + mass_up() * motion.velocity_z * motion.velocity_z) +
            motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity +
            0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate +
-           0.5 * parameters.roll_inertia * motion.roll_rate * motion.roll_rate +
+           (rolls() ? 0.5 * roll_inertia(0.) * motion.roll_rate * motion.roll_rate : 0.) +
            (flexible ? flexible->kinetic_energy(in_chord(tilting()), inertia_of_wheel()) : 0.);
   }
 

@@ -133,6 +133,45 @@ namespace
                    1e-12);
   }
 
+  /// A hub that settles on springs, up and about x: both as fast, and damped to 1/sqrt(2) of the critical
+  /// damping, x0 exp(-w t/sqrt(2)) (cos + sin)(w t/sqrt(2)). Cells that it carries count as mass for the
+  /// damper.
+  void settling_hub(tests::Check &check)
+  {
+    constexpr double   stiffness = 2e9, time = 3e-4, arm = .75, lift = 5e-5, roll = 4e-5;
+    WheelHubParameters parameters = tests::sprung_hub();
+    parameters.gravity            = 0.;
+    parameters.sprung_mass = parameters.suspension_stiffness = parameters.suspension_damping = 0.;
+    parameters.yaw_inertia = parameters.roll_inertia = 90.;
+    parameters.settling                              = {stiffness, time, arm};
+    WheelHub hub(parameters);
+    hub.place(Vector3{0., 0., lift, 0.}, 0., roll);
+    const double per_roll = stiffness * arm * arm,
+                 energy   = .5 * (stiffness * lift * lift + per_roll * roll * roll);
+    const double step     = 1e-8;
+    const auto   n_steps  = static_cast<unsigned int>(.4 * time / step);
+    for (unsigned int n = 0; n < n_steps; ++n)
+      hub.advance(Vector3{0., 0., -stiffness * hub.motion.z, 0.},
+                  Vector3{per_roll * hub.motion.roll, 0., 0., 0.}, step);
+    const double phase = std::sqrt(.5) * 2. * std::numbers::pi / time * n_steps * step,
+                 left  = std::exp(-phase) * (std::cos(phase) + std::sin(phase));
+    check.relative("settling hub: what is left of a lift", hub.motion.z / lift, left, 2e-3);
+    check.relative("settling hub: what is left of a roll", hub.motion.roll / roll, left, 2e-3);
+    const double held =
+      .5 * (stiffness * hub.motion.z * hub.motion.z + per_roll * hub.motion.roll * hub.motion.roll);
+    check.relative("settling hub: work of its dampers, mJ", 1e3 * hub.external_work(),
+                   1e3 * (hub.kinetic_energy(0.) + held - energy), 2e-3);
+
+    const double  mass = stiffness * time * time / (4. * std::numbers::pi * std::numbers::pi);
+    SettlingOfHub settling{stiffness, time, arm};
+    check.relative("settling hub: mass, kg", settling.mass(), mass, 1e-12);
+    settling.cell_mass = 3.;
+    check.relative("settling hub with cells: damping, kN s/m", 1e-3 * settling.damping(),
+                   1e-3 * std::sqrt(2. * stiffness * (mass + 3.)), 1e-12);
+    settling.carried_mass = 2. * mass;
+    check.relative("settling hub: mass where carried nodes have more, kg", settling.mass(), 2. * mass, 1e-12);
+  }
+
   /// A hub alone on its guidance: damped oscillations across the track and in yaw.
   void free_hub(tests::Check &check)
   {
@@ -180,6 +219,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   hub_energy(check, Drive::torque, 1., 0., Guidance::springs);
   free_hub(check);
   sprung_hub_alone(check);
+  settling_hub(check);
   Body body = tests::make_box("block", Point<3>(), Point<3>(.06, .02, .02), {{6, 2, 2}},
                               {{tests::Side::left, Boundary::support}});
   tests::refine_near(body, Point<3>(.06, .02, .02), .012, .005);

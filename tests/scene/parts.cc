@@ -107,6 +107,27 @@ namespace
   }
 
 
+  /// The hub follows its load in scenes of steady rolling, and in no other. The stiffness of a contact is the
+  /// slope of Hertz's force over the approach.
+  void check_settling(tests::Check      &check,
+                      const std::string &name,
+                      const Scene       &scene,
+                      const double       n,
+                      const double       allowed)
+  {
+    const auto settling = hub_parameters(scene).settling;
+    if (!check.that(name + "settles", settling.has_value()))
+      return;
+    constexpr double more    = 1.001;
+    const double     load    = scene.static_load();
+    const auto       ellipse = hertz(scene, load), next = hertz(scene, more * load);
+    check.relative(name + "stiffness of the contacts, GN/m", 1e-9 * settling->stiffness,
+                   1e-9 * n * (more - 1.) * load / (next.approach - ellipse.approach), allowed);
+    check.relative(name + "time of a patch, ms", 1e3 * settling->time,
+                   1e3 * ellipse.semi_axis_x / (0.5 * scene.motion.speed), round_off);
+  }
+
+
   /// Several wheels on one rail, each with a drive of its own.
   void check_wheels(tests::Check &check)
   {
@@ -114,6 +135,22 @@ namespace
     three.insert(three.end(), {"Motion/Traction coefficient=0.3", "Further wheels/Distances (mm)=1000,2300"});
     const auto own = scene_of(block, three);
     check_hub(check, "hub: ", hub_parameters(*own), 1.);
+    check_settling(check, "hub: ", *own, 1., 1e-3);
+    for (const Settings &other :
+         {Settings{"Scene/Quasi-static=false"},
+          Settings{"Defect/Length (mm)=20", "Defect/Depth (mm)=0.1", "Defect/Shape=dip"},
+          Settings{"Rail/Shape=full section", "Rail/Begin (mm)=-1725", "Rail/Length (mm)=3300",
+                   "Track/Support 0 (mm)=-450", "Track/Foundation=two-layer"},
+          Settings{"Wheelset/Both wheels=true", "Wheelset/Lateral shift (mm)=0", "Motion/Creepage=0",
+                   "Contact/Friction coefficient=0", "Guidance/Kind=springs", "Rail/Inclination=1:40",
+                   "Rail/Shape=head", "Wheel/Tread profile=S1002", "Guidance/Yaw inertia (kg m2)=47",
+                   "Wheelset/Axle torsional stiffness (MN m per rad)=4"}})
+      {
+        Settings settings = block;
+        settings.insert(settings.end(), other.begin(), other.end());
+        check.that("hub: has its inertia with " + other.back(),
+                   !hub_parameters(*scene_of(settings)).settling);
+      }
     check.below("hub: no inertia about other axes",
                 hub_parameters(*own).yaw_inertia + hub_parameters(*own).roll_inertia, 0.);
     check.relative("static load of a wheel, kN", 1e-3 * own->static_load(), 79.6467, round_off);
@@ -907,6 +944,9 @@ namespace
     const auto               scene = scene_of(settings);
     const WheelHubParameters hub   = hub_parameters(*scene);
     check_hub(check, "hub of both wheels: ", hub, 2.);
+    // The ellipse is that of the profiles under the patch, which grows with the load.
+    check_settling(check, "hub of both wheels: ", *scene, 2., 0.05);
+    check.relative("hub of both wheels: arm of the contacts, m", hub.settling->arm, 0.75, 0.01);
     check.relative("hub of both wheels: yaw inertia, kg m2", hub.yaw_inertia, 47., 0.);
     check.relative("hub of both wheels: roll inertia, kg m2", hub.roll_inertia, 47., 0.);
 

@@ -126,6 +126,9 @@ namespace tread
     /// the relative error that the inertia of rolling makes in a quasi-static scene.
     double inertia_error_estimate() const;
 
+    /// Whether the axle follows the load of its wheels without the inertia of their mass: steady rolling.
+    bool settles() const;
+
     /// Numerical assumptions that are not part of the physics of the scene (scaled density, mass damping,
     /// predicted start), one line each. @param has_tractions at the start: those that were predicted are laid
     /// on

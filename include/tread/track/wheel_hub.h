@@ -45,6 +45,24 @@ namespace tread
     std::optional<double> force{}, moment{};
   };
 
+  /// How a hub follows its load where inertia is no part of the answer. Its own mass would take a hundred
+  /// times as long to sink by what the contact gives way as the contact takes to roll over a patch. A smaller
+  /// one, on a damper, is there after about a patch, or as soon as the scaled cells let it.
+  struct SettlingOfHub
+  {
+    double stiffness; ///< of the contacts under the hub, N/m
+    double time;      ///< in which a patch is rolled over, s
+    double arm;       ///< of the contacts from the middle of the axle, for the roll, m
+    /// That move with the hub, kg, with the density that they have: of its carried nodes, and of free cells.
+    double carried_mass = 0., cell_mass = 0.;
+
+    /// Of the hub, kg: its period on the contact is the time. With less than its nodes would have it would
+    /// shorten the stable time step.
+    double mass() const;
+    /// N s/m: the ratio of damping to the critical one is 1/sqrt(2), the largest without resonance.
+    double damping() const;
+  };
+
   struct WheelHubParameters
   {
     double mass = 0.; ///< of the wheel, kg; the share of the cells is subtracted when they are attached
@@ -57,6 +75,7 @@ namespace tread
     double roll_inertia = 0.; ///< likewise, about x, where both wheels carry it; 0: roll is prescribed
     /// Between both wheels, which then are alike; none: rigid.
     std::optional<FlexibleAxleParameters> axle{};
+    std::optional<SettlingOfHub>          settling{}; ///< none: it has its own inertia
   };
 
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
@@ -133,6 +152,15 @@ namespace tread
 
     /// Moments about the middles of both wheels (N m).
     using OfSides = FlexibleAxle::OfSides<Vector3>;
+
+    /// Tell the masses of carried nodes and of free cells, as they move, kg, to a hub that settles.
+    void settle_with(const double carried, const double cells)
+    {
+      if (!parameters.settling)
+        return;
+      parameters.settling->carried_mass = carried;
+      parameters.settling->cell_mass    = cells;
+    }
 
     /// One central-difference step under the force (N) and the moment about the middle (N m) that
     /// the flexible cells exert. @param on_wheels of a flexible axle: what carried nodes exert on its wheels
@@ -237,6 +265,22 @@ namespace tread
     /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
     /// moment of all but guidance (N, N m). @returns work of guidance, J
     double guide(const double lateral, const Vector3 moment, const double time_step);
+    /// Inertia against moving up, kg, and against rolling, kg m^2. @param of_wheels part of the latter that
+    /// is that of wheels which turn by themselves
+    double mass_up() const
+    {
+      return parameters.settling ? parameters.settling->mass() : parameters.mass;
+    }
+    double roll_inertia(const double of_wheels) const
+    {
+      return parameters.settling ? per_roll(parameters.settling->mass())
+                                 : parameters.roll_inertia - of_wheels;
+    }
+    /// Of something that acts on the contacts, about the middle between them.
+    double per_roll(const double on_contacts) const
+    {
+      return parameters.settling->arm * parameters.settling->arm * on_contacts;
+    }
     /// Angular velocity of the axle itself, rad/s.
     Vector3 tilting() const
     {
