@@ -76,18 +76,6 @@ def load(expected, allowed):
     return check
 
 
-def newton(allowed, least_force):
-    """What the normal force lacks of the load is what the wheel's acceleration takes, on the mean over a run. @param allowed of the load, in %
-    @param least_force over the load, so that the wheel is carried and does not fall"""
-    def check(summary, folder):
-        history = read_table(os.path.join(folder, "history.csv"))
-        lacks = history["normal_force_N"].mean() / LOAD - 1
-        rest = lacks - UNSPRUNG * history["axle_box_acceleration_m_per_s2"].mean() / LOAD
-        at_end = summary["normal_force_N"] / LOAD
-        return f"{100 * lacks:+.1f} % on the mean, without that {100 * rest:+.2f} %, {at_end:.2f} loads at the end", abs(100 * rest) <= allowed and at_end >= least_force
-    return check
-
-
 def like_one_level(case_settings):
     """Plastic work, settlement and stress that stays, beside those of the same run with one level."""
     def check(summary, folder):
@@ -119,7 +107,7 @@ def flies(longest, allowed):
     return check
 
 
-LOAD, UNSPRUNG = 14300 * 9.81, 900.  # N and kg, of the smooth scene
+LOAD = 14300 * 9.81  # N, of the smooth scene
 TRACK_LOAD = 116.8e3  # N, of the tutorial's track
 SOFT = {"Rail/Tangent modulus (GPa)": 0.1, "Mesh/Fine half width (mm)": 14}
 SMALL = {"Wheel/Radius (mm)": 50, "Wheel/Mass (kg)": 20, "Wheel/Moment of inertia (kg m2)": 0.1, "Vehicle/Wheel load (kN)": 5, "Wheel/Sector thickness (mm)": 20,
@@ -169,14 +157,13 @@ CASES = [
         "Motion/Creepage": 0}, check=against("max_pressure_Pa", "Hertz", 5.)),
     Case("nearly no hardening, driving", "flow at 300 MPa, tangent modulus 0.1 GPa: 0.3 of the load over Hertz's patch is 277 MPa of shear, the steel yields at 173",
          "stops and names the cell", settings={**SOFT, "Rail/Yield stress (MPa)": 300}, stops="of the rail has a strain of"),
-    Case("nearly no hardening", "the same at 400 MPa, 0.43 of the mean pressure, without traction: the wheel sinks as it rolls", "what the force lacks is 900 kg times the acceleration "
-         "within 1 % of the load, the cells' own motion; at least 0.9 loads", settings={
-             **SOFT, "Rail/Yield stress (MPa)": 400, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, check=newton(1., 0.9), warns="contact carries"),
+    Case("nearly no hardening", "the same at 400 MPa, 0.43 of the mean pressure, without traction: the wheel sinks as it rolls", "carries the load within 1 %", settings={
+        **SOFT, "Rail/Yield stress (MPa)": 400, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, check=load(LOAD, 1.)),
     Case("both flow", "the same steel in wheel and rail", "carries the load within 3 %, or says that it cannot", settings={
         "Rail/Yield stress (MPa)": 300, "Rail/Tangent modulus (GPa)": 0.1, "Wheel/Yield stress (MPa)": 300, "Wheel/Tangent modulus (GPa)": 0.1,
         "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 3.), stops="no equilibrium|leaves what is meshed|has folded"),
-    Case("yield at a tenth", "flow at 140 MPa, a tenth of the pressure", "what the force lacks is 900 kg times the acceleration within 1 % of the load; at least 0.9 loads", settings={
-        "Rail/Yield stress (MPa)": 140, "Mesh/Fine half width (mm)": 14}, check=newton(1., 0.9), warns="contact carries"),
+    Case("yield at a tenth", "flow at 140 MPa, a tenth of the pressure", "carries the load within 1 %", settings={
+        "Rail/Yield stress (MPa)": 140, "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 1.)),
     Case("levels over residual stress", "the second wheel rolls on stress that the first one left, with three levels", "settlement and stress of one level within 0.5 %, plastic work within 1 %",
          settings=RESIDUAL_STRESS, check=like_one_level(RESIDUAL_STRESS)),
     *(Case(f"{levels} levels", "no scaled density, no mass damping", "pressure of the half-space within 4 %", settings={

@@ -554,8 +554,7 @@ namespace tread
 
   bool Scene::settles() const
   {
-    return general.quasi_static && !shapes->defect && track.foundation == Foundation::rigid &&
-           !wheelset.has_flexible_axle();
+    return general.quasi_static && !shapes->defect && track.foundation == Foundation::rigid;
   }
 
 

@@ -201,7 +201,7 @@ namespace tread
     if (scene.settles())
       {
         const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
-        p.settling = {n_wheels * ellipse.stiffness, 2. * ellipse.semi_axis_x / scene.motion.speed,
+        p.settling = {n_wheels * ellipse.stiffness, ellipse.semi_axis_x / scene.motion.speed,
                       scene.wheelset.both_wheels ? scene.wheelset.track.wheel_origin() : 0.};
       }
     if (scene.wheelset.has_flexible_axle())

@@ -18,7 +18,13 @@ namespace tread
 
   double SettlingOfHub::damping() const
   {
-    return std::sqrt(2. * stiffness * (mass() + cell_mass));
+    return std::sqrt(stiffness * (mass() + cell_mass));
+  }
+
+
+  double SettlingOfHub::companion_mass() const
+  {
+    return 4. * (mass() + cell_mass);
   }
 
 
@@ -32,6 +38,7 @@ namespace tread
     reference_y            = middle[1];
     motion.z = reference_z = middle[2];
     guidance               = Guidance::rigid;
+    companions             = Companions();
     if (flexible)
       flexible->place();
     balance_suspension();
@@ -66,6 +73,7 @@ namespace tread
     motion.yaw_rate   = (next.yaw - now.yaw) / time_step;
     motion.roll_rate  = rolls() ? roll_rate : (next.roll - now.roll) / time_step;
     motion.velocity_z = rise;
+    companions        = {motion.velocity_z, motion.roll_rate};
   }
 
 
@@ -135,15 +143,12 @@ namespace tread
   {
     const Motion before = motion;
     // Wheels on an axle that bends turn by themselves.
-    const double of_wheels =
-      flexible && flexible->bends() ? 2. * FlexibleAxle::about_diameter(inertia_of_wheel()) : 0.;
-    const double yaw_inertia = parameters.yaw_inertia - of_wheels;
+    const double yaw_inertia = parameters.yaw_inertia - of_turning_wheels();
     double       settling    = 0.; // work
     if (rolls())
       {
-        const double damper =
-          parameters.settling ? -per_roll(parameters.settling->damping()) * before.roll_rate : 0.;
-        motion.roll_rate += time_step * (damper - moment[0]) / roll_inertia(of_wheels);
+        const double damper = settling_force(motion.roll_rate, companions.roll, per_roll(), time_step);
+        motion.roll_rate += time_step * (damper - moment[0]) / (roll_inertia() - of_turning_wheels());
         motion.roll += time_step * motion.roll_rate;
         settling = 0.5 * time_step * damper * (before.roll_rate + motion.roll_rate);
       }
@@ -194,6 +199,19 @@ namespace tread
   }
 
 
+  double WheelHub::settling_force(const double velocity,
+                                  double      &companion,
+                                  const double scale,
+                                  const double time_step) const
+  {
+    if (!parameters.settling)
+      return 0.;
+    const double force = scale * parameters.settling->damping() * (companion - velocity);
+    companion -= time_step * force / (scale * parameters.settling->companion_mass());
+    return force;
+  }
+
+
   void WheelHub::advance(const Vector3  force,
                          const Vector3  moment_about_middle,
                          const double   time_step,
@@ -207,8 +225,8 @@ namespace tread
         moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double damper = parameters.settling ? parameters.settling->damping() * motion.velocity_z : 0.;
-    const double vertical_force = force[2] + static_force() - suspension - damper;
+    const double damper         = settling_force(motion.velocity_z, companions.up, 1., time_step);
+    const double vertical_force = force[2] + static_force() - suspension + damper;
     const double acceleration   = vertical_force / mass_up();
 
     motion.velocity_z += time_step * acceleration;
@@ -305,15 +323,15 @@ namespace tread
            motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity +
            0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate +
-           (rolls() ? 0.5 * roll_inertia(0.) * motion.roll_rate * motion.roll_rate : 0.) +
+           (rolls() ? 0.5 * roll_inertia() * motion.roll_rate * motion.roll_rate : 0.) +
            (flexible ? flexible->kinetic_energy(in_chord(tilting()), inertia_of_wheel()) : 0.);
   }
 
 
   void WheelHub::serialize(Archive &archive)
   {
-    archive.same(drive, drive_torque, motion, reference, present, reference_x, reference_y, reference_z,
-                 equilibrium_z, work, gross, guidance, guidance_time, lateral_guidance, springs,
+    archive.same(drive, drive_torque, motion, companions, reference, present, reference_x, reference_y,
+                 reference_z, equilibrium_z, work, gross, guidance, guidance_time, lateral_guidance, springs,
                  released_yaw);
     if (flexible)
       flexible->serialize(archive);

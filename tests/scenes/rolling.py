@@ -402,8 +402,8 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative("fully integrated cells: maximum pressure", full["max_pressure_Pa"], one["max_pressure_Pa"], 0.02)
         check.relative("fully integrated cells: traction", full["longitudinal_force_N"], one["longitudinal_force_N"], 5e-3)
         # What a user is told of: assumptions at the start, measures and warnings at the end.
-        check.that("scaled density, mass damping and the predicted start are named", len(drive["assumptions"]) == 3 and all(
-            any(word in line for line in drive["assumptions"]) for word in ("density", "mass damping", "predicts")))
+        check.that("scaled density, mass damping, the axle that settles and the predicted start are named", len(drive["assumptions"]) == 4 and all(
+            any(word in line for line in drive["assumptions"]) for word in ("density", "mass damping", "axle", "predicts")))
         check.that("a good run: no warning", drive["warnings"] == [])
         thin = run(program, "smooth-rolling.prm", path("thin"), SHORT + ["Wheel/Sector thickness (mm)=12"])
         check.that("a sector of less than two semi-axes is named", any("1.7 mean semi-axes of the patch thick" in line for line in thin["assumptions"]))

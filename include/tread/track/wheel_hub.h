@@ -46,12 +46,13 @@ namespace tread
   };
 
   /// How a hub follows its load where inertia is no part of the answer. Its own mass would take a hundred
-  /// times as long to sink by what the contact gives way as the contact takes to roll over a patch. A smaller
-  /// one, on a damper, is there after about a patch, or as soon as the scaled cells let it.
+  /// times as long to sink by what the contact gives way as the contact takes to roll over a patch. A light
+  /// one is there after about a patch, or as soon as the scaled cells let it. Its damper leads to a companion
+  /// that moves along by nothing else, so that a hub which rises evenly is free of it.
   struct SettlingOfHub
   {
     double stiffness; ///< of the contacts under the hub, N/m
-    double time;      ///< in which a patch is rolled over, s
+    double time;      ///< in which half a patch is rolled over, s
     double arm;       ///< of the contacts from the middle of the axle, for the roll, m
     /// That move with the hub, kg, with the density that they have: of its carried nodes, and of free cells.
     double carried_mass = 0., cell_mass = 0.;
@@ -59,8 +60,10 @@ namespace tread
     /// Of the hub, kg: its period on the contact is the time. With less than its nodes would have it would
     /// shorten the stable time step.
     double mass() const;
-    /// N s/m: the ratio of damping to the critical one is 1/sqrt(2), the largest without resonance.
+    /// Of the damper, N s/m, and of the companion, kg. With these, of the masses that move on the contact, 2
+    /// % of a step of the load is left after 7.8 radians of their oscillation.
     double damping() const;
+    double companion_mass() const;
   };
 
   struct WheelHubParameters
@@ -252,6 +255,11 @@ namespace tread
     WheelHubParameters parameters;
 
   private:
+    /// Velocities of a settling hub's companions: up, m/s, and of the roll, rad/s.
+    struct Companions
+    {
+      double up = 0., roll = 0.;
+    };
     /// Axes of the wheelset in the track.
     struct Frame
     {
@@ -265,22 +273,32 @@ namespace tread
     /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
     /// moment of all but guidance (N, N m). @returns work of guidance, J
     double guide(const double lateral, const Vector3 moment, const double time_step);
-    /// Inertia against moving up, kg, and against rolling, kg m^2. @param of_wheels part of the latter that
-    /// is that of wheels which turn by themselves
+    /// Inertia against moving up, kg.
     double mass_up() const
     {
       return parameters.settling ? parameters.settling->mass() : parameters.mass;
     }
-    double roll_inertia(const double of_wheels) const
+    /// Part of yaw and roll inertia that is that of wheels which turn by themselves on an axle that bends, kg
+    /// m^2.
+    double of_turning_wheels() const
     {
-      return parameters.settling ? per_roll(parameters.settling->mass())
-                                 : parameters.roll_inertia - of_wheels;
+      return flexible && flexible->bends() ? 2. * FlexibleAxle::about_diameter(inertia_of_wheel()) : 0.;
     }
-    /// Of something that acts on the contacts, about the middle between them.
-    double per_roll(const double on_contacts) const
+    double roll_inertia() const
     {
-      return parameters.settling->arm * parameters.settling->arm * on_contacts;
+      return parameters.settling ? per_roll() * parameters.settling->mass() + of_turning_wheels()
+                                 : parameters.roll_inertia;
     }
+    /// Of a mass on the contacts: its inertia about the middle between them, per kg.
+    double per_roll() const
+    {
+      return parameters.settling ? parameters.settling->arm * parameters.settling->arm : 0.;
+    }
+    /// Force or moment of the damper of a hub that settles; moves the companion.
+    double settling_force(const double velocity,
+                          double      &companion,
+                          const double scale,
+                          const double time_step) const;
     /// Angular velocity of the axle itself, rad/s.
     Vector3 tilting() const
     {
@@ -320,7 +338,8 @@ namespace tread
       return 0.5 * parameters.moment_of_inertia;
     }
 
-    Frame    reference, present;
+    Companions companions;
+    Frame      reference, present;
     double   reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
     Vector3  reference_first_moment{}; ///< of the rigid rest
     Guidance guidance      = Guidance::rigid;

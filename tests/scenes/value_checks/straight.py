@@ -279,8 +279,8 @@ def words(runs: Runs, expect: Expect) -> None:
     expect.near("ranks", summary["ranks"], 1)
     expect.near("density scale", summary["density_scale"], float(parameters["Scene/Density scale"]))
     assumed = summary["assumptions"]
-    expect.same("assumptions begin with", [text.split(" ")[0] for text in assumed], ["density", "mass", "the"])
-    expect.that("assumptions", "times 25" in assumed[0] and "5000 per s" in assumed[1] and assumed[2].endswith("predicts for steady rolling"))
+    expect.same("assumptions begin with", [text.split(" ")[0] for text in assumed], ["density", "mass", "the", "the"])
+    expect.that("assumptions", "times 25" in assumed[0] and "5000 per s" in assumed[1] and "axle" in assumed[2] and assumed[3].endswith("predicts for steady rolling"))
     expect.that("warnings", len(summary["warnings"]) == 1 and summary["warnings"][0].startswith("contact did not reach its tolerance in many steps (100 %, above 1 %)")
                 and summary["warnings"][0].endswith("'Contact/Tolerance'"))
     unused = summary["unused_parameters"]
