@@ -554,7 +554,9 @@ namespace tread
 
   bool Scene::settles() const
   {
-    return general.quasi_static && !shapes->defect && track.foundation == Foundation::rigid;
+    // A smooth twin has the length of the defect, and the inertia of the run that it is for.
+    const bool has_defect = shapes->defect || defect.length > 0.;
+    return general.quasi_static && !has_defect && track.foundation == Foundation::rigid;
   }
 
 

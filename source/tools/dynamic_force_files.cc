@@ -65,7 +65,8 @@ namespace tread
         }
     }
 
-    /// A twin differs from its run by the defect alone. @returns a warning where that is not sure, or ""
+    /// A twin differs from its run by the defect alone. @returns a warning where that is not so, or not sure;
+    /// else ""
     std::string compare_parameters(const std::string &run, const std::string &twin)
     {
       const std::vector<Scene::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
@@ -93,6 +94,16 @@ namespace tread
       if (!files.unknown.empty())
         return "whether " + run + " and " + twin + " have read the same file of '" + files.unknown +
                "' is not known: parameters.prm of one of them does not say what it contained";
+      const auto of_twin_is = [&](const std::string &path, const std::string &value) {
+        return std::any_of(of_twin.begin(), of_twin.end(), [&](const Scene::Parameter &parameter) {
+          return parameter.path == path && same(parameter.value, value);
+        });
+      };
+      // See Scene::settles().
+      if (of_twin_is("Scene/Quasi-static", "true") && of_twin_is("Track/Foundation", "rigid") &&
+          of_twin_is("Defect/Length (mm)", "0"))
+        return "the axle of " + twin + " settles under its load, as in steady rolling, and that of " + run +
+               " has its inertia: 'Scene/Quasi-static' should be false for both";
       return "";
     }
 

@@ -139,6 +139,7 @@ namespace
     for (const Settings &other :
          {Settings{"Scene/Quasi-static=false"},
           Settings{"Defect/Length (mm)=20", "Defect/Depth (mm)=0.1", "Defect/Shape=dip"},
+          Settings{"Defect/Length (mm)=20", "Defect/Shape=none"},
           Settings{"Rail/Shape=full section", "Rail/Begin (mm)=-1725", "Rail/Length (mm)=3300",
                    "Track/Support 0 (mm)=-450", "Track/Foundation=two-layer"}})
       {

@@ -31,9 +31,9 @@ largest; and, with a smooth twin, dynamic(...) and frequency(...) of a force: th
 strongest vibration.
 
 Smooth twins run first. There is one for all runs that differ in their defect alone, and one for each 'Defect/Position (mm)',
-since the rail is not the same everywhere. Where the largest stresses near a 'trailing edge' are recorded, the twin records them
-where the scene has this edge, or else, if only 'Vary' has a 'Defect/Length (mm)', where the first run has it: on a smooth rail
-so small a way makes little difference. Where a twin fails, only the figures that need it are missing, and what the smooth rail
+since the rail is not the same everywhere. A twin has the 'Defect/Length (mm)' of the scene, or else, if only 'Vary' has one, of the
+first run: it keeps the inertia of the axle, which would settle under its load in steady rolling, and where the largest stresses
+near a 'trailing edge' are recorded they are so there, which on a smooth rail makes little difference. Where a twin fails, only the figures that need it are missing, and what the smooth rail
 has in limit.csv.
 
 Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
@@ -486,7 +486,8 @@ def members_of(study: Study, root: str, program: str, options: Sequence[str] = (
         if study.without_defect and name not in twins:
             settings = {**study.settings, **left, **study.without_defect}
             has = {**scene, **settings}
-            if has.get("Peak stress/Region") == "trailing edge" and number_or_text(has.get(LENGTH, "0")) == 0 and LENGTH in values:
+            # Where the defect would be is where stresses are recorded, and a length is also what the axle's inertia goes by.
+            if number_or_text(has.get(LENGTH, "0")) == 0 and LENGTH in values:
                 settings[LENGTH] = values[LENGTH]
             twins[name] = Member(study, root, name, settings, program, options)
         members.append((Member(study, root, folder_name(values), {**study.settings, **values}, program, options), twins.get(name)))

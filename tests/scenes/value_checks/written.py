@@ -141,6 +141,8 @@ def rounding(value: float, exact: bool) -> float:
     """Five digits; differences have two behind the point, uncertainties two digits."""
     if exact:
         return 6e-5 * abs(value)
+    if abs(value) < 0.005:  # prints as 0.00
+        return abs(value)
     return max(1e-4 * abs(value), min(0.0051, 0.9 * abs(value))) if abs(value) < 0.5 or abs(value) > 9.9 else 0.051 * min(1., abs(value))
 
 
