@@ -134,6 +134,8 @@ def table_on_the_screen(runs: Runs, expect: Expect, run: str) -> None:
         expect.that(f"one line '{label}' with {len(numbers)} numbers", len(found) == 1)
         words = found[0]
         for place, value in enumerate(numbers):
+            if label == "vertical force, kN" and abs(value) < 0.005:  # the difference of a load that is carried: 0.00
+                continue
             expect.near(f"{label} {place + 1}", screen[f"{words} {place + 1}"], value, absolute=rounding(value, place == 0))
 
 
@@ -141,8 +143,6 @@ def rounding(value: float, exact: bool) -> float:
     """Five digits; differences have two behind the point, uncertainties two digits."""
     if exact:
         return 6e-5 * abs(value)
-    if abs(value) < 0.005:  # prints as 0.00
-        return abs(value)
     return max(1e-4 * abs(value), min(0.0051, 0.9 * abs(value))) if abs(value) < 0.5 or abs(value) > 9.9 else 0.051 * min(1., abs(value))
 
 
