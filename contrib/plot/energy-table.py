@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What every shipped scene does with its energy: the table 'energy' of doc/verification.md.
+"""What every shipped scene does with its energy, and whether it carries its load: the table 'energy' of doc/verification.md.
 
 Reads RESULTS/<folder>-<name of the parameter file>/summary.json of the scenes of prm/. With --run, scenes without results
 are run first, one after the other; --rolled shortens their paths but for scenes that look
@@ -14,6 +14,7 @@ import fnmatch
 import os
 
 from tread.commands import command_parser, run_command
+from tread.loads import static_load
 from tread.measured_runs import available_ranks, run_scene, shipped_scenes
 from tread.files import DataError, Error, read_summary
 from tread.runs import ROOT, Run, parameters_of
@@ -55,6 +56,15 @@ def limits_of(folder: str) -> dict[str, float]:
     return {name: float(own.get(name, known[name]["default"])) for *_, name in MEASURES if name}
 
 
+def over_load(scene: str, summary: dict) -> str:
+    """What the contacts carry more than the load, in %, where the axle settles under it."""
+    if not any(assumption.startswith("the axle") for assumption in summary["assumptions"]):
+        return "-"
+    own = parameters_of(scene)
+    load = 1e3 * static_load(own) * (2 if own["Wheelset/Both wheels"] == "true" else 1)
+    return f"{100 * (summary['normal_force_N'] / load - 1):+.2f}"
+
+
 def cell(value: float | None, factor: float, limit: float | None) -> str:
     """Bold if it is beyond the limit."""
     if value is None:
@@ -85,14 +95,15 @@ def main() -> None:
         limits = limits_of(folder)
         rows.append([scene[:-len(".prm")], number(1e3 * summary["rolled_m"])]
                     + [cell(summary.get(key), factor, limits.get(name)) for _, key, factor, name in MEASURES]
-                    + [str(len(summary["warnings"])), commit_of(summary)])
+                    + [over_load(scene, summary), str(len(summary["warnings"])), commit_of(summary)])
     if not rows:
         raise DataError(f"no results in {arguments.results}")
     if missing:
         print("without results:", ", ".join(missing))
     measured = {row[0] for row in rows}
+    headings = ["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES] + ["vertical force over the load [%]", "warnings", "commit"]
     rows += [row for row in rows_of("verification.md", "energy") if row[0] not in measured]
-    table = markdown(["scene", "rolled [mm]"] + [heading for heading, *_ in MEASURES] + ["warnings", "commit"], sorted(rows))
+    table = markdown(headings, sorted(rows))
     table += (f"\n\nBold: above the threshold of a warning, which a run gives where the energy counts beside what the cells store. {machine()}; `contrib/plot/energy-table.py --run"
               + (f" --rolled {arguments.rolled:g}" if arguments.rolled else "") + "`, each row with the commit it was made with.")
     if arguments.only_print:
