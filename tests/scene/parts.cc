@@ -468,6 +468,18 @@ namespace
     check.absolute("peaks: from the middle of the dip, mm", 1e3 * region.begin, 5., 1e-9);
     check.absolute("peaks: to a semi-axis behind its end, mm", 1e3 * region.end,
                    15. + 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_x, 1e-9);
+    // As wide as the patch, but no wider than to where a round edge runs at 45 degrees.
+    const double patch = 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_y;
+    check.absolute("peaks: half width of the patch, mm", 1e3 * peaks->peak_half_width(), patch, 1e-9);
+    for (const Settings &narrow :
+         {Settings{"Defect/Width (mm)=6"}, Settings{"Defect/Length (mm)=6", "Defect/Depth (mm)=0.05"},
+          Settings{"Defect/Length (mm)=6", "Defect/Shape=none"}})
+      {
+        Settings settings = narrow;
+        settings.push_back("Peak stress/Region=trailing edge");
+        check.absolute("peaks: half width with " + narrow.front(),
+                       1e3 * scene_of(dip, settings)->peak_half_width(), 3. * std::sqrt(0.5), 1e-9);
+      }
     const auto         chosen = scene_of(dip, {"Peak stress/Region=range", "Peak stress/From (mm)=3",
                                                "Peak stress/To (mm)=17", "Peak stress/Half width (mm)=4"});
     const Scene::Range range  = chosen->peak_range();

@@ -10,8 +10,8 @@ namespace tread
 
     section.add("Title", title, "What the scene shows; printed and kept in the summary.");
     section.add("Quasi-static", quasi_static,
-                "true: inertia is negligible in the answer, as in steady rolling, and the density may be "
-                "scaled. false: inertia counts.");
+                "true: inertia is negligible in the answer, as in steady rolling: the density may be scaled, "
+                "and without a defect or a track the axle settles under its load. false: inertia counts.");
     section.add(
       "Density scale", density_scale,
       "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
