@@ -58,7 +58,7 @@ def limits_of(folder: str) -> dict[str, float]:
 
 def over_load(scene: str, summary: dict) -> str:
     """What the contacts carry more than the load, in %, where the axle settles under it."""
-    if not any(assumption.startswith("the axle") for assumption in summary["assumptions"]):
+    if not any(assumption.startswith("the axle") for assumption in summary.get("assumptions", ())):
         return "-"
     own = parameters_of(scene)
     load = 1e3 * static_load(own) * (2 if own["Wheelset/Both wheels"] == "true" else 1)

@@ -667,10 +667,11 @@ class Studies(InFolder):
             return found
 
         length, position = "Defect/Length (mm) = 4 | 8", "Defect/Position (mm) = -10 | 5"
-        # One for all lengths, for which the scene or else the first run says where the peaks are.
+        # One for all lengths, for which the scene or else the first run says where the peaks are, and that the axle has its inertia.
         self.assertEqual(twins(length), {"smooth-twin": "Defect/Shape=none, Defect/Length (mm)=4"})
         scene = "subsection Peak stress\n  set Region = {}\nend\nsubsection Defect\n  set Length (mm) = {}\nend\n"
-        for text in (scene.format("trailing edge", "6"), scene.format("range", "0"), "include parts.inc\n"):
+        self.assertEqual(twins(length, scene=scene.format("range", "0")), {"smooth-twin": "Defect/Shape=none, Defect/Length (mm)=4"})
+        for text in (scene.format("trailing edge", "6"), scene.format("none", "6"), "include parts.inc\n"):
             write(self.path("parts.inc"), scene.format("trailing edge", "6"))
             self.assertEqual(twins(length, scene=text), {"smooth-twin": "Defect/Shape=none"})
         # One for each position.
