@@ -157,13 +157,13 @@ CASES = [
         "Motion/Creepage": 0}, check=against("max_pressure_Pa", "Hertz", 5.)),
     Case("nearly no hardening, driving", "flow at 300 MPa, tangent modulus 0.1 GPa: 0.3 of the load over Hertz's patch is 277 MPa of shear, the steel yields at 173",
          "stops and names the cell", settings={**SOFT, "Rail/Yield stress (MPa)": 300}, stops="of the rail has a strain of"),
-    Case("nearly no hardening", "the same at 400 MPa, 0.43 of the mean pressure, without traction: the wheel sinks as it rolls", "carries the load within 1 %", settings={
-        **SOFT, "Rail/Yield stress (MPa)": 400, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, check=load(LOAD, 1.)),
+    Case("nearly no hardening", "the same at 400 MPa, 0.43 of the mean pressure, without traction: the wheel sinks as it rolls", "carries the load within 5 %, and says that the wheel still sinks", settings={
+        **SOFT, "Rail/Yield stress (MPa)": 400, "Motion/Traction coefficient": 0, "Motion/Creepage": 0}, check=load(LOAD, 5.), warns="contact carries"),
     Case("both flow", "the same steel in wheel and rail", "carries the load within 3 %, or says that it cannot", settings={
         "Rail/Yield stress (MPa)": 300, "Rail/Tangent modulus (GPa)": 0.1, "Wheel/Yield stress (MPa)": 300, "Wheel/Tangent modulus (GPa)": 0.1,
         "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 3.), stops="no equilibrium|leaves what is meshed|has folded"),
-    Case("yield at a tenth", "flow at 140 MPa, a tenth of the pressure", "carries the load within 1 %", settings={
-        "Rail/Yield stress (MPa)": 140, "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 1.)),
+    Case("yield at a tenth", "flow at 140 MPa, a tenth of the pressure", "carries the load within 5 %, and says that the wheel still sinks", settings={
+        "Rail/Yield stress (MPa)": 140, "Mesh/Fine half width (mm)": 14}, check=load(LOAD, 5.), warns="contact carries"),
     Case("levels over residual stress", "the second wheel rolls on stress that the first one left, with three levels", "settlement and stress of one level within 0.5 %, plastic work within 1 %",
          settings=RESIDUAL_STRESS, check=like_one_level(RESIDUAL_STRESS)),
     *(Case(f"{levels} levels", "no scaled density, no mass damping", "pressure of the half-space within 4 %", settings={
