@@ -33,8 +33,8 @@ strongest vibration.
 Smooth twins run first. There is one for all runs that differ in their defect alone, and one for each 'Defect/Position (mm)',
 since the rail is not the same everywhere. A twin has the 'Defect/Length (mm)' of the scene, or else, if only 'Vary' has one, of the
 first run: it keeps the inertia of the axle, which would settle under its load in steady rolling, and where the largest stresses
-near a 'trailing edge' are recorded they are so there, which on a smooth rail makes little difference. Where a twin fails, only the figures that need it are missing, and what the smooth rail
-has in limit.csv.
+near a 'trailing edge' are recorded they are so there, which on a smooth rail makes little difference. Where a twin fails, only
+the figures that need it are missing, and what the smooth rail has in limit.csv.
 
 Each run is a process of its own with a folder of its own. A run whose results are complete is not repeated, an
 interrupted one goes on from its last checkpoint, and one that fails leaves the others alone. A run is complete also if
