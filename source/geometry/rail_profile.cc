@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace tread
@@ -11,7 +12,7 @@ namespace tread
   {
     using Point = dealii::Point<2>;
 
-    constexpr double pi = 3.14159265358979323846;
+    using std::numbers::pi;
 
     Point on_circle(const Point &center, const double radius, const double angle)
     {
