@@ -121,8 +121,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.energy("pushed: ", pushed, 3e-3)
 
     # Ranks, and a run in two parts.
-    short = {**COARSE, **turned, "Motion/Angular velocity (rad per s)": "by the drive", "Motion/Rolled distance (mm)": 12, "Contact/Tolerance": 1e-12,
-             "Output/Checkpoint interval (minutes)": 0, "Time stepping/Levels": 1}
+    short = {**COARSE, **turned, "Motion/Angular velocity (rad per s)": "by the drive", "Motion/Rolled distance (mm)": 5, "Contact/Tolerance": 1e-12,
+             "Output/Checkpoint interval (minutes)": 0, "Output/History interval (mm)": 0.2, "Time stepping/Levels": 1}
     keys = ("normal_force_N", "longitudinal_force_N", "lateral_force_N", "frictional_power_W", "max_pressure_Pa")
     whole, on_three = run(program, SCENE, path("whole"), short), run(program, SCENE, path("three"), short, 3)
     for key in keys:
