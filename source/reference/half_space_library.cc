@@ -85,6 +85,21 @@ namespace
     answer.approach           = result.approach;
   }
 
+  /// Slope of the gap beyond which bodies are no half-spaces; steel under a wheel has 0.03.
+  constexpr double steepest = 0.3;
+
+  /// Refuses ellipses on whose edge the gap is so steep that the bodies are no half-spaces: radii of a
+  /// millimetre, or steel as soft as its modulus in GPa taken for Pa.
+  void check_slope(const RollingCase &c, const HertzEllipse &hertz)
+  {
+    const double slope = 2. * std::max(c.curvature_x * hertz.semi_axis_x, c.curvature_y * hertz.semi_axis_y);
+    if (slope > steepest)
+      throw std::invalid_argument(
+        "curvature_x, curvature_y, normal_force, young: the gap rises by " + std::to_string(slope) +
+        " of the way at the edge of the patch; half-spaces allow " + std::to_string(steepest).substr(0, 3) +
+        ": see that they are in 1/m, N and Pa");
+  }
+
   void solve_ellipse(tread_half_space            &solver,
                      const tread_half_space_case &problem,
                      tread_half_space_answer     &answer)
@@ -104,6 +119,7 @@ namespace
     c.spin             = problem.spin;
     const HertzEllipse hertz =
       hertz_ellipse(c.curvature_x, c.curvature_y, combine(c.wheel, c.rail).hertz_modulus(), c.normal_force);
+    check_slope(c, hertz);
     c.element_size   = problem.element_x != 0. ? problem.element_x : hertz.semi_axis_x / elements_along_a;
     c.element_size_y = problem.element_y != 0. ? problem.element_y : hertz.semi_axis_y / elements_along_b;
     Edges         edges;
@@ -202,8 +218,7 @@ namespace
         std::to_string(worst->across()) + " across, where at least " + std::to_string(least) +
         " are needed in both directions: take smaller ones, and see that the gap is in m, not in mm");
 
-    constexpr double steepest = 0.3;
-    double           slope    = 0.;
+    double slope = 0.;
     for (std::size_t e = 0; e < grid.size(); ++e)
       if (result.pressure[e] > 0.)
         {

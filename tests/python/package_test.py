@@ -824,6 +824,7 @@ class StudiesFromPython(InFolder):
                                   ({"A/B": [1], "A/C": [1, 2]}, {"combination": "zip"}, "zip needs as many"), ({"A/B": [1]}, {"combination": "sum"}, "'sum'"),
                                   ({"A/B": [1]}, {"processes": 0}, "'Processes' cannot be '0'"), ({"A/B": [1]}, {"figures": ["mean(x)"]}, "no 'mean(...)'"),
                                   ({"A/B": [1]}, {"program": "none"}, "none: no such program"), ({"A/B": [1]}, {}, "'Vary': no parameter 'A/B'"),
+                                  ({"Motion/Creepage": [1]}, {"settings": {"Motion/Creepage": 2}}, "'Motion/Creepage' is in 'Settings' and in 'Vary'"),
                                   ({"Motion/Creepage": [1]}, {"settings": {"Motion/Sped": 1}}, "'Settings': no parameter 'Motion/Sped'; did you mean 'Motion/Speed (km per h)'?")):
             with self.assertRaisesRegex(tread.DataError, re.escape(words)):
                 tread.study("smooth-rolling.prm", vary, **{"program": self.program, "output": "out", **more})

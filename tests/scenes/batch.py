@@ -124,6 +124,21 @@ for what, settings in (("one element in contact", bowl(12e-3, 9, 9)), ("three el
                        ("a grid of 1 x 29", bowl(1e-3, 1, 29)), ("a grid of 29 x 1", bowl(1e-3, 29, 1)), ("a gap in mm", bowl(1e-3, 29, 29, 1e3))):
     refused(what, ("element_x, element_y", "at least 5", "in m, not in mm"), **settings)
 refused("a gap in mm on small elements", ("gap", "in m, not in mm"), **bowl(1e-4, 29, 29, 1e3))
+# What the gap or a single case leaves without effect, and masked values, are errors.
+plain = bowl(1e-3, 29, 29)
+refused("a curvature beside a gap", ("gap excludes curvature_y",), TypeError, curvature_y=1.4, **plain)
+refused("two loads for one patch", ("one case and was given 2",), TypeError, **{**plain, "normal_force": [8e4, 9e4]})
+refused("a masked gap", ("gap has masked values",), TypeError, **{**plain, "gap": np.ma.masked_greater(plain["gap"], 1e-4)})
+refused("a masked load", ("normal_force", "masked"), TypeError, **{**plain, "normal_force": np.ma.masked_less([9e4], 1e5)})
+check.that("a mask that hides nothing is none", half_space.solve_patch(
+    normal_force=9e4, friction=0.3, **{**plain, "gap": np.ma.masked_greater(plain["gap"], 1.)})["max_pressure"] > 1e9)
+# Ellipses of bodies that are no half-spaces.
+ball = {"curvature_x": 1.2, "curvature_y": 0.8, "normal_force": 7e4, "friction": 0.3}
+for what, settings in (("radii in mm for curvatures", {"curvature_x": 420., "curvature_y": 310.}), ("a modulus in GPa", {"young": 205.}),
+                       ("a force in mN", {"normal_force": 7e10})):
+    refused(what, ("the gap rises by", "1/m, N and Pa"), creepage=0., **{**ball, **settings})
+check.that("a radius of 6 mm under 300 N has an answer", half_space.solve_patch(
+    curvature_x=80., curvature_y=80., normal_force=300., friction=0.3)["status"] == 0)
 right = half_space.solve_patch(normal_force=9e4, friction=0.3, **bowl(1e-3, 29, 29))
 hertz = half_space.solve_patch(normal_force=9e4, friction=0.3, curvature_x=0.9, curvature_y=1.4)
 check.relative("the same gap in m: largest pressure, MPa", 1e-6 * right["max_pressure"], 1e-6 * hertz["max_pressure"], 0.01)

@@ -84,6 +84,9 @@ def _cases(settings: Mapping[str, ArrayLike], slip_order: ArrayLike, contact_six
     unknown = sorted(set(settings) - set(_NUMBERS))
     if unknown:
         raise TypeError(f"unknown: {', '.join(unknown)}; known are {', '.join(_NUMBERS)}")
+    masked = sorted(name for name, value in settings.items() if np.ma.is_masked(value))
+    if masked:
+        raise TypeError(f"{', '.join(masked)}: masked values are no numbers; leave them out, or fill them")
     settings = {"young": 210e9, "poisson": 0.3, **settings}
     arrays = np.broadcast_arrays(*[np.asarray(value, dtype=float) for value in settings.values()], np.asarray(slip_order, dtype=np.intc))
     cases = np.zeros(arrays[0].shape, _CASE)
@@ -158,7 +161,14 @@ def solve_patch(*, gap: ArrayLike | None = None, x_first: float = 0., y_first: f
     wheel), slip_x, slip_y (over the speed) and state (0: no contact, 1: adhesion, 2: slip). Raises HalfSpaceError.
     """
     case, _ = _cases(settings, slip_order, contact_sixth)
+    if len(case) != 1:
+        raise TypeError(f"solve_patch() solves one case and was given {len(case)}: call it for each, or solve() for the forces of ellipses")
     if gap is not None:
+        void = sorted({"curvature_x", "curvature_y"} & set(settings))
+        if void:
+            raise TypeError(f"gap excludes {' and '.join(void)}: it is the whole gap")
+        if np.ma.is_masked(gap):
+            raise TypeError("gap has masked values, which are no numbers: fill them with a height that is out of contact")
         gap = np.ascontiguousarray(gap, dtype=float)
         if gap.ndim != 2:
             raise TypeError("gap must be an (n_y, n_x) array")

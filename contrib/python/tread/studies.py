@@ -198,6 +198,9 @@ class Study:
     def must_name_parameters(self, program: str) -> None:
         """@raises DataError naming a parameter that there is not: every run would fail of it. A program may be newer than this package: it
         is asked for its own before one is refused."""
+        for name in self.members[0]:
+            if name in self.settings:
+                raise DataError(f"{self.path}: '{name}' is in 'Settings' and in 'Vary': give it once")
         known: Collection[str] = parameters()
         given = [(entry, name) for entry, names in (("Vary", self.members[0]), ("Settings", self.settings), ("Smooth twin", self.without_defect))
                  for name in names]
