@@ -143,6 +143,113 @@ namespace
   const std::vector<std::pair<double, double>> tabulated_conicities{
     {1., 0.125}, {2., 0.155}, {3., 0.188}, {4., 0.216}, {5., 0.254}, {6., 0.303}, {6.5, 0.348}, {6.8, 0.427}};
 
+
+  /// A reference combination of EN 15302:2008+A1:2010, Annex E: radius differences in mm from shift 0 on, in
+  /// steps of 0.1 mm, of like wheels of 920 mm; and the conicities that the standard gives for them, and for
+  /// a right wheel of 920 beside a left one of 918 mm, by the amplitude in mm.
+  struct ReferenceCombination
+  {
+    std::string                            like, unlike;
+    std::vector<double>                    differences_mm;
+    std::vector<std::pair<double, double>> conicities, conicities_unlike;
+  };
+
+  std::vector<ReferenceCombination> reference_combinations()
+  {
+    std::vector<ReferenceCombination> all;
+    all.push_back({"E.1",
+                   "E.5",
+                   tabulated_mm,
+                   tabulated_conicities,
+                   {{1., 0.280}, {2., 0.272}, {3., 0.261}, {4., 0.269}, {5., 0.307}}});
+    // Cones of 1:40, which a second contact ends: there the radius jumps from one row to the next.
+    std::vector<double> b, h, cylinder(18, 0.);
+    for (int i = 0; i < 30; ++i)
+      b.push_back(5e-3 * i);
+    for (const double value :
+         {1.95,  2.003, 2.057, 2.112, 2.167, 2.224, 2.281, 2.339, 2.397, 2.457, 2.517, 2.578, 2.64,
+          2.702, 2.766, 2.83,  2.895, 2.961, 3.027, 3.095, 3.163, 3.232, 3.302, 3.372, 3.444, 3.516,
+          3.589, 3.663, 3.737, 3.813, 3.889, 3.966, 4.044, 4.123, 5.392, 6.111, 7.05,  8.27,  9.895})
+      b.push_back(value);
+    all.push_back({"E.2",
+                   "E.6",
+                   b,
+                   {{1., 0.025}, {2., 0.025}, {3., 0.058}, {4., 0.241}, {5., 0.283}, {6., 0.302}},
+                   {{1., 0.660}, {2., 0.376}, {3., 0.278}, {4., 0.227}, {5., 0.295}}});
+    for (int i = 0; i < 26; ++i)
+      h.push_back(5e-3 * i);
+    for (int i = 26; i < 68; ++i)
+      h.push_back(2.407 + 22.5e-3 * (i - 26));
+    h.push_back(11.216);
+    all.push_back({"E.3",
+                   "E.7",
+                   h,
+                   {{1., 0.025}, {2., 0.025}, {3., 0.245}, {4., 0.319}, {5., 0.306}, {6., 0.284}},
+                   {{1., 0.712}, {2., 0.381}, {3., 0.270}, {4., 0.217}, {5., 0.275}}});
+    // Cylinders in the middle: nothing steers there.
+    for (const double value :
+         {2.344, 2.404, 2.465, 2.528, 2.591, 2.654, 2.719, 2.784, 2.851, 2.918, 2.985, 3.054, 3.123, 3.194,
+          3.265, 3.336, 3.409, 3.483, 3.557, 3.632, 3.708, 3.785, 3.862, 3.941, 4.02,  4.1,   4.181, 4.263,
+          4.345, 4.429, 4.513, 4.598, 4.684, 4.742, 4.771, 4.8,   4.829, 4.859, 4.888, 4.917, 4.947, 4.977,
+          5.036, 5.066, 5.096, 5.127, 5.157, 5.187, 5.453, 6.053, 6.849, 7.884, 9.237, 11.079})
+      cylinder.push_back(value);
+    all.push_back({"E.4",
+                   "E.8",
+                   cylinder,
+                   {{1., 0.}, {1.9, 0.208}, {2., 0.293}, {3., 0.489}, {4., 0.485}, {5., 0.475}, {6., 0.447}},
+                   {{1., 0.780}, {2., 0.418}, {3., 0.449}, {4., 0.479}, {5., 0.458}, {6., 0.497}}});
+    return all;
+  }
+
+  /// Unlike profiles, combination E.9: the wheel of E.1 at the right, that of E.2 at the left, on the same
+  /// rails; differences from a shift of -6.8 mm on in steps of 0.1 mm.
+  const std::vector<double> unlike_profiles_mm{
+    -9.964, -8.342, -7.124, -6.188, -5.472, -4.205, -4.129, -4.053, -3.979, -3.905, -3.832, -3.76,  -3.688,
+    -3.618, -3.548, -3.479, -3.411, -3.344, -3.277, -3.212, -3.147, -3.083, -3.019, -2.957, -2.895, -2.834,
+    -2.774, -2.715, -2.656, -2.598, -2.541, -2.485, -2.429, -2.375, -2.321, -2.267, -2.214, -2.163, -2.112,
+    -0.308, -0.305, -0.302, -0.299, -0.295, -0.292, -0.288, -0.285, -0.282, -0.279, -0.275, -0.271, -0.268,
+    -0.263, -0.26,  -0.256, -0.252, -0.248, -0.245, -0.241, -0.236, -0.232, -0.229, -0.224, -0.22,  -0.216,
+    -0.21,  -0.206, -0.202, -0.182, -0.166, -0.146, -0.124, -0.104, -0.079, -0.052, -0.026, 0.004,  0.036,
+    0.066,  0.102,  0.14,   0.174,  0.216,  0.258,  0.298,  0.344,  0.393,  0.437,  0.489,  0.542,  0.591,
+    0.648,  0.707,  0.761,  0.823,  0.888,  0.946,  1.014,  1.075,  1.139,  1.189,  1.251,  1.318,  1.388,
+    1.45,   1.527,  1.608,  1.692,  1.766,  1.858,  1.954,  2.053,  2.157,  2.246,  2.357,  2.471,  2.589,
+    2.691,  2.817,  2.947,  3.08,   3.218,  3.336,  3.48,   3.629,  3.782,  3.913,  4.074,  4.239,  4.407,
+    4.552,  4.982,  5.613,  6.444,  7.523,  8.938,  10.884};
+
+  /// The nine combinations of reference profiles: like wheels, unlike diameters, unlike profiles. The
+  /// standard allows 0.05; its third decimals come out.
+  void check_reference_combinations(tests::Check &check)
+  {
+    constexpr double digits   = 9e-4; // half of the last one, and what the last digits of differences move
+    const auto       conicity = [&](const std::string &name, const LateralMotion &motion,
+                              const std::vector<std::pair<double, double>> &conicities) {
+      for (const auto &[amplitude, value] : conicities)
+        check.absolute("EN 15302, " + name + ": conicity at " + format("%.1f mm", amplitude),
+                             motion.conicity(1e-3 * amplitude), value, digits);
+    };
+    for (const ReferenceCombination &reference : reference_combinations())
+      {
+        std::vector<double> shifts, differences, of_unlike;
+        const int           n = reference.differences_mm.size() - 1;
+        for (int i = -n; i <= n; ++i)
+          {
+            shifts.push_back(1e-4 * i);
+            differences.push_back(1e-3 * std::copysign(reference.differences_mm[std::abs(i)], i));
+            of_unlike.push_back(differences.back() + 1e-3); // half of 2 mm of diameter
+          }
+        conicity(reference.like, {shifts, differences}, reference.conicities);
+        conicity(reference.unlike, {shifts, of_unlike}, reference.conicities_unlike);
+      }
+    std::vector<double> shifts, differences;
+    for (unsigned int i = 0; i < unlike_profiles_mm.size(); ++i)
+      {
+        shifts.push_back(1e-4 * (static_cast<int>(i) - 68));
+        differences.push_back(1e-3 * unlike_profiles_mm[i]);
+      }
+    conicity("E.9", {shifts, differences},
+             {{1., 0.137}, {2., 0.104}, {3., 0.132}, {4., 0.225}, {5., 0.271}, {6., 0.307}});
+  }
+
   /// @param beside by how much the table is moved, m
   LateralMotion standard_motion(const double beside = 0., const double factor = 1.)
   {
@@ -539,6 +646,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   check_curves(check);
   check_conicity(check);
+  check_reference_combinations(check);
   check_lateral_motion(check);
   check_unlike_sides(check);
   check_rolling(check);
