@@ -6,6 +6,7 @@
 #include <tread/tools/contact_points_files.h>
 #include <tread/tools/dynamic_force_files.h>
 #include <tread/tools/modes_files.h>
+#include <tread/tools/position_files.h>
 #include <tread/tools/print_columns.h>
 #include <tread/tools/reference_only.h>
 #include <tread/tools/sleeper_stress_files.h>
@@ -31,7 +32,7 @@ namespace
   {
     std::string                 scene;
     std::vector<std::string>    settings;
-    std::string                 output, batch;
+    std::string                 output, batch, positions;
     tread::DynamicForceRequest  dynamic;
     tread::ModesRequest         modes;
     tread::SleeperStressRequest sleeper;
@@ -54,7 +55,7 @@ namespace
     app.add_option("-s", line.settings, "\"Section/Name=value\": set a parameter; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--output", line.output, "folder of the results; of --batch, their table");
+    app.add_option("--output", line.output, "folder of the results; of --batch and --positions, their table");
     app.add_flag("--print-parameters{prm}", line.print_parameters,
                  "print all parameters with units, ranges and meaning, and stop; =json: as JSON");
     CLI::Option *columns = app.add_flag("--print-columns", line.print_columns,
@@ -101,7 +102,12 @@ namespace
     CLI::Option *batch = app.add_option("--batch", line.batch,
                                         "table of half-space cases: solve each of its rows, on all cores");
     batch->excludes(defect)->excludes(seat);
-    columns->excludes(defect)->excludes(seat)->excludes(batch);
+    CLI::Option *positions =
+      app.add_option("--positions", line.positions,
+                     "table of positions of a wheel over a rail of slices, such as a crossing: half-space "
+                     "contact in each");
+    positions->excludes(defect)->excludes(seat)->excludes(batch);
+    columns->excludes(defect)->excludes(seat)->excludes(batch)->excludes(positions);
     try
       {
         app.parse(argc, argv);
@@ -128,6 +134,7 @@ namespace
       bool        is_asked;
     };
     for (const Tool &tool : {Tool{"--batch", "a table of cases", !line.batch.empty()},
+                             Tool{"--positions", "a table of positions", !line.positions.empty()},
                              Tool{"--dynamic-force", "what two runs left", !line.dynamic.run.empty()},
                              Tool{"--sleeper-stress", "what a run left", !line.sleeper.run.empty()},
                              Tool{"--print-columns", "nothing", line.print_columns}})
@@ -161,6 +168,11 @@ namespace
     if (!line.batch.empty())
       {
         tread::write_batch(line.batch, line.output, comm);
+        return 0;
+      }
+    if (!line.positions.empty())
+      {
+        tread::write_positions(line.positions, line.output, comm);
         return 0;
       }
     if (!line.dynamic.run.empty())

@@ -31,11 +31,8 @@ namespace tread
       return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     }
 
-    /// Where a patch can lie in its plane, from the reference point (m).
-    struct Range
-    {
-      double x_low = 0., x_high = 0., s_low = 0., s_high = 0.;
-    };
+    /// Where a patch can lie in its plane, from the reference point.
+    using Range = WheelOnRail::Region::Box;
 
     /// All of the overlap.
     Range range_of_overlap(const WheelOnRail         &surfaces,
@@ -43,6 +40,8 @@ namespace tread
                            const WheelOnRail::Region &region,
                            const PatchSurfaces       &heights)
     {
+      if (region.box)
+        return *region.box;
       Range                  range;
       constexpr unsigned int n = 200;
       for (unsigned int i = 0; i <= n; ++i)
@@ -56,7 +55,7 @@ namespace tread
           range.s_high = std::max(range.s_high, along);
           // Along x the wheel's surface has the curvature cos(angle)/r.
           const double radius  = (surfaces.radius() - surfaces.wheel().at(s).z) / std::cos(region.angle);
-          const double overlap = heights.rail(along).height - heights.above(point->place);
+          const double overlap = heights.rail(0., along).height - heights.above(point->place);
           const double half    = std::sqrt(2. * radius * std::max(0., overlap));
           range.x_low          = std::min(range.x_low, x - half);
           range.x_high         = std::max(range.x_high, x + half);
@@ -118,8 +117,16 @@ namespace tread
             if (!is_empty(j * grid.n_x + i) && is_empty(beside * grid.n_x + i))
               if (const double x = grid.x(i), s = grid.y(beside); !heights.exists(x, s))
                 throw std::runtime_error(std::string("contact reaches the end of the profile of the ") +
-                                         (heights.rail(s).exists ? "wheel" : "rail") +
+                                         (heights.rail(x, s).exists ? "wheel" : "rail") +
                                          ", beyond which nothing is known of it");
+      if (!heights.is_constant())
+        for (unsigned int j = 0; j < grid.n_y; ++j)
+          for (unsigned int i = 1; i + 1 < grid.n_x; ++i)
+            for (const unsigned int beside : {i - 1, i + 1})
+              if (!is_empty(j * grid.n_x + i) && is_empty(j * grid.n_x + beside) &&
+                  heights.is_beyond_end(grid.x(beside)))
+                throw std::runtime_error("contact reaches the end of the rail's slices, beyond which nothing "
+                                         "is known of it");
       return result;
     }
 
@@ -187,10 +194,12 @@ namespace tread
       velocity[0] += rolling.speed;
       velocity[1] += rolling.lateral_speed;
       velocity[2] += patch.rise;
-      const double V         = rolling.speed - 0.5 * velocity[0];
-      patch.wheel_s          = wheel_s;
-      patch.wheel_angle      = wheel_angle;
-      patch.rolling_radius   = surfaces.radius() - surfaces.wheel().at(wheel_s).z;
+      const double V                     = rolling.speed - 0.5 * velocity[0];
+      patch.wheel_s                      = wheel_s;
+      patch.wheel_angle                  = wheel_angle;
+      const ProfileCurve::Place on_wheel = surfaces.wheel().at(wheel_s);
+      patch.rolling_radius               = surfaces.radius() - on_wheel.z +
+                             surfaces.wheel_surface().deviation(wheel_angle - position.pitch, on_wheel.y).dz;
       patch.rolling_speed    = V;
       patch.creepage         = velocity[0] / V;
       patch.lateral_creepage = dot(velocity, heights.along()) / V;
@@ -220,9 +229,9 @@ namespace tread
         solve_within(c, heights, rolling, range_of_overlap(surfaces, position, region, heights));
       patch.region.overlap = patch.solution.overlap;
       patch.wheel_radius   = surfaces.wheel().radius(wheel_s);
-      patch.rail_radius    = surfaces.rail().curve().radius(surfaces.rail().parameter(region.reference[1]));
-      patch.turn =
-        std::abs(heights.rail(patch.solution.y_end).angle - heights.rail(patch.solution.y_begin).angle);
+      patch.rail_radius    = heights.rail_radius();
+      patch.turn           = std::abs(heights.rail(0., patch.solution.y_end).angle -
+                                      heights.rail(0., patch.solution.y_begin).angle);
       return patch;
     }
   } // namespace
@@ -280,6 +289,8 @@ namespace tread
       {
         contact.patches.push_back(solve_patch(surfaces, rolling, straight, region));
         contact.patches.back().region.reference[0] += straight.ahead;
+        contact.patches.back().body = surfaces.rail_surface().body(
+          position.along + region.reference[0], region.reference[1] - surfaces.rail_origin_y());
         const Vector3d force = contact.patches.back().force();
         for (unsigned int d = 0; d < 3; ++d)
           contact.force[d] += force[d];
@@ -417,8 +428,7 @@ namespace tread
     position.height = 0.;
     const WheelOnRail::Nearest touch =
       surfaces.nearest(straightened(surfaces, position, rolling.own).position);
-    const double inclination = std::atan(surfaces.rail().slope(touch.point.place[1]));
-    const double first       = 20e-6 * std::pow(1e-4 * load, 2. / 3.) / std::cos(inclination);
+    const double first = 20e-6 * std::pow(1e-4 * load, 2. / 3.) / std::cos(touch.inclination);
 
     // Overlaps that are taken together are solved as one: where they meet, the force may jump over the load.
     // There they are kept apart for a little longer, or else taken together a little sooner.

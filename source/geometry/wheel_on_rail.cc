@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/wheel_on_rail.h>
 
+#include "overlap_search.h"
 #include "rotation.h"
-
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace tread
@@ -113,16 +114,40 @@ namespace tread
                            const ProfileCurve &rail,
                            const double        radius,
                            const TrackGauge   &gauge)
-    : wheel_profile(wheel)
-    , rail_profile(rail)
+    : WheelOnRail(WheelSurface(wheel), std::make_shared<PrismSurface>(rail), radius, gauge)
+  {
+  }
+
+
+  WheelOnRail::WheelOnRail(const WheelSurface              &wheel_surface,
+                           std::shared_ptr<const Surface>   rail_surface,
+                           const double                     radius,
+                           const TrackGauge                &gauge,
+                           const std::optional<RailOrigin> &origin)
+    : wheel_of(wheel_surface)
+    , rail_of(std::move(rail_surface))
+    , wheel_profile(wheel_surface.profile())
     , nominal_radius(radius)
     , wheel_y(gauge.wheel_origin())
+    , rail_y(origin ? origin->y : 0.)
+    , rail_z(origin ? origin->z : 0.)
   {
-    const auto [face_y, top] = gauge_face(rail, gauge.measuring_depth);
-    rail_y                   = 0.5 * gauge.gauge - face_y;
-    rail_z                   = 0. - top;
-    rail_profile             = CurveFromAbove(rail.moved(rail_y, rail_z), rail_y);
-    const auto n             = static_cast<unsigned int>(std::ceil(wheel.length() / sample_spacing));
+    const ProfileCurve &wheel = wheel_profile;
+    if (rail_of->is_constant())
+      {
+        const ProfileCurve rail = rail_of->sections(0.).front();
+        if (!origin)
+          {
+            const auto [face_y, top] = gauge_face(rail, gauge.measuring_depth);
+            rail_y                   = 0.5 * gauge.gauge - face_y;
+            rail_z                   = 0. - top;
+          }
+        rail_profile = CurveFromAbove(rail.moved(rail_y, rail_z), rail_y);
+        rail_section = std::make_shared<std::vector<ProfileCurve>>(1, rail_profile->curve());
+      }
+    else if (!origin)
+      throw std::runtime_error("a rail that changes along the way needs a place in the track");
+    const auto n = static_cast<unsigned int>(std::ceil(wheel.length() / sample_spacing));
     for (unsigned int i = 0; i <= n; ++i)
       {
         samples.push_back(wheel.length() * i / n);
@@ -140,7 +165,29 @@ namespace tread
 
   const CurveFromAbove &WheelOnRail::rail() const
   {
-    return rail_profile;
+    return rail_profile.value();
+  }
+
+
+  std::shared_ptr<const std::vector<ProfileCurve>> WheelOnRail::rail_sections(const double along) const
+  {
+    if (rail_section)
+      return rail_section;
+    auto sections = std::make_shared<std::vector<ProfileCurve>>();
+    for (const ProfileCurve &curve : rail_of->sections(along))
+      sections->push_back(curve.moved(rail_y, rail_z));
+    return sections;
+  }
+
+
+  std::shared_ptr<OverlapSearch> WheelOnRail::search_at(const WheelsetPosition &position) const
+  {
+    if (std::shared_ptr<OverlapSearch> last = std::atomic_load(&last_search);
+        last && last->is_at(*this, position))
+      return last;
+    auto search = std::make_shared<OverlapSearch>(*this, position);
+    std::atomic_store(&last_search, search);
+    return search;
   }
 
 
@@ -228,8 +275,8 @@ namespace tread
       return no_rail;
     point          = *found;
     const double y = point.place[1];
-    return y < rail_profile.begin() || y > rail_profile.end() ? no_rail
-                                                              : point.place[2] - rail_profile.height(y);
+    return y < rail_profile->begin() || y > rail_profile->end() ? no_rail
+                                                                : point.place[2] - rail_profile->height(y);
   }
 
 
@@ -248,9 +295,9 @@ namespace tread
         const double   r     = nominal_radius - p.z;
         const Vector3d place = turn(r * angle->sine, wheel_y + p.y, -r * angle->cosine);
         const double   y = place[1] + position.shift, z = place[2] + nominal_radius + position.height;
-        if (y < rail_profile.begin() || y > rail_profile.end())
+        if (y < rail_profile->begin() || y > rail_profile->end())
           continue;
-        const CurveFromAbove::RoughHeight rail = rail_profile.rough_height(y);
+        const CurveFromAbove::RoughHeight rail = rail_profile->rough_height(y);
         least[i]                               = z - rail.z - rail.error;
         most                                   = std::min(most, z - rail.z + rail.error);
       }
@@ -264,6 +311,8 @@ namespace tread
 
   WheelOnRail::Nearest WheelOnRail::nearest(const WheelsetPosition &position) const
   {
+    if (!is_constant())
+      return search_at(position)->nearest(position.height);
     Nearest      best{no_rail, {}};
     std::size_t  place = 0;
     OutlinePoint point{};
@@ -280,7 +329,7 @@ namespace tread
         "the wheel meets the rail with the edge of its profile only: it falls between the rails "
         "or off them");
     if (const double y = best.point.place[1], edge = 2. * sample_spacing;
-        y < rail_profile.begin() + edge || y > rail_profile.end() - edge)
+        y < rail_profile->begin() + edge || y > rail_profile->end() - edge)
       throw std::runtime_error(
         "wheel and rail do not meet on the rail's head, but at the end of its profile");
     // A minimum is no sharper than half of the digits.
@@ -293,6 +342,7 @@ namespace tread
         return g;
       },
       samples[place - 1], samples[place + 1], digits);
+    best.inclination = std::atan(rail_profile->slope(best.point.place[1]));
     return best;
   }
 
@@ -300,6 +350,8 @@ namespace tread
   std::vector<WheelOnRail::Region> WheelOnRail::overlaps(const WheelsetPosition &position,
                                                          const double            separation) const
   {
+    if (!is_constant())
+      return search_at(position)->overlaps(position.height, separation);
     // Intervals of the wheel's profile below the rail, their ends to round-off.
     struct Interval
     {
@@ -355,7 +407,7 @@ namespace tread
               {
                 const double s      = interval.begin + (i + 0.5) / n * (interval.end - interval.begin);
                 const double depth  = std::max(0., -gap(position, s, point));
-                const double slope  = std::atan(rail_profile.slope(point.place[1]));
+                const double slope  = std::atan(rail_profile->slope(point.place[1]));
                 const double weight = std::pow(depth, 2.5) * std::abs(wheel_profile.at(s).dy) *
                                       (interval.end - interval.begin) / n;
                 weights += weight;
@@ -369,7 +421,7 @@ namespace tread
           continue;
         y /= weights;
         region.angle     = angle / weights;
-        region.reference = {x / weights, y, rail_profile.height(y)};
+        region.reference = {x / weights, y, rail_profile->height(y)};
         regions.push_back(region);
       }
     return regions;

@@ -497,7 +497,7 @@ namespace
               // The other surface is as high as the curve of the rail from above.
               Vector3d on_rail = region.reference;
               for (unsigned int d = 0; d < 3; ++d)
-                on_rail[d] += s * heights.along()[d] + heights.rail(s).height * heights.normal()[d];
+                on_rail[d] += s * heights.along()[d] + heights.rail(x, s).height * heights.normal()[d];
               off_rail = std::max(off_rail, std::abs(surfaces.rail().height(on_rail[1]) - on_rail[2]));
               far      = std::max(far, std::abs(heights.gap(x, s)));
             }
@@ -521,7 +521,7 @@ namespace
                    {0., hooked.rail_origin_y() + 2e-3, hooked.rail().height(hooked.rail_origin_y() + 2e-3)}};
     const PatchSurfaces over(hooked, {}, region);
     check.absolute("rail that turns back: the surface that faces the wheel, um",
-                   1e6 * (over.rail(-1e-3).height + region.reference[2]),
+                   1e6 * (over.rail(0., -1e-3).height + region.reference[2]),
                    -1e6 * std::pow(1e-3, 2.) / 0.6 + 1e6 * hooked.rail_origin_z(), 15.);
   }
 

@@ -84,6 +84,7 @@ namespace tread
     reference::PlanarResult solution;
 
     double wheel_radius = 0., rail_radius = 0.; ///< of the profiles at the reference point (m)
+    std::string body; ///< of the rail on which it lies, where it has several
     double turn = 0.; ///< of the rail's normal from one edge of the patch to the other (rad)
     /// How far both surfaces give way here under the pressure of the other patches, each a point force on
     /// half-spaces that is felt along their distance (m). The solution leaves it out.

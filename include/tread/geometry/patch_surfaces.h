@@ -5,6 +5,8 @@
 #include <tread/geometry/wheel_on_rail.h>
 
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace tread
@@ -46,7 +48,10 @@ namespace tread
       double angle;  ///< inclination in the track, rad
       bool   exists; ///< not beyond the profile, whose end has these numbers
     };
-    RailPlace rail(double s) const;
+    /// x from the reference point.
+    RailPlace rail(double x, double s) const;
+    /// Of the rail's section at the reference point, positive where it bends down to both sides (m).
+    double rail_radius() const;
 
     struct WheelPlace
     {
@@ -59,10 +64,35 @@ namespace tread
     /// Height of the wheel above the rail, m; where one of them ends, that of its end and the distance to it.
     double gap(double x, double s) const;
 
+    bool is_constant() const
+    {
+      return surfaces.is_constant();
+    }
+    /// Whether the rail is not known at any s there.
+    bool is_beyond_end(const double x) const
+    {
+      return !surfaces.rail_surface().extent().includes(along_rail + x);
+    }
+
     /// Whether both bodies have a surface there.
     bool exists(const double x, const double s) const
     {
-      return rail(s).exists && wheel(x, s).exists;
+      return rail(x, s).exists && wheel(x, s).exists;
+    }
+
+    /// Steps of a profile over the plane.
+    struct Section
+    {
+      std::vector<double> s, height;
+      bool                increases = true; ///< s does
+    };
+    const Section &wheel_section(double x) const;
+    /// Of the pieces of the rail.
+    const std::vector<Section> &rail_sections(double x) const;
+    /// The parameter of the wheel's profile at a step of its section (m).
+    double parameter(const std::size_t step) const
+    {
+      return first_wheel_s + step * wheel_step;
     }
 
   private:
@@ -74,16 +104,26 @@ namespace tread
     };
     OnPlane on_plane(const ProfileCurve::Place &p, double x) const;
 
-    /// Steps of a profile over the plane.
-    struct Section
+    /// The rail across the plane at x.
+    struct RailAt
     {
-      std::vector<double> s, height;
-      bool                increases = true; ///< s does
+      std::shared_ptr<const std::vector<ProfileCurve>> curves;
+      std::vector<Section>                             sections;
+      std::vector<double>                              steps; ///< m
     };
+    const RailAt &rail_at(double x) const;
+    /// The piece of the rail, its parameter there, and whether it lies over s.
+    struct OnRail
+    {
+      const ProfileCurve *curve;
+      double              parameter;
+      bool                exists;
+    };
+    OnRail on_rail(double x, double s) const;
+
     /// The step of a section over which s lies and whose surface is the lowest, or with -1 the highest one.
     static int         step(const Section &section, double s, double sign);
     static std::size_t nearest_end(const Section &section, double s);
-    const Section     &wheel_section(double x) const;
 
     const WheelOnRail &surfaces;
     const Vector3d     origin;
@@ -91,11 +131,13 @@ namespace tread
     /// Columns of the rotation of the wheelset, and its middle over the radius of the wheel.
     Vector3d turn_x, turn_y, turn_z, middle;
 
-    double                              first_wheel_s, wheel_step, rail_step; ///< m
-    std::vector<ProfileCurve::Place>    wheel_places;
-    Section                             rail_section;
-    mutable std::map<double, Section>   sections; ///< of the wheel, by x
-    mutable std::map<double, RailPlace> known_rail;
+    double                            along_rail; ///< of the reference point, m
+    double                            pitch;
+    double                            first_wheel_s, wheel_step; ///< m
+    std::vector<ProfileCurve::Place>  wheel_places;
+    mutable std::map<double, RailAt>  rails;    ///< by x, one of a rail that does not change
+    mutable std::map<double, Section> sections; ///< of the wheel, by x
+    mutable std::map<std::pair<double, double>, RailPlace> known_rail; ///< by x and s
   };
 } // namespace tread
 

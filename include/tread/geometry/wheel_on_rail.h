@@ -3,8 +3,10 @@
 #define tread_geometry_wheel_on_rail_h
 
 #include <tread/geometry/profile_curve.h>
+#include <tread/geometry/surface.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,10 +25,12 @@ namespace tread
       0.; ///< positive: the leading side turns to the own side, so that the own wheel falls back (rad)
     double roll   = 0.; ///< positive: the own side goes down (rad)
     double height = 0.; ///< of the wheelset's middle over the wheel's radius (m)
+    double along  = 0.; ///< of the wheelset's middle on a rail that changes along the way (m)
+    double pitch  = 0.; ///< of a wheel that is not round: turned about the axle, negative forward (rad)
 
     WheelsetPosition mirrored() const
     {
-      return {0. - shift, 0. - yaw, 0. - roll, height};
+      return {0. - shift, 0. - yaw, 0. - roll, height, along, pitch};
     }
   };
 
@@ -44,11 +48,12 @@ namespace tread
     }
   };
 
-  /// One wheel of a wheelset, a surface of revolution about the axle, over its rail, a prism along x: both
-  /// rigid.
+  class OverlapSearch;
+
+  /// One wheel of a wheelset over its rail: both rigid.
   ///
-  /// The position is a roll about x, then a yaw about the rolled vertical axis; turning about the axle
-  /// changes nothing.
+  /// The position is a roll about x, then a yaw about the rolled vertical axis, then a pitch about the axle,
+  /// which changes nothing of a round wheel. x counts from the middle of the wheelset.
   class WheelOnRail
   {
   public:
@@ -57,12 +62,41 @@ namespace tread
     /// @throws std::runtime_error, one line, for a rail without a gauge face.
     WheelOnRail(const ProfileCurve &wheel, const ProfileCurve &rail, double radius, const TrackGauge &gauge);
 
+    /// Where y = 0 and z = 0 of a rail's surface lie in the track (m).
+    struct RailOrigin
+    {
+      double y, z;
+    };
+    /// Surfaces that may change along the way.
+    /// @param origin none: the rail is placed by its gauge face, which a rail of one profile has
+    /// @throws as above
+    WheelOnRail(const WheelSurface              &wheel,
+                std::shared_ptr<const Surface>   rail,
+                double                           radius,
+                const TrackGauge                &gauge,
+                const std::optional<RailOrigin> &origin = {});
+
     double                radius() const;
-    const CurveFromAbove &rail() const;          ///< in track axes
-    const ProfileCurve   &wheel() const;         ///< in its own axes
-    double                rail_origin_y() const; ///< where y = 0 of the rail's curve lies in the track (m)
-    double                rail_origin_z() const;
-    double                wheel_origin_y() const; ///< of the wheel's profile on the axle, from the middle (m)
+    const CurveFromAbove &rail() const;  ///< in track axes. @pre it is the same at every x
+    const ProfileCurve   &wheel() const; ///< in its own axes, where it is round
+    /// The sections of the rail in track axes at a place along the rail (m).
+    std::shared_ptr<const std::vector<ProfileCurve>> rail_sections(double along) const;
+    const Surface                                   &rail_surface() const
+    {
+      return *rail_of;
+    }
+    const WheelSurface &wheel_surface() const
+    {
+      return wheel_of;
+    }
+    /// Whether only places of the outline can touch.
+    bool is_constant() const
+    {
+      return rail_of->is_constant() && wheel_of.is_constant();
+    }
+    double rail_origin_y() const; ///< where y = 0 of the rail's curve lies in the track (m)
+    double rail_origin_z() const;
+    double wheel_origin_y() const; ///< of the wheel's profile on the axle, from the middle (m)
     /// Whether a place of the wheel's profile, by its parameter, lies on the flange between its steepest part
     /// and its tip, where a wheel stands only while it climbs out of the track.
     bool is_beyond_flank(const double s) const
@@ -99,6 +133,7 @@ namespace tread
     {
       double       gap; ///< along z, negative: overlap (m)
       OutlinePoint point;
+      double       inclination = 0.; ///< of the rail there (rad)
     };
     /// @throws std::runtime_error where the wheel meets no rail.
     Nearest nearest(const WheelsetPosition &position) const;
@@ -113,6 +148,13 @@ namespace tread
       double       angle   = 0.; ///< of the rail there, mean with the same weight: dz/dy = tan(angle) (rad)
       double       overlap = 0.; ///< largest, along the normal (m)
       unsigned int parts   = 0;  ///< overlaps taken together
+      /// Where it lies in the plane at that angle, from the reference point; of an outline it is not known
+      /// (m).
+      struct Box
+      {
+        double x_low = 0., x_high = 0., s_low = 0., s_high = 0.;
+      };
+      std::optional<Box> box{};
     };
     /// @param separation along the surface, m
     std::vector<Region> overlaps(const WheelsetPosition &position, double separation) const;
@@ -123,10 +165,17 @@ namespace tread
     /// The samples at which the gap may be smallest.
     std::vector<std::size_t> near_samples(const WheelsetPosition &position) const;
 
-    ProfileCurve   wheel_profile;
-    CurveFromAbove rail_profile;
-    double         nominal_radius, wheel_y, rail_y, rail_z;
-    double         flank_end; ///< s where the steepest part ends towards the tip; 0: no flange
+    /// The search at a position, kept for its other heights.
+    std::shared_ptr<OverlapSearch> search_at(const WheelsetPosition &position) const;
+
+    WheelSurface                                     wheel_of;
+    std::shared_ptr<const Surface>                   rail_of;
+    ProfileCurve                                     wheel_profile;
+    std::optional<CurveFromAbove>                    rail_profile; ///< of one that does not change
+    std::shared_ptr<const std::vector<ProfileCurve>> rail_section; ///< the same
+    double                                           nominal_radius, wheel_y, rail_y, rail_z;
+    double flank_end; ///< s where the steepest part ends towards the tip; 0: no flange
+    mutable std::shared_ptr<OverlapSearch> last_search; ///< shared by copies
     /// Places of the profile at which the wheel is looked at.
     std::vector<double>              samples; ///< s
     std::vector<ProfileCurve::Place> places;

@@ -1,0 +1,192 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A wheel over a crossing, by half-space theory: where it touches, with which forces and pressures.
+
+    crossing-table.py --positions IN.csv --output OUT.csv [--rail SLICES] [--wheel S1002] ...
+    crossing-table.py [--picture crossing.png] [--element 0]
+
+IN.csv has a row for each position: s_mm along the rail, y_ws_mm to the side of the wheel, load_N or z_ws_mm (down, of the axle from the
+radius), and where wanted yaw_rad and roll_rad. OUT.csv has a row for each patch: s_mm, y_ws_mm, x_mm ahead of the axle, y_mm from the middle
+of the track, normal_force_N, max_pressure_Pa and part, the body of the rail; a position without contact has a row with the forces 0.
+Without --positions: the table of doc/crossing.md, given positions of a British crossing beside CONTACT's figures, and the picture.
+
+The program does the work (tread --positions); elements of 0.2 mm are those of the figures compared with, 0 takes its own, which are finer.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import os
+import tempfile
+from collections.abc import Iterable, Mapping
+
+from tread import Error
+from tread.commands import command_parser, run_command
+from tread.runs import PROGRAM, ROOT, execute, must_end_well
+
+RAIL = os.path.join(ROOT, "contrib", "contact-data", "crossing_uk56E1.csv")
+GIVEN = os.path.join(ROOT, "contrib", "contact-data", "crossing_given.csv")
+COLUMNS = ("s_mm", "y_ws_mm", "x_mm", "y_mm", "normal_force_N", "max_pressure_Pa", "part")
+SHEAR_MODULUS, POISSON = 82e9, 0.28  # of the figures compared with
+
+
+def rows_of(path: str) -> list[dict[str, str]]:
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as stream:
+            return list(csv.DictReader(line for line in stream if not line.startswith("#")))
+    except UnicodeDecodeError as error:
+        raise Error(f"{path}: {error}") from None
+
+
+def number(row: Mapping[str, str], name: str, where: str) -> float | None:
+    """The entry of a column; None where there is none. @raises Error"""
+    text = (row.get(name) or "").strip()
+    if not text:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        raise Error(f"{where}: {name} is '{text}', which is no number") from None
+
+
+def solve(positions: Iterable[Mapping[str, str]], where: str, options: argparse.Namespace) -> list[list[dict[str, str]]]:
+    """The patches of each position. @raises Error"""
+    common = {"friction": options.friction, "angular_velocity_rad_per_s": options.angular_velocity, "speed_m_per_s": options.speed,
+              "young_Pa": 2 * SHEAR_MODULUS * (1 + POISSON), "poisson": POISSON, "radius_mm": options.radius, "rail_y_mm": options.rail_y,
+              "element_x_mm": options.element, "element_y_mm": options.element, "rail": os.path.abspath(options.rail),
+              "wheel": os.path.abspath(options.wheel) if os.path.exists(options.wheel) else options.wheel}
+    groups: dict[str, list[tuple[int, dict]]] = {"load_N": [], "height_mm": []}
+    n_positions = 0
+    for place, row in enumerate(positions):
+        n_positions += 1
+        at = f"{where}, row {place + 1}"
+        load, depth = number(row, "load_N", at), number(row, "z_ws_mm", at)
+        own = {name: number(row, name, at) for name in ("s_mm", "y_ws_mm")}
+        if None in own.values() or (load is None) == (depth is None):
+            raise Error(f"{at}: needs s_mm, y_ws_mm and one of load_N and z_ws_mm")
+        own.update({name: number(row, name, at) or 0. for name in ("yaw_rad", "roll_rad")})
+        key, value = ("load_N", load) if depth is None else ("height_mm", 0. - depth)
+        groups[key].append((place, {**own, key: value, **common}))
+    answers: list[list[dict[str, str]]] = [[] for _ in range(n_positions)]
+    for rows in groups.values():
+        if not rows:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            table, output = os.path.join(folder, "positions.csv"), os.path.join(folder, "patches.csv")
+            with open(table, "w", encoding="utf-8", newline="") as stream:
+                writer = csv.DictWriter(stream, list(rows[0][1]))
+                writer.writeheader()
+                writer.writerows(row for _, row in rows)
+            done = execute(["--positions", table, "--output", output], program=options.program)
+            if not os.path.exists(output):
+                must_end_well(done)
+                raise Error("the program wrote no table")
+            if done.returncode:  # What was solved is still of use; rows with nan tell which was not.
+                print("warning: " + (done.stderr.strip().splitlines() or ["some positions were not solved"])[-1])
+            for row in rows_of(output):
+                answers[rows[int(row["row"]) - 1][0]].append(row)
+    return answers
+
+
+def write(path: str, answers: Iterable[Iterable[Mapping[str, str]]]) -> None:
+    with open(path, "w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, COLUMNS, extrasaction="ignore", lineterminator="\n")
+        writer.writeheader()
+        for patches in answers:
+            writer.writerows(patches)
+
+
+def compare(options: argparse.Namespace) -> None:
+    given = rows_of(GIVEN)
+    keys = list(dict.fromkeys((row["s_mm"], row["y_ws_mm"]) for row in given))
+    of = {key: [row for row in given if (row["s_mm"], row["y_ws_mm"]) == key] for key in keys}
+    answers = solve([of[key][0] for key in keys], GIVEN, options)
+    print("| s, mm | y_ws, mm | part | FN, N | CONTACT | diff. | p_max, MPa | CONTACT | diff. | x, mm | y, mm | off in x, um | in y, um |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+    worst: dict[str, list[float]] = {"FN": [], "p_max": [], "place": []}
+    for key, patches in zip(keys, answers):
+        for row in of[key]:
+            x, y = float(row["x_mm"]), float(row["y_mm"])
+            near = [patch for patch in patches if abs(float(patch["y_mm"]) - y) < 5.]
+            if not near:
+                print(f"| {key[0]} | {key[1]} | | | {row['normal_force_N']} | no patch |")
+                continue
+            patch = near[0]
+            force, wanted = float(patch["normal_force_N"]), float(row["normal_force_N"])
+            pressure, printed = 1e-6 * float(patch["max_pressure_Pa"]), float(row["max_pressure_MPa"])
+            off = [1e3 * (float(patch[name]) - value) for name, value in (("x_mm", x), ("y_mm", y))]
+            if wanted > 200.:
+                worst["FN"].append(100 * abs(force / wanted - 1))
+                worst["p_max"].append(100 * abs(pressure / printed - 1))
+                worst["place"].append(max(abs(off[0]), abs(off[1])))
+            print(f"| {key[0]} | {key[1]} | {patch['part']} | {force:.0f} | {wanted:.0f} | {100 * (force / wanted - 1):+.2f} % | {pressure:.0f} | "
+                  f"{printed:.0f} | {100 * (pressure / printed - 1):+.2f} % | {float(patch['x_mm']):.3f} | {float(patch['y_mm']):.3f} | "
+                  f"{off[0]:+.0f} | {off[1]:+.0f} |")
+    print()
+    for name, unit in (("FN", "%"), ("p_max", "%"), ("place", "um")):
+        values = sorted(worst[name])
+        print(f"{name}, patches above 200 N: median {values[len(values) // 2]:.2f} {unit}, largest {values[-1]:.2f} {unit}")
+    if options.picture:
+        draw(options.picture, options.rail, of, answers)
+
+
+def draw(path: str, rail: str, positions: Mapping[tuple[str, str], list[dict[str, str]]], answers: list[list[dict[str, str]]]) -> None:
+    from tread.plots import BLUE, GREEN, ORANGE, RED, save, subplots, use_style
+
+    use_style()
+    figure, (above, beside) = subplots(2, 1, figsize=(9, 7))
+    slices: dict[str, list[dict[str, str]]] = {}
+    for row in rows_of(rail):
+        slices.setdefault(row["x_mm"], []).append(row)
+    colours = {"nose": BLUE, "wing": GREEN, "gap": "0.8"}
+    for x, points in slices.items():
+        for body, colour in colours.items():
+            y = [float(point["y_mm"]) for point in points if point["body"] == body and float(point["z_mm"]) > -12.]
+            if y:
+                above.plot(len(y) * [float(x)], y, color=colour, linewidth=0.8)
+    for (s, _), patches in zip(positions, answers):
+        for patch in patches:
+            size = 0.25 * float(patch["normal_force_N"])**0.5
+            above.plot(float(s) + float(patch["x_mm"]), float(patch["y_mm"]) - 750., "o", color=RED, markersize=size, alpha=0.3)
+    above.set(xlabel="along the rail, mm", ylabel="y of the slices, mm", title="Slices within 12 mm of the top: nose (blue), wing (green); "
+              "patches, area as the force")
+    for body, colour in (("nose", ORANGE), ("wing", RED)):
+        shifts = [(float(y), sum(float(patch["normal_force_N"]) for patch in patches if patch["part"] == body))
+                  for (s, y), patches in zip(positions, answers) if s == "239"]
+        beside.plot(*zip(*shifts), "-", color=colour, label=f"{body}, tread")
+        printed = [(float(row["y_ws_mm"]), float(row["normal_force_N"])) for (s, _), rows in positions.items() if s == "239" for row in rows
+                   if (float(row["y_mm"]) > 755) == (body == "wing")]
+        beside.plot(*zip(*printed), "o", color=colour, fillstyle="none", label=f"{body}, CONTACT")
+    beside.set(xlabel="lateral shift of the wheelset at 239 mm, mm", ylabel="normal force, N", title="The load goes over from the wing to the nose")
+    beside.legend()
+    save(figure, path)
+
+
+def main() -> None:
+    parser = command_parser(__doc__)
+    parser.add_argument("--positions", metavar="IN.csv")
+    parser.add_argument("--output", metavar="OUT.csv")
+    parser.add_argument("--picture", metavar="PNG", help="of the given positions")
+    parser.add_argument("--rail", default=RAIL, help="slices: .slcs or .csv (the crossing of doc/crossing.md)")
+    parser.add_argument("--rail-y", type=float, default=750., help="where y = 0 of the slices lies in the track, mm (750)")
+    parser.add_argument("--wheel", default="S1002", help="profile, or its file (S1002)")
+    parser.add_argument("--radius", type=float, default=460., help="of the wheel, mm (460)")
+    parser.add_argument("--friction", type=float, default=0.3, help="coefficient (0.3)")
+    parser.add_argument("--speed", type=float, default=2., help="m/s (2)")
+    parser.add_argument("--angular-velocity", type=float, default=4.3481181, help="about the axle, rad/s (4.3481181)")
+    parser.add_argument("--element", type=float, default=0.2, help="edge of the elements, mm; 0: the program's own (0.2)")
+    parser.add_argument("--program", default=PROGRAM, help="tread")
+    arguments = parser.parse_args()
+    if bool(arguments.positions) != bool(arguments.output):
+        raise Error("--positions and --output belong together")
+    if arguments.positions:
+        answers = solve(rows_of(arguments.positions), arguments.positions, arguments)
+        write(arguments.output, answers)
+        print(f"{len(answers)} positions, {sum(map(len, answers))} rows. Results in {arguments.output}")
+    else:
+        compare(arguments)
+
+
+if __name__ == "__main__":
+    run_command(main)

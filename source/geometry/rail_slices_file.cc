@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/csv_table.h>
+#include <tread/base/format.h>
+#include <tread/base/input_error.h>
+#include <tread/geometry/rail_slices.h>
+#include <tread/geometry/slice_list.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace tread
+{
+  namespace
+  {
+    using Point = dealii::Point<2>;
+
+    /// z up and y from low to high. Most of a rail's surface lies near its top, so that the end further from
+    /// the median height is the lower one.
+    void set_upright(RailSlices &rail)
+    {
+      std::vector<double> heights;
+      for (const RailSlice &slice : rail.slices)
+        for (const Point &p : slice.points)
+          heights.push_back(p[1]);
+      std::sort(heights.begin(), heights.end());
+      const double median = heights[heights.size() / 2];
+      if (heights.back() - median > median - heights.front())
+        for (RailSlice &slice : rail.slices)
+          for (Point &p : slice.points)
+            p[1] = 0. - p[1];
+      for (RailSlice &slice : rail.slices)
+        if (slice.points.back()[0] < slice.points.front()[0])
+          {
+            require(slice.breaks.empty(), "'" + rail.file + "', slice at " + text_in_mm(slice.x) +
+                                            " mm: points of a slice that is cut must run from low to high y");
+            std::reverse(slice.points.begin(), slice.points.end());
+            std::reverse(slice.bodies.begin(), slice.bodies.end());
+          }
+    }
+
+    /// A table with a row for each point.
+    RailSlices read_table(const std::string &file)
+    {
+      const CsvTable table(
+        file,
+        [](const std::string &name) {
+          return name == "x_mm" || name == "y_mm" || name == "z_mm" || name == "part" || name == "body";
+        },
+        "cannot read '" + file + "'", [](const std::string &name) { return name == "body"; });
+      const std::vector<double> &x = table.column("x_mm"), &y = table.column("y_mm"),
+                                &z = table.column("z_mm");
+      const std::vector<double> part =
+        table.has("part") ? table.column("part") : std::vector<double>(x.size(), 0.);
+      const auto fail = [&](const std::size_t row, const std::string &what) {
+        throw InputError("'" + file + "', row " + std::to_string(row + 1) + ": " + what);
+      };
+      const double     n_parts = part.empty() ? 0. : *std::max_element(part.begin(), part.end());
+      constexpr double most    = 100.;
+      RailSlices       rail{file, {}};
+      double           length = 0.;
+      for (std::size_t row = 0; row < x.size(); ++row)
+        {
+          if (!(part[row] >= 0. && part[row] <= most && part[row] == std::floor(part[row])))
+            fail(row, "part is " + text_of(part[row]) +
+                        "; it must be a whole number, 0 where the slice is not cut");
+          const Point p(1e-3 * y[row], 1e-3 * z[row]);
+          const bool  begins = rail.slices.empty() || 1e-3 * x[row] != rail.slices.back().x;
+          if (begins)
+            {
+              rail.slices.push_back({1e-3 * x[row], {}, {}, {}});
+              length = 0.;
+              if (part[row] > 0.)
+                rail.slices.back().breaks.assign(n_parts + 1, std::numeric_limits<double>::quiet_NaN());
+            }
+          RailSlice &slice = rail.slices.back();
+          if (!begins)
+            length += p.distance(slice.points.back());
+          const auto now = static_cast<std::size_t>(part[row]);
+          if (!begins && (now == 0) != slice.breaks.empty())
+            fail(row, "a slice is cut as a whole or not at all: part is 0 for some of its points only");
+          if (now > 0)
+            {
+              const auto before = static_cast<std::size_t>(begins ? part[row] : part[row - 1]);
+              if (begins || now != before)
+                {
+                  if (now < before)
+                    fail(row, "part " + text_of(part[row]) + " comes after part " + text_of(part[row - 1]) +
+                                "; numbers must grow along a slice");
+                  if (!begins && now > before + 1)
+                    fail(row, "part " + text_of(part[row - 1] + 1.) + " is missing between its neighbours");
+                  slice.breaks[now - 1] = length;
+                }
+              slice.breaks[now] = length;
+            }
+          slice.points.push_back(p);
+          if (table.has("body"))
+            slice.bodies.push_back(table.words("body")[row]);
+        }
+      if (rail.slices.empty())
+        throw InputError("'" + file + "' has no points");
+      return rail;
+    }
+
+    RailSlices read_contact(const std::string &file)
+    {
+      const SliceList list = read_slice_list(file);
+      require(!list.approximates,
+              "'" + file + "', line " + std::to_string(list.line_of_method) +
+                ": S_METHOD 2 is not available for rails; the splines go through the slices, 1");
+      RailSlices rail{file, {}};
+      double     largest = 0.;
+      for (const SliceList::Entry &entry : list.entries)
+        {
+          RailSlice slice{1e-3 * entry.along, {}, {}, {}};
+          for (const auto &[y, z] : entry.points)
+            {
+              slice.points.emplace_back(y, z);
+              largest = std::max({largest, std::abs(y), std::abs(z)});
+            }
+          for (const double at : entry.features)
+            slice.breaks.push_back(at < 0. ? std::numeric_limits<double>::quiet_NaN() : 1e-3 * at);
+          rail.slices.push_back(slice);
+        }
+      // Points were read as if they were in mm.
+      constexpr double largest_in_m = 1e-3;
+      const double     unit         = largest < largest_in_m ? 1e3 : 1.;
+      for (RailSlice &slice : rail.slices)
+        {
+          double length = 0.;
+          for (std::size_t k = 0; k < slice.points.size(); ++k)
+            {
+              slice.points[k] *= unit;
+              if (k > 0)
+                length += slice.points[k].distance(slice.points[k - 1]);
+            }
+          // A number beyond the end stands for the end.
+          for (double &at : slice.breaks)
+            at = std::isnan(at) ? at : std::min(at, length);
+          if (!slice.breaks.empty())
+            {
+              length = 0.;
+              for (std::size_t k = 0; k < slice.points.size(); ++k)
+                {
+                  if (k > 0)
+                    length += slice.points[k].distance(slice.points[k - 1]);
+                  std::size_t part = 0;
+                  for (std::size_t b = 0; b + 1 < slice.breaks.size(); ++b)
+                    if (length >= slice.breaks[b])
+                      part = b + 1;
+                  slice.bodies.push_back(std::to_string(part));
+                }
+            }
+        }
+      return rail;
+    }
+
+    /// The formats, each with one line.
+    struct Format
+    {
+      std::string                                    ending;
+      std::function<RailSlices(const std::string &)> read;
+    };
+    const std::vector<Format> &formats()
+    {
+      static const std::vector<Format> list{{".slcs", read_contact}, {".csv", read_table}};
+      return list;
+    }
+  } // namespace
+
+
+  RailSlices read_rail_slices(const std::string &file)
+  {
+    std::string known;
+    for (const Format &format : formats())
+      {
+        if (file.size() > format.ending.size() &&
+            file.compare(file.size() - format.ending.size(), format.ending.size(), format.ending) == 0)
+          {
+            RailSlices rail = format.read(file);
+            set_upright(rail);
+            return rail;
+          }
+        known += (known.empty() ? "" : " or ") + format.ending;
+      }
+    throw InputError("'" + file + "': slices of a rail must be in a file that ends in " + known);
+  }
+} // namespace tread
