@@ -166,19 +166,6 @@ namespace tread
     write_answers(cases, output, grammar, answers);
     progress.say(
       format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
-    // Strains are about pressure over Young's modulus; NaN compares false.
-    constexpr double large_strain = 0.1;
-    std::size_t      n_large = 0, first_large = 0;
-    for (std::size_t row = problems.size(); row-- > 0;)
-      if (answers[row].max_pressure > large_strain * problems[row].young)
-        {
-          ++n_large;
-          first_large = row;
-        }
-    if (n_large > 0)
-      progress.say(format("WARNING: in %zu cases, the first in row %zu, the largest pressure is above %g of "
-                          "'young_Pa': too much for small strains; is its unit Pa?",
-                          n_large, first_large + 1, large_strain));
     if (failed > 0)
       {
         const std::size_t first =
