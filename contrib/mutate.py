@@ -36,10 +36,33 @@ from tread.tables import fill, machine, markdown
 
 HEADER = """#ifndef tread_base_chosen_fault_h
 #define tread_base_chosen_fault_h
+#include <cstdio>
 #include <cstdlib>
 namespace tread
 {
+  // -1: none acts, and the numbers of those that are reached are appended to the file TREAD_FAULTS_REACHED.
   inline const int chosen_fault = std::getenv("TREAD_FAULT") ? std::atoi(std::getenv("TREAD_FAULT")) : 0;
+  inline bool note_reached_fault(const int number)
+  {
+    const char *name = std::getenv("TREAD_FAULTS_REACHED");
+    if (std::FILE *file = name ? std::fopen(name, "a") : nullptr)
+      {
+        std::fprintf(file, "%d\\n", number);
+        std::fclose(file);
+      }
+    return false;
+  }
+  template <int number>
+  bool reached_fault()
+  {
+    static const bool noted = note_reached_fault(number);
+    return noted;
+  }
+  template <int number>
+  inline bool fault_acts()
+  {
+    return chosen_fault == number || (chosen_fault < 0 && reached_fault<number>());
+  }
 }
 #endif
 """
@@ -76,10 +99,12 @@ def faults_of_lists():
 
 
 def with_faults(text, faults):
-    """The text of a file in which each of the faults waits for its number."""
+    """The text of a file in which each of the faults waits for its number; `both`: the text that chooses, where it is another one."""
     for fault in sorted(faults, key=lambda fault: -fault["begin"]):
-        old, new, chosen = fault["old"], fault["new"], f"tread::chosen_fault == {fault['number']}"
-        if old.endswith(";"):
+        old, new, chosen = fault["old"], fault["new"], f"tread::fault_acts<{fault['number']}>()"
+        if "both" in fault:
+            both = fault["both"].replace("CHOSEN", chosen)
+        elif old.endswith(";"):
             both = f"if ({chosen}) {{ {new} }} else {{ {old} }}"
         else:
             both = f"({chosen} ? ({new}) : ({old}))"
@@ -134,14 +159,14 @@ def tests_of(folder):
     return {test["name"]: test for test in json.loads(listed)["tests"]}
 
 
-def fails(test, number):
-    """Whether a test does not pass while a fault acts; 0: none."""
+def fails(test, number, longest=LONGEST, **more):
+    """Whether a test does not pass while a fault acts, or takes longer than `longest` s; 0: none. more: variables of its environment."""
     properties = {entry["name"]: entry["value"] for entry in test["properties"]}
     variables = environment() | dict(entry.split("=", 1) for entry in properties.get("ENVIRONMENT", []))
-    process = subprocess.Popen(test["command"], cwd=properties["WORKING_DIRECTORY"], env=variables | {"TREAD_FAULT": str(number)},
+    process = subprocess.Popen(test["command"], cwd=properties["WORKING_DIRECTORY"], env=variables | {"TREAD_FAULT": str(number)} | more,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
-        return process.wait(timeout=LONGEST) != 0
+        return process.wait(timeout=longest) != 0
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, 9)
         process.wait()
@@ -265,4 +290,5 @@ def main():
         sys.exit("no test notices " + ", ".join(surviving))
 
 
-run_command(main)
+if __name__ == "__main__":
+    run_command(main)

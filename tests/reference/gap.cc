@@ -524,6 +524,24 @@ namespace
     refused("approach without contact", "approach", [&] { solve_normal(fourier, op, normal); });
     normal.gap.pop_back();
     refused("gap of wrong size", "size of gap", [&] { solve_normal(fourier, op, normal); });
+    // Each field by itself: all have a length of their own.
+    const std::pair<const char *, Field TangentialProblem::*> fields[] = {
+      {"previous_shear_x", &TangentialProblem::previous_shear_x},
+      {"previous_shear_y", &TangentialProblem::previous_shear_y},
+      {"before_shear_x", &TangentialProblem::before_shear_x},
+      {"before_shear_y", &TangentialProblem::before_shear_y},
+      {"previous_pressure", &TangentialProblem::previous_pressure},
+      {"friction_share", &TangentialProblem::friction_share},
+      {"initial_shear_x", &TangentialProblem::initial_shear_x},
+      {"initial_shear_y", &TangentialProblem::initial_shear_y}};
+    for (const auto &[name, field] : fields)
+      {
+        TangentialProblem longer;
+        longer.friction = 0.3;
+        longer.*field   = Field(grid.size() + 1, 0.);
+        refused(std::string(name) + " of wrong size", std::string("size of ") + name,
+                [&] { solve_tangential(grid, pair, Field(grid.size(), 1e8), longer); });
+      }
     TangentialProblem t;
     t.friction = 0.3;
     refused("tangential problem without contact", "no contact",

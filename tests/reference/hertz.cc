@@ -107,6 +107,14 @@ namespace
         check.that(name + "axes exchange with A and B",
                    t.semi_axis_x == h.semi_axis_y && t.semi_axis_y == h.semi_axis_x);
       }
+    // 1 - 0.36 - 0.28: six tenths of the largest pressure; nothing beyond the edge on either axis
+    const HertzEllipse press = hertz_ellipse(1. / 0.88, 1. / 0.56, modulus, 90e3);
+    check.relative("pressure in an ellipse over the largest one",
+                   press.pressure(-0.6 * press.semi_axis_x, std::sqrt(0.28) * press.semi_axis_y) /
+                     press.max_pressure,
+                   0.6, 1e-13);
+    check.that("no pressure outside of the ellipse", press.pressure(1.001 * press.semi_axis_x, 0.) == 0. &&
+                                                       press.pressure(0., -1.001 * press.semi_axis_y) == 0.);
     // nearly a line: the ellipse's p0 against the line's at the force per length of its middle, 3 N/(4 b)
     const HertzEllipse slender = hertz_ellipse(1., 1e-6, modulus, 1e5);
     const HertzLine    line    = hertz_line(0.5, modulus, 0.75e5 / slender.semi_axis_y);
