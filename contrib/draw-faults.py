@@ -462,7 +462,7 @@ def folder_of(file: str) -> str:
     return "contrib/python/tread" if file.endswith(".py") else os.path.join(*file.split(os.sep)[:2]) if file.count(os.sep) > 1 else "source"
 
 
-def write_page(seed: int, faults: list[dict], inside: list[int], attempts: Attempts, not_compiled: int) -> None:
+def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], attempts: Attempts, not_compiled: int) -> None:
     """The tables of doc/mutations.md on drawn faults."""
     path = os.path.join(ROOT, f"tests/mutations/drawn/{seed}.toml")
     known = {one["number"]: one for one in read_toml(path)["fault"]} if os.path.exists(path) else {}
@@ -488,8 +488,9 @@ def write_page(seed: int, faults: list[dict], inside: list[int], attempts: Attem
     names = [f"`{name}`" for name, test in sorted(attempts.tests.items()) if test["passes"]]
     missing = "" if not not_compiled else f" ({not_compiled} more did not)"
     fill("mutations.md", "drawn", markdown(["folder", "drawn", "tried", "noticed", "share", "with the tests written since", "share"], rows)
-         + f"\n\nThe first {len(faults)} faults of seed {seed} that compile{missing}. What ran: {', '.join(names)}; "
+         + f"\n\nThe first {len(faults)} faults of seed {seed} that compile{missing}, drawn from the sources of {commit}. What ran: {', '.join(names)}; "
          + f"{sum(attempts.of(fault['number'])['seconds'] for fault in faults):.0f} s with a fault on a machine that was busy otherwise. "
+         + ("Tried are those that one of these tests reaches; nothing is known of the others. " if any(f["number"] not in inside for f in faults) else "")
          + f"{machine()}; `contrib/draw-faults.py --seed {seed} --number {len(faults)} --try`.")
     fill("mutations.md", "drawn survivors", markdown(["number", "line", "it was", "with the fault", "why no test noticed it"], survivors or [["-"] * 5]))
     fill("mutations.md", "drawn noticed", markdown(["number", "line", "change", "noticed by"], noticed_by or [["-"] * 4]))
@@ -526,16 +527,17 @@ def main() -> None:
     store = os.path.join(arguments.folder, "built.json")
     if os.path.exists(store):
         with open(store, encoding="utf-8") as stream:
-            more, inside, impossible = json.load(stream)
+            commit, more, inside, impossible = json.load(stream)
     else:
         inside, impossible = build_copy(arguments.folder, more, arguments.jobs)
-        write_if_changed(store, json.dumps([more, inside, impossible], indent=1))
+        commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+        write_if_changed(store, json.dumps([commit, more, inside, impossible], indent=1))
     chosen = [fault for fault in more if fault["number"] not in impossible][:arguments.number]
     numbers = [fault["number"] for fault in chosen]
     if left_out := [number for number in numbers if number not in inside]:
         print("in no program, to be built one by one: " + ", ".join(map(str, left_out)), flush=True)
     attempts = try_all(arguments.folder, numbers, arguments.longest_test, arguments.longest, arguments.tests)
-    write_page(arguments.seed, chosen, inside, attempts, sum(number < numbers[-1] for number in impossible))
+    write_page(arguments.seed, commit, chosen, inside, attempts, sum(number < numbers[-1] for number in impossible))
 
 
 if __name__ == "__main__":

@@ -300,11 +300,11 @@ class Crossings(InFolder):
 
     COMMAND = os.path.join(ROOT, "contrib", "plot", "plot-crossing.py")
 
-    def write_run(self, name, positions):
+    def write_run(self, name, positions, step_y=0.5):
         lines = ["time_s,position_mm,x_mm,y_mm,z_mm,area_mm2,pressure_MPa,shear_x_MPa,shear_y_MPa,slip_x_m_per_s,slip_y_m_per_s,state"]
         for i, position in enumerate(positions):
             for x in np.arange(-30, 40.1, 0.5):
-                for y in np.arange(-4, 4.1, 0.5):
+                for y in np.arange(-4, 4.1, step_y):
                     square = 1 - ((x - position) / 6) ** 2 - (y / 4) ** 2
                     if square <= 0 or (2 < x < 8 and abs(y) < 1.1):  # deep in the defect there is no contact
                         continue

@@ -22,13 +22,14 @@ import h5py
 import numpy as np
 
 import tread
+import package_test
 from package_test import InFolder, write
 from tread import plots
 from tread.defects import extents_of_defects, profile_length
 from tread.differences import other_bits
 from tread.files import DataError
 from tread.loads import static_load
-from tread.pictures import history, impact, mesh, patch, profiles
+from tread.pictures import contact_points, crossing, history, impact, mesh, patch, profiles
 from tread.point_files import read_points
 from tread.runs import ROOT
 from tread.vtu import read_pieces
@@ -275,6 +276,29 @@ class Pictures(OfRuns):
         self.assertEqual((cells.tolist(), fields["pressure_MPa"].tolist()), ([0, 1], [5, 7]))
         with self.assertRaisesRegex(tread.DataError, "none.vtu: No such file"):
             list(read_pieces("none.vtu"))
+
+
+    def test_slip_over_a_defect(self):
+        of_defect = package_test.Crossings("write_run")
+        of_defect.folder = self.folder
+        of_defect.write_run("run", np.arange(-12, 22.1, 0.5), 0.25)
+        axes = crossing.draw_slip(crossing.Crossing(tread.Run(self.path("run")))).axes
+        # The rows of nodes end at 3.75 mm, and their cells an eighth of a millimetre farther: as much again is left free, and a twentieth.
+        np.testing.assert_allclose(axes[0].get_ylim(), (-1.05 * 4, 1.05 * 4), rtol=1e-12)
+        # Its nodes lie from 5.5 mm behind the wheel on, and all of them are to be more than one of 0.5 mm behind the defect's end at 10 mm.
+        whens = [axis.get_title().split("\n") for axis in axes]
+        self.assertEqual([lines[1].split(",")[0] for lines in whens if lines[0] == "behind the defect"], ["wheel at 16.50 mm"])
+        self.assertEqual([lines[1].split(",")[0] for lines in whens if lines[0] == "before the defect"], ["wheel at -6.50 mm"])
+
+    def test_contacts_on_the_rail_of_a_track(self):
+        run = self.write_run("run")
+        write(run.path("contact_points.csv"), "lateral_shift_mm,own_y_rail_mm\n-2,1.5\n0,0.5\n3,-4\n")
+        write(run.path("rail_profile.csv"), "y_rail_mm,z_mm\n5,-0.5\n0,0\n-5,-1\n-10,-2\n")
+        write(run.path("wheel_profile.csv"), "y_rail_mm,z_mm\n6,0.5\n0,0.1\n-6,0.25\n")
+        axis = contact_points.draw_profiles(run).axes[0]
+        np.testing.assert_allclose(axis.collections[0].get_offsets(), [(1.5, -0.15), (0.5, -0.05), (-4, -0.8)], rtol=1e-12)
+        np.testing.assert_allclose(axis.collections[0].get_array(), [-2, 0, 3])
+        np.testing.assert_allclose(axis.lines[1].get_xydata(), [(6, 0.5), (0, 0.1), (-6, 0.25)])
 
 
 class Patches(OfRuns):
