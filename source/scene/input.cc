@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/quiet_boost.h>
+#include <tread/geometry/profile_names.h>
 #include <tread/scene/scene.h>
 
 #include <boost/property_tree/json_parser.hpp>
@@ -234,6 +235,13 @@ namespace tread
         ->section;
     }
 
+    /// What else to say about a value that is none of the allowed ones.
+    std::string advice(const Entry &entry, const std::string &value)
+    {
+      const std::string text = entry.path == "Rail/Profile" ? advice_on_rail(value) : "";
+      return text.empty() ? "" : ". " + text;
+    }
+
     void set_entry(dealii::ParameterHandler &handler,
                    const Entry              &entry,
                    const std::string        &value,
@@ -248,7 +256,7 @@ namespace tread
         {
           handler.leave_subsection();
           throw InputError(place + "'" + entry.path + "' cannot be '" + shortened(value) +
-                           "'; allowed: " + readable(entry.pattern));
+                           "'; allowed: " + readable(entry.pattern) + advice(entry, value));
         }
       handler.leave_subsection();
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/geometry/profile_names.h>
 #include <tread/geometry/wheel_tread.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/half_space.h>
@@ -163,8 +164,7 @@ namespace tread
       }
     catch (const std::runtime_error &error)
       {
-        throw InputError("'Wheel/Tread profile': " + std::string(error.what()) +
-                         "; allowed: cylinder, cone 1:40, cone 1:20, S1002 or a file");
+        throw InputError("'Wheel/Tread profile': " + refused_tread(wheel.tread_profile, error.what()));
       }
   }
 

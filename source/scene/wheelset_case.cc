@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/geometry/profile_names.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/wheelset_case.h>
 
@@ -16,8 +17,7 @@ namespace tread
         }
       catch (const std::runtime_error &error)
         {
-          throw InputError("'Wheel/Tread profile': " + std::string(error.what()) +
-                           "; allowed: cylinder, cone 1:40, cone 1:20, S1002 or a file");
+          throw InputError("'Wheel/Tread profile': " + refused_tread(wheel.tread_profile, error.what()));
         }
     };
     const auto rail_profile = [&] {

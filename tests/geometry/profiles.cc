@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Rail sections against the values of EN 13674-1, and the smoothness of the outline.
+#include <tread/geometry/profile_names.h>
 #include <tread/geometry/rail_profile.h>
 
 #include "check.h"
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 using tread::RailProfile;
 
@@ -86,10 +90,46 @@ namespace
                    published.gauge_tolerance_um);
     check.that(name + " z_top is even", profile.z_top(0.02) == profile.z_top(-0.02));
   }
+
+  void check_names(tread::tests::Check &check)
+  {
+    const auto says = [&](const std::string &name, const std::string &advice,
+                          const std::vector<std::string> &words) {
+      bool all = true;
+      for (const std::string &word : words)
+        all = all && advice.find(word) != std::string::npos;
+      check.that(name + ": " + advice, all && advice.empty() == words.empty());
+    };
+    for (const auto &[name, here] :
+         std::vector<std::pair<std::string, std::string>>{{"UIC60", "called 60E1"},
+                                                          {"UIC 54", "called 54E1"},
+                                                          {"S49", "called 49E1"},
+                                                          {"60e1", "called 60E1"},
+                                                          {"CHN60", "called CN60"}})
+      says(name, tread::advice_on_rail(name), {here});
+    for (const std::string name : {"115RE", "136 RE", "AREMA 141RE", "BS113A", "56E1", "60E2", "60N"})
+      says(name, tread::advice_on_rail(name), {"not built in", "Measured head", "profile-from-arcs.py"});
+    says("UIC60 is no tread", tread::advice_on_tread("UIC60"), {});
+    says("50E6 says nothing", tread::advice_on_rail("50E6"), {});
+
+    says("s1002", tread::advice_on_tread("s1002"), {"called 'S1002'"});
+    for (const std::string name : {"EN 1/40", "1:40", "cone 1/40"})
+      says(name, tread::advice_on_tread(name), {"called 'cone 1:40'", "without a flange"});
+    says("Cylinder", tread::advice_on_tread("Cylinder"), {"called 'cylinder'"});
+    for (const std::string name : {"P8", "EPS", "LM", "LMA", "LM_A", "TB/T 449 LM", "AAR-1B", "aar1b"})
+      says(name, tread::advice_on_tread(name), {"not built in", "file", "profile-from-arcs.py"});
+    says("no file of that name", tread::refused_tread("LM", "profile 'LM': cannot be read"),
+         {"cannot be read; allowed: cylinder", "LM is not built in"});
+    check.that("a file that is called as a profile is not advised on",
+               tread::refused_tread("LM", "profile 'LM': line 3: no number").find("built in") ==
+                 std::string::npos);
+    says("a file", tread::advice_on_tread("profiles/lm.txt"), {});
+  }
 } // namespace
 
 void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
 {
+  check_names(check);
   // EN 13674-1 (area, centroid, second moments); heads by the drawings' arcs.
   check_profile(check, RailProfile::rail_54e1(),
                 {69.77, 75.1, 2337.9, 419.2, 159. - 122.73, 36.108, 35., 144.9 - 159.});
