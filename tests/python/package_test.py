@@ -516,6 +516,7 @@ class Studies(InFolder):
     def test_a_study_that_cannot_be(self):
         text = f"set Scene = {ROOT}/prm/smooth-rolling.prm\nsubsection Vary\n  set Motion/Creepage = 0.001\n  set Motion/Creepage = 0.002\nend\n"
         for arguments, what, code in (((write(self.path("twice.study"), text),), "'Motion/Creepage' is there twice", 1),
+                                      ((write(self.path("again.study"), "set Ranks = 1\n" + text.replace("\n", "\nset Ranks = 2\n", 1)),), "line 3: 'Ranks' is there twice", 1),
                                       ((write(self.path("two.study"), text.replace("  set Motion/Creepage = 0.002\n", "")), "--processes", "-1"), "'-1' must be 1, 2, ...", 2)):
             result = self.perform(*arguments)
             self.assertEqual((result.returncode, what in result.stderr), (code, True), result.stderr)
