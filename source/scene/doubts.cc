@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace tread
@@ -36,6 +38,7 @@ namespace tread
       {"Rail/Density (kg per m3)", 500., 3e4, "t per m3"},
       {"Vehicle/Sprung mass (kg)", 50., 1e5, "t"},
       {"Vehicle/Wheel load (kN)", 0.05, 1e3, "N or MN"},
+      {"Vehicle/Axle load (t)", 0.01, 60., "kg or kN"},
       {"Vehicle/Gravity (m per s2)", 0.1, 100., "mm per s2"},
       {"Vehicle/Suspension stiffness (kN per m)", 1., 1e5, "N per m or MN per m"},
       {"Vehicle/Suspension damping (N s per m)", 10., 1e7, "kN s per m"},
@@ -57,7 +60,36 @@ namespace tread
 
     /// Heights of a defect's file below which it is no defect: less than ground surfaces are rough.
     constexpr double least_height = 2e-6; // m
-  }                                       // namespace
+
+    /// More than is not sprung on any wheel of a railway, beside a sprung mass that is less. [kg]
+    constexpr double largest_unsprung_mass = 4e3;
+
+    /// Where the treads that have a name have the back of their flange, and what it may be off. [m]
+    constexpr double named_back = -70e-3, back_tolerance = 2e-3;
+
+    /// Of a wheel that begins where the rail lies lower or higher than without the defect: it stands there at
+    /// rest, and the way into the defect is missing. Corrugation may reach over all of the path.
+    std::string begins_on_defect(const Scene &scene)
+    {
+      if (!scene.has_defect() || scene.is_positioned() || scene.defect.shape == "corrugation" ||
+          scene.static_load() <= 0.)
+        return "";
+      constexpr unsigned int n     = 5; // places over the patch, along and across
+      const Defect          &made  = *scene.made_defect();
+      const double           a     = hertz(scene, scene.static_load()).semi_axis_x;
+      const auto            &patch = scene.patch_extent();
+      for (unsigned int number = 0; number < scene.n_wheels(); ++number)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            if (std::abs(made.height(scene.path_begin(number) + a * (2. * i / (n - 1.) - 1.),
+                                     patch.begin + (patch.end - patch.begin) * j / (n - 1.))) > least_height)
+              return format("the wheel begins on the defect: its patch at rest, around x = %.2f mm, lies in "
+                            "part on it, so that the way into the defect is missing; move "
+                            "'Defect/Position (mm)' or 'Motion/Start (mm)'",
+                            1e3 * scene.path_begin(number));
+      return "";
+    }
+  } // namespace
 
 
   std::vector<std::string> Scene::implausible_values() const
@@ -72,6 +104,40 @@ namespace tread
               list.push_back(format("'%s' %g is far from what there is on railways, %g to %g: is it in %s?",
                                     usual.path, value, usual.least, usual.largest, usual.but));
           }
+    // Of supports that have springs of their own one line each column.
+    using Springs = TrackParameters::Springs;
+    for (const auto &[column, path, value, in_si] :
+         {std::tuple("pad_stiffness_MN_per_m", "Track/Pad stiffness (MN per m)", &Springs::pad_stiffness,
+                     1e6),
+          std::tuple("pad_damping_kN_s_per_m", "Track/Pad damping (kN s per m)", &Springs::pad_damping, 1e3),
+          std::tuple("ballast_stiffness_MN_per_m", "Track/Ballast stiffness (MN per m)",
+                     &Springs::ballast_stiffness, 1e6),
+          std::tuple("ballast_damping_kN_s_per_m", "Track/Ballast damping (kN s per m)",
+                     &Springs::ballast_damping, 1e3)})
+      {
+        const auto usual =
+          std::find_if(usual_values.begin(), usual_values.end(),
+                       [path = path](const Usual &u) { return std::string(u.path) == path; });
+        for (const auto &[number, springs] : support_springs)
+          if (const double own = springs.*value / in_si; own > usual->largest)
+            {
+              list.push_back(format("'Track/Support file', support %d: %s %g is far from what there is on "
+                                    "railways, up to %g: is it in %s?",
+                                    number, column, own, usual->largest, usual->but));
+              break;
+            }
+      }
+    if (!vehicle.wheel_load && !vehicle.axle_load && wheel.mass > largest_unsprung_mass &&
+        wheel.mass > vehicle.sprung_mass)
+      list.push_back(format("'Wheel/Mass (kg)' %g, which is not sprung, is more than 'Vehicle/Sprung mass "
+                            "(kg)' %g: are they exchanged?",
+                            wheel.mass, vehicle.sprung_mass));
+    if (const double back = wheelset.track.back_position;
+        !wheel.has_measured_profile() && std::abs(back - named_back) > back_tolerance)
+      list.push_back(format("'Wheelset/Flange back (mm)' %g: the flange of 'Wheel/Tread profile' %s has its "
+                            "back at %g, so that the wheel stands %g mm off its place in the track",
+                            1e3 * back, wheel.tread_profile.c_str(), 1e3 * named_back,
+                            1e3 * std::abs(back - named_back)));
     if (has_defect() && !defect.profile_file.empty() && defect.depth == 0. &&
         made_defect()->depth < least_height)
       list.push_back(
@@ -245,8 +311,8 @@ namespace tread
   std::vector<std::string> Scene::doubts() const
   {
     std::vector<std::string> list = implausible_values();
-    for (const std::string &doubt :
-         {missed_defect(), unseen_detail_along(), narrow_island(), short_memory(), unmatched_surface(*this)})
+    for (const std::string &doubt : {missed_defect(), begins_on_defect(*this), unseen_detail_along(),
+                                     narrow_island(), short_memory(), unmatched_surface(*this)})
       if (!doubt.empty())
         list.push_back(doubt);
     return list;

@@ -404,8 +404,11 @@ namespace tread
       }
     constexpr double largest_load = 1e8; // N
     require(static_load() <= largest_load,
-            "'Wheel/Mass (kg)' and 'Vehicle/Sprung mass (kg)' press a wheel with " +
-              text_of(1e-3 * static_load()) + " kN; at most " + text_of(1e-3 * largest_load));
+            std::string(vehicle.wheel_load  ? "'Vehicle/Wheel load (kN)' presses"
+                        : vehicle.axle_load ? "'Vehicle/Axle load (t)' presses"
+                                            : "'Wheel/Mass (kg)' and 'Vehicle/Sprung mass (kg)' press") +
+              " a wheel with " + text_of(1e-3 * static_load()) + " kN; at most " +
+              text_of(1e-3 * largest_load));
     // Some meshes resonate with steps of unlike length at 0.95; 0.93 was enough for all that did.
     constexpr double largest_with_levels = 0.9;
     if (time_stepping.levels > 1 && solid.mass_damping == 0.)

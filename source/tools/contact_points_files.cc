@@ -280,6 +280,8 @@ namespace tread
         1e3 * about.equilibrium));
     else if (std::isnan(about.equilibrium))
       progress.say("the rolling radii are unlike at all shifts: there is no equivalent conicity");
+    for (const std::string &warning : scene.implausible_values())
+      progress.say("warning: " + warning);
     if (!complaint.empty())
       progress.say("warning: rows are missing: " + complaint);
     double least = std::numeric_limits<double>::infinity();

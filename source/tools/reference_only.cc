@@ -240,8 +240,10 @@ namespace tread
     summary.set("normal_residual", half_space.normal_residual);
     summary.set("tangential_iterations", half_space.tangential_iterations);
     summary.set("tangential_residual", half_space.tangential_residual);
-    const MeasuredProfiles         profiles(scene);
-    const std::vector<std::string> warnings = profiles.warnings();
+    const MeasuredProfiles   profiles(scene);
+    std::vector<std::string> warnings = scene.unused_parameters();
+    for (const std::vector<std::string> &more : {scene.implausible_values(), profiles.warnings()})
+      warnings.insert(warnings.end(), more.begin(), more.end());
     profiles.summarise(summary);
     summary.set("warnings", warnings);
     summary.set("wall_s", progress.seconds());

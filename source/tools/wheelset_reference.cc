@@ -27,8 +27,9 @@ namespace tread
     for (const std::string &warning : climbing_patches(placed.surfaces, contact.patches))
       warnings.push_back(warning);
     const MeasuredProfiles profiles(scene);
-    for (const std::string &warning : profiles.warnings())
-      warnings.push_back(warning);
+    for (const std::vector<std::string> &more :
+         {scene.unused_parameters(), scene.implausible_values(), profiles.warnings()})
+      warnings.insert(warnings.end(), more.begin(), more.end());
 
     Summary summary;
     summarise_wheelset(summary, scene, "half-space solver", contact, given_angular_velocity(scene), true);

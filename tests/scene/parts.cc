@@ -603,6 +603,30 @@ namespace
     check.that("masses and density in t", values.size() == 3 && has(values, "'Wheel/Mass (kg)' 0.9") &&
                                             has(values, "'Vehicle/Sprung mass (kg)' 9") &&
                                             has(values, "'Rail/Density (kg per m3)' 7.8"));
+    const auto loaded = [](const Settings &more) {
+      return scene_of({"Motion/Rolled distance (mm)=60"}, more)->implausible_values();
+    };
+    check.that("an axle load in kN",
+               has(loaded({"Vehicle/Axle load (t)=180"}), "'Vehicle/Axle load (t)' 180"));
+    check.that("masses that are exchanged",
+               has(loaded({"Wheel/Mass (kg)=9000", "Vehicle/Sprung mass (kg)=700"}), "are they exchanged"));
+    check.that("masses of a light wagon",
+               loaded({"Wheel/Mass (kg)=1500", "Vehicle/Sprung mass (kg)=1200"}).empty());
+    const std::string in_newton =
+      folder.write("newton.csv", "support,ballast_damping_kN_s_per_m\n0,33\n1,33000\n");
+    check.that("a damper of one support in N s per m",
+               has(scene_of(on_track, {"Track/Support file=" + in_newton})->implausible_values(),
+                   "support 1: ballast_damping_kN_s_per_m 33000"));
+    // Where a wheel begins on its defect: the path is from -30 to 30 mm, the patch 16 mm long.
+    const auto dip_from = [&](const std::string &position) {
+      return scene_of({"Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60", "Defect/Shape=dip",
+                       "Defect/Length (mm)=18", "Defect/Depth (mm)=0.08"},
+                      {"Defect/Position (mm)=" + position})
+        ->doubts();
+    };
+    check.that("a wheel in the middle of its dip", has(dip_from("-40"), "begins on the defect"));
+    check.that("a patch over its leading edge", has(dip_from("-25"), "begins on the defect"));
+    check.that("a dip ahead", !has(dip_from("-15"), "begins on the defect"));
   }
 
   /// Tables along the path that have no place on it.

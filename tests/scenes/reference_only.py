@@ -55,6 +55,13 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"a head of two radii: Hertz has that of the patch, {key}", both["reference"][key]["Hertz"]["value"],
                        crown["reference"][key]["Hertz"]["value"], 0.005)
 
+    # Values that are hardly meant, and those that another one makes void, are told here as before a run.
+    heavy = reference_only("Vehicle/Axle load (t)=95", "Contact/Kinetic friction coefficient=0.1")
+    check.that(f"an axle load in kN, and a coefficient that Coulomb's law has not: {heavy['warnings']}", len(heavy["warnings"]) == 2
+               and "'Contact/Kinetic friction coefficient' has no effect" in heavy["warnings"][0] and "'Vehicle/Axle load (t)' 95" in heavy["warnings"][1])
+    displaced = reference_only("Wheelset/Flange back (mm)=-66", scene="curves/flange-root.prm")
+    check.that(f"a flange whose back lies elsewhere: {displaced['warnings']}", any("stands 4 mm off" in warning for warning in displaced["warnings"]))
+
     # Against CONTACT, whose values are of first order: extrapolated from its elements of 0.2 and 0.1 mm. What the edge of
     # the patch on those two grids leaves in them is 0.1 or 0.2 %, more in what sits at that edge.
     with open(os.path.join(CONTACT, "contact_summary.csv"), encoding="utf-8") as stream:
