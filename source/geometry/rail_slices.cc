@@ -73,12 +73,18 @@ namespace tread
     for (const RailSlice &slice : all)
       {
         const std::string where = "'" + rail.file + "', slice at " + text_in_mm(slice.x) + " mm: ";
+        require(std::isfinite(slice.x), where + "its place is no number");
         require(&slice == &all.front() || slice.x > (&slice - 1)->x,
                 where + "slices must follow each other along x; the one before is at " +
                   text_in_mm((&slice == &all.front() ? slice : *(&slice - 1)).x) + " mm");
         require(!is_cut(slice) || n_breaks == 0 || n_breaks == slice.breaks.size(),
                 where + "all slices that are cut must have the same numbers of parts");
-        n_breaks = std::max(n_breaks, slice.breaks.size());
+        n_breaks                  = std::max(n_breaks, slice.breaks.size());
+        constexpr double furthest = 1.; // m
+        for (const Point &p : slice.points)
+          require(std::abs(p[0]) <= furthest && std::abs(p[1]) <= furthest,
+                  where + "a point lies further away than " + text_in_mm(furthest) +
+                    " mm; are its numbers in mm?");
         try
           {
             curves.emplace_back(slice.points);
@@ -87,6 +93,10 @@ namespace tread
           {
             throw InputError(where + error.what());
           }
+        constexpr double longest = 4.; // m, of a section that runs from foot to foot
+        require(curves.back().length() <= longest, where + "its points run over " +
+                                                     text_in_mm(curves.back().length()) +
+                                                     " mm; they must follow each other along the surface");
         double last = -1.;
         for (const double at : slice.breaks)
           if (!std::isnan(at))

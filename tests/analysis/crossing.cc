@@ -171,6 +171,11 @@ namespace
             [](RailSlices &r) { std::swap(r.slices[3].breaks[1], r.slices[3].breaks[2]); });
     refused("nothing in common", [](RailSlices &r) { r.slices[0].breaks = {0., 10e-3, nan, nan}; });
     refused("another number of parts", [](RailSlices &r) { r.slices[0].breaks = {0., 10e-3}; });
+    refused("metres for millimetres", [](RailSlices &r) { r.slices[1].points[3][1] = -30.; });
+    refused("points in no order", [](RailSlices &r) {
+      for (std::size_t k = 0; k < 2000; ++k)
+        r.slices[1].points.emplace_back(k % 2 == 0 ? 0. : 30e-3, -1e-6 * k);
+    });
     refused("a single slice", [](RailSlices &r) { r.slices.resize(1); });
   }
 

@@ -6,6 +6,7 @@
 #include <tread/geometry/defect.h>
 #include <tread/geometry/height_map.h>
 #include <tread/geometry/measured_line.h>
+#include <tread/geometry/rail_slices.h>
 #include <tread/scene/scene.h>
 #include <tread/scene/wheelset_motion.h>
 #include <tread/tools/batch_files.h>
@@ -95,6 +96,21 @@ namespace tread::fuzz
           require_finite(map.height((1. - u) * map.x_begin() + u * map.x_end(),
                                     (1. - v) * map.y_begin() + v * map.y_end()));
       require_finite(map.lowest() + map.highest() + map.largest_on_ends() + map.largest_on_sides());
+    }
+
+    void read_slices(const std::string &file)
+    {
+      const SlicedRail      rail(read_rail_slices(file));
+      const Surface::Extent extent = rail.extent();
+      for (const double u : {0., 0.3, 0.5, 1.})
+        for (const double v : {0., 0.2, 0.7, 1.})
+          {
+            const double along = (1. - u) * extent.along_begin + u * extent.along_end,
+                         y     = (1. - v) * extent.y_begin + v * extent.y_end;
+            if (const auto height = rail.height(along, y))
+              require_finite(height->z);
+            rail.body(along, y);
+          }
     }
 
     void read_guidance(const std::string &file)
@@ -257,6 +273,7 @@ namespace tread::fuzz
       {"settings", ".txt", read_settings},     {"simpack", ".prr", read_profile},
       {"miniprof", ".ban", read_profile},      {"two-columns", ".txt", read_profile},
       {"defect", ".txt", read_defect},         {"map", ".csv", read_map},
+      {"slices", ".csv", read_slices},         {"slice-list", ".slcs", read_slices},
       {"guidance", ".csv", read_guidance},     {"supports", ".csv", read_supports},
       {"batch", ".csv", read_batch},           {"archive", "", read_archive}};
     return list;
