@@ -97,9 +97,9 @@ int main(int argc, char **argv)
         const Solid      solid(mesh, {ElasticMaterial()}, parameters);
         ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
         NodalField       force(mesh.nodes.size(), Vector3{});
-        const NodalField x = dynamics.positions();
+        const NodalField x = dynamics.state.positions();
         const double     time =
-          best_time([&]() { solid.add_internal_forces(x.data(), dynamics.v.data(), force.data()); });
+          best_time([&]() { solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data()); });
         const double cells = mesh.cells.size(), bytes = solid.memory_consumption() + 96. * mesh.nodes.size();
         const double triad = triad_bandwidth(bytes);
         std::printf("| %s | %s | %.0f | %.1f million | %.0f | %.1f | %.1f | %.0f %% |\n", kind.element,

@@ -66,8 +66,8 @@ int main(int argc, char **argv)
         columns.push_back(tests::by_beam(rail.beam(.0125, soft_foot), rail.beam_loads(patch), lines));
         names.push_back(name + "_beam_and_foot_nm_N");
         std::fprintf(stderr, "%s: %zu cells, time step %.3g us, gain of levels %.2f, %.1f ms\n", name.c_str(),
-                     rail.mesh->cells.size(), 1e6 * rail.dynamics->time_step,
-                     rail.dynamics->ideal_gain_of_levels(), 1e3 * rail.dynamics->time);
+                     rail.mesh->cells.size(), 1e6 * rail.dynamics->state.time_step,
+                     rail.dynamics->ideal_gain_of_levels(), 1e3 * rail.dynamics->state.time);
       }
   std::printf("frequency_Hz");
   for (const std::string &name : names)

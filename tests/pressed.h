@@ -3,6 +3,7 @@
 #define tread_tests_pressed_h
 
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/wheel.h>
 
 #include "boxes.h"
 
@@ -66,7 +67,7 @@ namespace tread::tests
     {
       dynamics.fix_nodes(dynamics.support_nodes(0));
       hub.place(Vector3{0., 0., p.axle, 0.});
-      dynamics.attach_hub(hub, 1, 0.);
+      dynamics.add<WheelOnHub>(hub, 1, 0.);
       hub.parameters.sprung_mass = p.force / hub.parameters.gravity - hub.parameters.mass;
       dynamics.attach_contact(contact);
     }

@@ -75,11 +75,11 @@ namespace tread::tests
     Receptance result{lines.lowest, lines.step, {}};
     for (unsigned int k = 0; k < lines.n; ++k)
       turn[k] = std::exp(std::complex<double>(-lines.decay, -2. * dealii::numbers::PI * result.frequency(k)) *
-                         dynamics.time_step);
+                         dynamics.state.time_step);
     const double steps_per_sample = 1u << dynamics.max_level();
-    while (dynamics.time < duration)
+    while (dynamics.state.time < duration)
       {
-        const double s = dynamics.time / pulse;
+        const double s = dynamics.state.time / pulse;
         const double f = s < 1. ? 0.5 * (1. - std::cos(2. * dealii::numbers::PI * s)) * blow : 0.;
         if (s < 1.1)
           rail.load(patch, f);

@@ -3,6 +3,8 @@
 #define tread_tests_track_rail_h
 
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
+#include <tread/dynamics/parts/supports.h>
 #include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/whole_rail.h>
 #include <tread/reference/supported_beam.h>
@@ -103,6 +105,7 @@ namespace tread::tests
     std::unique_ptr<Mesh>             mesh;
     std::unique_ptr<Solid>            solid;
     std::unique_ptr<ExplicitDynamics> dynamics;
+    NodeLoads                        *loads;
     std::unique_ptr<Supports>         supports;
 
     TrackRail(const MPI_Comm             comm,
@@ -141,14 +144,14 @@ namespace tread::tests
       supports                   = std::make_unique<Supports>(*mesh, 0, positions, track, sleepers);
       for (const double x : probes)
         supports->add_probe(x);
-      dynamics->attach_supports(*supports, steel());
+      dynamics->add<RailOnSupports>(*supports, steel());
       dynamics->guide_nodes(dynamics->boundary_nodes(0, Boundary::end), 0);
       dynamics->guide_nodes(supports->guided_nodes(1), 1);
       for (const SolidSleeper &sleeper : sleepers)
         dynamics->guide_nodes(dynamics->boundary_nodes(sleeper.body, Boundary::end), 1);
       if (solid_sleepers)
         dynamics->guide_nodes(supports->guided_nodes(0), 0);
-      dynamics->external_force.assign(mesh->nodes.size(), Vector3{});
+      loads = &dynamics->add<NodeLoads>();
     }
 
     /// Half a sleeper of concrete of 140 kg.
@@ -190,7 +193,7 @@ namespace tread::tests
     void load(const Patch &patch, const double force)
     {
       for (const auto &[node, share] : patch)
-        dynamics->external_force[node] = Vector3{0., 0., -force * share, 0.};
+        loads->force[node] = Vector3{0., 0., -force * share, 0.};
     }
 
     /// Downwards, m.
@@ -199,7 +202,7 @@ namespace tread::tests
       double sum = 0.;
       for (const auto &[node, share] : patch)
         if (mesh->shared_nodes.is_owned(node))
-          sum += share * (mesh->nodes[node][2] - dynamics->position(node)[2]);
+          sum += share * (mesh->nodes[node][2] - dynamics->state.position(node)[2]);
       return dealii::Utilities::MPI::sum(sum, mesh->comm);
     }
 

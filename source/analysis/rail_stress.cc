@@ -103,16 +103,16 @@ namespace tread
                            const std::vector<Vector3> &impulses,
                            const double                wheel_x)
   {
-    const NodalField x      = dynamics.positions();
-    const auto       stress = dynamics.solid.cauchy_stress(x.data(), dynamics.history, wanted);
+    const NodalField x      = dynamics.state.positions();
+    const auto       stress = dynamics.solid.cauchy_stress(x.data(), dynamics.state.history, wanted);
     const auto       keep   = [&](StressPeak &peak, const StressRecovery::Stress &present) {
       if (const double value = von_mises(present); value > peak.stress)
-        peak = {value, dynamics.time, wheel_x};
+        peak = {value, dynamics.state.time, wheel_x};
     };
     for (Member &member : members)
       keep(member.peak, stress[member.cell]);
-    recovery.recover(x.data(), stress, dynamics.solid.plastic().yield_limits(dynamics.history), impulses,
-                     dynamics.time_step);
+    recovery.recover(x.data(), stress, dynamics.solid.plastic().yield_limits(dynamics.state.history),
+                     impulses, dynamics.state.time_step);
     for (SurfaceMember &member : surface)
       keep(member.peak, recovery.stress_at_surface()[member.site]);
   }
@@ -120,7 +120,8 @@ namespace tread
 
   std::vector<StripColumn> StressStrip::columns(const ExplicitDynamics &dynamics) const
   {
-    const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+    const std::vector<double> strain =
+      dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history);
     std::vector<std::array<double, 9>> own;
     for (const Member &m : members)
       own.push_back({{m.x_begin, m.x_end, m.y, m.depth, m.at_surface ? 1. : 0., m.peak.stress, m.peak.time,
@@ -265,8 +266,9 @@ namespace tread
 
   std::vector<CellRecord> CellProbes::record(const ExplicitDynamics &dynamics) const
   {
-    const auto stress = dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history, wanted);
-    const auto strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+    const auto stress =
+      dynamics.solid.cauchy_stress(dynamics.state.positions().data(), dynamics.state.history, wanted);
+    const auto          strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history);
     std::vector<double> values(2 * cells.size(), 0.);
     for (unsigned int i = 0; i < cells.size(); ++i)
       if (cells[i] != elsewhere)

@@ -241,22 +241,22 @@ namespace tread
                            const std::vector<Vector3>          &impulses,
                            const double                         wheel_x)
   {
-    const Instant instant{dynamics.time, wheel_x, dynamics.synchronised()};
+    const Instant instant{dynamics.state.time, wheel_x, dynamics.synchronised()};
     for (const unsigned int i : nodes)
-      x[i] = dynamics.position(i);
+      x[i] = dynamics.state.position(i);
     for (const auto &group : groups)
       group->set_cauchy_stress(x.data(), {}, stress);
     std::vector<double> yield_limits;
     if (!plastic_members.empty())
       {
-        dynamics.solid.plastic().cauchy_stress(x.data(), dynamics.history, stress, plastic_members);
-        yield_limits = dynamics.solid.plastic().yield_limits(dynamics.history);
+        dynamics.solid.plastic().cauchy_stress(x.data(), dynamics.state.history, stress, plastic_members);
+        yield_limits = dynamics.solid.plastic().yield_limits(dynamics.state.history);
       }
-    recovery.recover(x.data(), stress, yield_limits, impulses, dynamics.time_step);
+    recovery.recover(x.data(), stress, yield_limits, impulses, dynamics.state.time_step);
     sample_places(at_surface, recovery.stress_at_surface(), instant);
     sample_places(below_surface, recovery.stress_below_surface(), instant);
     sample_places(centres, stress, instant);
-    sample_surface(states, dynamics.time_step, instant);
+    sample_surface(states, dynamics.state.time_step, instant);
   }
 
 
@@ -319,9 +319,10 @@ namespace tread
 
   StressPeaks::Answer StressPeaks::answer(const ExplicitDynamics &dynamics) const
   {
-    const std::vector<Peak>   all     = of_all_ranks();
-    const std::vector<double> plastic = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
-    std::vector<double>       strain(all.size() - first_layer, 0.);
+    const std::vector<Peak>   all = of_all_ranks();
+    const std::vector<double> plastic =
+      dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history);
+    std::vector<double> strain(all.size() - first_layer, 0.);
     if (!plastic.empty())
       for (const Member &member : members)
         strain[member.layer] = std::max(strain[member.layer], plastic[member.cell]);

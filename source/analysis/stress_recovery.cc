@@ -428,10 +428,10 @@ namespace tread
     std::vector<char> wanted(dynamics.mesh.cells.size(), false);
     for (const unsigned int c : needed_cells)
       wanted[c] = true;
-    const NodalField x = dynamics.positions();
-    recover(x.data(), dynamics.solid.cauchy_stress(x.data(), dynamics.history, wanted),
-            dynamics.solid.plastic().yield_limits(dynamics.history),
-            contact ? contact->surface_impulses() : std::vector<Vector3>(), dynamics.time_step);
+    const NodalField x = dynamics.state.positions();
+    recover(x.data(), dynamics.solid.cauchy_stress(x.data(), dynamics.state.history, wanted),
+            dynamics.solid.plastic().yield_limits(dynamics.state.history),
+            contact ? contact->surface_impulses() : std::vector<Vector3>(), dynamics.state.time_step);
   }
 
 
@@ -459,9 +459,9 @@ namespace tread
   std::vector<Stress> NodalStresses::at_present()
   {
     const Mesh                &mesh     = dynamics.mesh;
-    const NodalField           x        = dynamics.positions();
-    const std::vector<Stress>  stress   = dynamics.solid.cauchy_stress(x.data(), dynamics.history);
-    const std::vector<double>  limits   = dynamics.solid.plastic().yield_limits(dynamics.history);
+    const NodalField           x        = dynamics.state.positions();
+    const std::vector<Stress>  stress   = dynamics.solid.cauchy_stress(x.data(), dynamics.state.history);
+    const std::vector<double>  limits   = dynamics.solid.plastic().yield_limits(dynamics.state.history);
     const std::vector<Vector3> impulses = contact ? contact->surface_impulses() : std::vector<Vector3>();
     std::vector<Stress>        nodal(mesh.nodes.size());
     for (const unsigned int half : {0u, 3u})
@@ -478,7 +478,7 @@ namespace tread
       }
     for (StressRecovery &surface : surfaces)
       {
-        surface.recover(x.data(), stress, limits, impulses, dynamics.time_step);
+        surface.recover(x.data(), stress, limits, impulses, dynamics.state.time_step);
         for (std::size_t k = 0; k < surface.at_surface().size(); ++k)
           nodal[surface.at_surface()[k].node] = surface.stress_at_surface()[k];
       }

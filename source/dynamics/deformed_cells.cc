@@ -98,8 +98,9 @@ namespace tread
         const auto        &nodes = mesh.cells[c].nodes;
         const Tensor<2, 3> before =
                              jacobian_at_centre([&](const unsigned int a) { return mesh.nodes[nodes[a]]; }),
-                           now = jacobian_at_centre([&](const unsigned int a) { return position(nodes[a]); });
-        const Tensor<2, 3> F   = now * dealii::invert(before);
+                           now = jacobian_at_centre(
+                             [&](const unsigned int a) { return state.position(nodes[a]); });
+        const Tensor<2, 3> F      = now * dealii::invert(before);
         const double       volume = dealii::determinant(F);
         if (!(volume >= least_volume)) // NaN is found as well
           {
@@ -123,17 +124,17 @@ namespace tread
       }
     if (const double least = min(least_volume, mesh.comm); least <= 0.)
       throw WentWrong("the cell " + place_of_worst_cell(least_volume == least, worst) +
-                      " has been turned inside out after " + std::to_string(n_steps) +
+                      " has been turned inside out after " + std::to_string(state.n_steps) +
                       " steps: its strain is too large for this mesh; use larger cells there, or "
                       "less load or hardening that carries it");
     else if (least < parameters.least_volume)
       throw WentWrong("the cell " + place_of_worst_cell(least_volume == least, worst) +
                       format(" has %.3g of its volume after %llu steps, below 'Watchdogs/Stop at volume' %g",
-                             least, (unsigned long long)n_steps, parameters.least_volume));
+                             least, (unsigned long long)state.n_steps, parameters.least_volume));
     if (const double largest = max(strain, mesh.comm); largest > parameters.largest_strain)
       throw WentWrong("the cell " + place_of_worst_cell(strain == largest, most_strained) +
                       format(" has a strain of %.3g after %llu steps, above 'Watchdogs/Stop at strain' %g",
-                             largest, (unsigned long long)n_steps, parameters.largest_strain));
+                             largest, (unsigned long long)state.n_steps, parameters.largest_strain));
 
     // No motion of the mesh can have become faster by more than its most changed cell, nor be faster than the
     // fastest cell alone: while that is slow enough nothing needs to be known exactly.
@@ -141,12 +142,12 @@ namespace tread
     if (parameters.courant_number * bound <= std::max(highest_of_step, worth_looking * bound_found_stable))
       return;
     const double courant =
-      parameters.courant_number * highest_of_levels(positions(), history) / highest_of_step;
+      parameters.courant_number * highest_of_levels(state.positions(), state.history) / highest_of_step;
     if (courant > 1.)
       throw WentWrong(
         format("the cells have deformed so much after %llu steps that the time step is no longer stable: "
                "Courant number %.3f; start anew with 'Time stepping/Courant number' at most %.2f",
-               (unsigned long long)n_steps, courant,
+               (unsigned long long)state.n_steps, courant,
                std::floor(100. * advised_share * parameters.courant_number / courant) / 100.));
     bound_found_stable = parameters.courant_number * bound;
   }
@@ -154,6 +155,6 @@ namespace tread
 
   void ExplicitDynamics::renew_critical_time_step()
   {
-    critical_step = critical_time_step_of(highest_of_levels(positions(), history));
+    critical_step = critical_time_step_of(highest_of_levels(state.positions(), state.history));
   }
 } // namespace tread

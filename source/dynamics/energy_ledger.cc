@@ -36,10 +36,10 @@ namespace tread
 
   NodalField ExplicitDynamics::cell_forces() const
   {
-    NodalField       forces(v.size(), Vector3{});
-    const NodalField x = positions();
-    solid.add_internal_forces(x.data(), v.data(), forces.data(), history);
-    matched_surface.add_forces(x.data(), v.data(), forces.data(), 0.);
+    NodalField       forces(state.v.size(), Vector3{});
+    const NodalField x = state.positions();
+    solid.add_internal_forces(x.data(), state.v.data(), forces.data(), state.history);
+    matched_surface.add_forces(x.data(), state.v.data(), forces.data(), 0.);
     return forces;
   }
 
@@ -47,21 +47,22 @@ namespace tread
   double ExplicitDynamics::damping_forces(const NodalField &forces, NodalField &damping) const
   {
     // f(x + beta v) - f(x), and how much power it takes with the velocities of half a step back.
-    damping.assign(v.size(), Vector3{});
+    damping.assign(state.v.size(), Vector3{});
     if (!(parameters.damping_steps > 0. || solid.needs_velocity()))
       return 0.;
     NodalField without;
-    solid.add_internal_forces(x_damped.data(), v.data(), damping.data(), history);
-    matched_surface.add_forces(x_damped.data(), v.data(), damping.data(), surface_damping_time());
+    solid.add_internal_forces(state.x_damped.data(), state.v.data(), damping.data(), state.history);
+    matched_surface.add_forces(state.x_damped.data(), state.v.data(), damping.data(), surface_damping_time());
     if (solid.has_bulk_viscosity())
       {
-        const NodalField no_velocity(v.size(), Vector3{});
-        without.assign(v.size(), Vector3{});
-        solid.add_internal_forces(positions().data(), no_velocity.data(), without.data(), history);
-        matched_surface.add_forces(positions().data(), no_velocity.data(), without.data(), 0.);
+        const NodalField no_velocity(state.v.size(), Vector3{});
+        without.assign(state.v.size(), Vector3{});
+        solid.add_internal_forces(state.positions().data(), no_velocity.data(), without.data(),
+                                  state.history);
+        matched_surface.add_forces(state.positions().data(), no_velocity.data(), without.data(), 0.);
       }
     const NodalField &elastic = solid.has_bulk_viscosity() ? without : forces;
-    for (unsigned int i = 0; i < v.size(); ++i)
+    for (unsigned int i = 0; i < state.v.size(); ++i)
       damping[i] -= elastic[i];
     mesh.condense_hanging_nodes(damping.data()); // whose velocities may wait for other levels
     mesh.shared_nodes.sum(damping.data());
@@ -73,7 +74,7 @@ namespace tread
   {
     return sum_by_runs(levels, mesh.comm, [&](const Run &, const double) {
       return [&](const unsigned int i) {
-        return dot(v[i], forces[i]);
+        return dot(state.v[i], forces[i]);
       };
     });
   }
@@ -83,8 +84,9 @@ namespace tread
   {
     // The sum over the steps from the last sample on, this one left out, when power changes in a straight
     // line.
-    const double n = n_steps - last_damping_step;
-    return n > 0. ? time_step * (n * last_damping_power + 0.5 * (n - 1.) * (power - last_damping_power)) : 0.;
+    const double n = state.n_steps - last_damping_step;
+    return n > 0. ? state.time_step * (n * last_damping_power + 0.5 * (n - 1.) * (power - last_damping_power))
+                  : 0.;
   }
 
 
@@ -101,10 +103,10 @@ namespace tread
     // In central differences a force works in a step with the mean of the velocities before and after it. The
     // step has already been counted.
     const double power = 0.5 * (sample.power - power_of(sample.force));
-    --n_steps;
+    --state.n_steps;
     if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
       totals.damping.add(damping_since_sample(power));
-    last_damping_step  = n_steps++;
+    last_damping_step  = state.n_steps++;
     last_damping_power = power;
     damping_is_sampled = true;
   }
@@ -115,29 +117,26 @@ namespace tread
     // The product of the velocities half a step before and after now: central differences keep its sum with
     // the strain energy. What is not the cells' adds as much to the work.
     mesh.condense_hanging_nodes(forces.data());
-    if (supports)
-      supports->add_spring_forces(forces.data());
+    for (const auto &part : parts)
+      part->add_spring_forces(forces);
     mesh.shared_nodes.sum(forces.data());
     double energy = sum_by_runs(levels, mesh.comm, [&](const Run &, const double factor) {
-      return [&, back = 0.5 * factor * time_step](const unsigned int i) {
-        const double of_forces = back * dot(forces[i], v[i]);
-        return inverse_mass[i] > 0. ? of_forces + 0.5 / inverse_mass[i] * dot(v[i], v[i]) : of_forces;
+      return [&, back = 0.5 * factor * state.time_step](const unsigned int i) {
+        const double of_forces = back * dot(forces[i], state.v[i]);
+        return inverse_mass[i] > 0. ? of_forces + 0.5 / inverse_mass[i] * dot(state.v[i], state.v[i])
+                                    : of_forces;
       };
     });
-    if (supports)
-      energy += supports->sleeper_kinetic_energy(time_step);
-    for (const Wheel &wheel : wheels)
-      energy += wheel.hub->kinetic_energy(0.5 * time_step);
-    if (rail_base)
-      energy += rail_base->kinetic_energy();
+    for (const auto &part : parts)
+      energy += part->kinetic_energy(state.time_step);
     return energy;
   }
 
 
   StrainEnergy ExplicitDynamics::strain_energy() const
   {
-    const NodalField x    = positions();
-    StrainEnergySums sums = solid.strain_energy_sums(x.data(), history);
+    const NodalField x    = state.positions();
+    StrainEnergySums sums = solid.strain_energy_sums(x.data(), state.history);
     sums.hourglass.add(matched_surface.energy(x.data()));
     return {sums.strain.value(mesh.comm), sums.hourglass.value(mesh.comm)};
   }
@@ -149,39 +148,22 @@ namespace tread
     const double potential = sum_by_runs(levels, mesh.comm, [&](const Run &run, const double factor) {
       double  of_arm = 0.;
       Vector3 middle{}, axle{};
-      if (run.wheel >= 0)
+      if (run.carrier >= 0)
         {
-          const Wheel &wheel = wheels[run.wheel];
-          of_arm             = 0.5 * compensation(wheel) * parameters.density_scale;
-          middle             = wheel.hub->middle() - 0.5 * factor * time_step * wheel.hub->velocity();
-          axle               = wheel.hub->axle();
+          const RigidMotion motion = carriers[run.carrier]->motion();
+          of_arm                   = 0.5 * motion.compensation * parameters.density_scale;
+          middle                   = motion.middle - 0.5 * factor * state.time_step * motion.velocity;
+          axle                     = motion.axle;
         }
-      return [=, this, back = 0.5 * factor * time_step](const unsigned int i) {
+      return [=, this, back = 0.5 * factor * state.time_step](const unsigned int i) {
         if (inverse_mass[i] == 0.)
           return 0.;
-        const Vector3 before = position(i) - back * v[i], arm = before - middle,
+        const Vector3 before = state.position(i) - back * state.v[i], arm = before - middle,
                       off_axle = arm - dot(axle, arm) * axle;
         return true_mass[i] * (parameters.gravity * before[2] + of_arm * dot(off_axle, off_axle));
       };
     });
-    return supports ? potential + supports->weight_potential(time_step) : potential;
-  }
-
-
-  std::array<double, 2> ExplicitDynamics::work_on_hubs() const
-  {
-    std::array<double, 2> work{};
-    for (const Wheel &wheel : wheels)
-      {
-        work[0] += wheel.hub->external_work();
-        work[1] += wheel.hub->gross_work();
-      }
-    if (rail_base)
-      {
-        work[0] += rail_base->external_work();
-        work[1] += rail_base->gross_work();
-      }
-    return work;
+    return potential + sum_of_parts([&](const Part &part) { return part.potential(state.time_step); });
   }
 
 
@@ -200,15 +182,12 @@ namespace tread
     const double fall    = start_potential - body_potential();
     now.external_work += fall;
     now.gross_work += std::abs(fall);
-    const std::array<double, 2> hub_work = work_on_hubs();
-    now.external_work += hub_work[0] - start_hub_work[0];
-    now.gross_work += hub_work[1] - start_hub_work[1];
-    if (supports)
-      {
-        now.springs = supports->spring_energy() - start_springs;
-        now.dampers = supports->dissipated() - start_dissipated;
-        now.damping += now.dampers;
-      }
+    now.external_work +=
+      sum_of_parts([](const Part &part) { return part.external_work(); }) - start_external_work;
+    now.gross_work += sum_of_parts([](const Part &part) { return part.gross_work(); }) - start_gross_work;
+    now.springs = sum_of_parts([](const Part &part) { return part.spring_energy(); }) - start_springs;
+    now.dampers = sum_of_parts([](const Part &part) { return part.dissipated(); }) - start_dissipated;
+    now.damping += now.dampers;
     now.kinetic               = kinetic_energy(forces) - start_kinetic;
     const StrainEnergy energy = strain_energy();
     now.strain                = energy.strain - start_strain.strain;

@@ -11,7 +11,7 @@ namespace tread
   NodeLevels::NodeLevels(const Mesh                      &mesh,
                          const Solid                     &solid,
                          const std::vector<unsigned int> &smallest_steps,
-                         const std::vector<int>          &wheel_of_body)
+                         const std::vector<int>          &carrier_of_body)
     : reproducible(solid.reproducible())
   {
     set_levels(mesh, solid, smallest_steps);
@@ -20,7 +20,7 @@ namespace tread
       hangs[h.node] = &h;
     set_hanging_nodes(mesh, solid, hangs);
     set_slow_shares(mesh, solid, hangs);
-    set_runs(mesh, wheel_of_body, hangs);
+    set_runs(mesh, carrier_of_body, hangs);
   }
 
 
@@ -122,10 +122,10 @@ namespace tread
   }
 
 
-  void NodeLevels::set_runs(const Mesh &mesh, const std::vector<int> &wheel_of_body, const Hangs &hangs)
+  void NodeLevels::set_runs(const Mesh &mesh, const std::vector<int> &carrier_of_body, const Hangs &hangs)
   {
     const auto kind = [&](const unsigned int i) {
-      return std::make_tuple(of_node[i], wheel_of_body[mesh.node_bodies[i]], mesh.shared_nodes.is_owned(i),
+      return std::make_tuple(of_node[i], carrier_of_body[mesh.node_bodies[i]], mesh.shared_nodes.is_owned(i),
                              hangs[i] != nullptr);
     };
     for (unsigned int begin = 0, end = 0; begin < of_node.size(); begin = end)
@@ -134,7 +134,7 @@ namespace tread
           ++end;
         if (!hangs[begin])
           runs[of_node[begin]].push_back(
-            {begin, end, wheel_of_body[mesh.node_bodies[begin]], mesh.shared_nodes.is_owned(begin)});
+            {begin, end, carrier_of_body[mesh.node_bodies[begin]], mesh.shared_nodes.is_owned(begin)});
       }
   }
 

@@ -74,14 +74,14 @@ namespace tread
     void adapt_damping();
     void remember_forces()
     {
-      previous = d.force;
+      previous = d.state.force;
     }
 
     /// Add the contact's forces, and sum what acts on the hubs.
     void add_contact();
 
-    /// Move the rail as a beam, and the wheels with it, by what is out of balance along it.
-    void follow_beam();
+    /// Bend parts, such as a rail as a beam, under what is out of balance, and move the bodies on them along.
+    void bend_parts();
 
     /// Displace all nodes and the hubs. @param measure: find the balance.
     void advance(const bool measure);
@@ -96,7 +96,7 @@ namespace tread
     void refresh_contact()
     {
       check_that_nodes_stay(); // a search among nodes that fly apart fills the memory
-      d.contact->refresh(x.data(), d.v.data(), unit_step);
+      d.contact->refresh(x.data(), d.state.v.data(), unit_step);
       // Cells that were near at some time stay matched, or the balance could depend on what it decides.
       const std::vector<unsigned int> near = d.contact->nodes_near();
       nodes_near.insert(nodes_near.end(), near.begin(), near.end());
@@ -110,14 +110,14 @@ namespace tread
     void check_that_nodes_stay() const;
     void set_masses();
     void set_loads();
-    /// Sum of term(i) over the nodes of a wheel, each of them once. Collective.
+    /// Sum of term(i) over the nodes of a carried body, each of them once. Collective.
     template <typename Term>
-    double sum_of_wheel(const std::size_t k, const Term &term) const
+    double sum_of_body(const std::size_t k, const Term &term) const
     {
       return reproducible_sum(
         x.size(),
         [&](const std::size_t i) {
-          return d.wheel_of(i) == static_cast<int>(k) && d.mesh.shared_nodes.is_owned(i) ? term(i) : 0.;
+          return d.carrier_of(i) == static_cast<int>(k) && d.mesh.shared_nodes.is_owned(i) ? term(i) : 0.;
         },
         d.mesh.comm);
     }
@@ -142,45 +142,50 @@ namespace tread
     NodalField                body_force; ///< weight, true centrifugal force and external forces, N
     NodalField                previous;   ///< forces remembered, N
     std::vector<unsigned int> nodes_near; ///< the contact at any of its searches
-    struct OfWheel
+    /// A carried body, a wheel on its hub.
+    struct OfBody
     {
       double hub_mass = 0.;        ///< of the nodes that the hub carries
       double hub_load = 0.;        ///< static force of all but the cells, N
-      double mass = 0., load = 0.; ///< of all nodes of the wheel; with the hub's load
+      double mass = 0., load = 0.; ///< of all nodes of the body; with the hub's load
       double hub_velocity = 0.;
       // Of a hub that rolls: the same about x through its middle, N m and the square of the arms times mass.
       double hub_roll_inertia = 0., roll_inertia = 0., hub_roll_velocity = 0.;
     };
-    /// Displacement of a node of a wheel by a roll of its hub, per radian, m.
-    Vector3 by_roll(const Wheel &wheel, const unsigned int i) const
+    /// A function of a node: its displacement by a small roll of its body about the body's middle, per
+    /// radian, m.
+    auto by_roll(const std::size_t k) const
     {
-      return WheelHub::by_roll(x[i] - wheel.hub->middle());
+      return [this, middle = d.carriers[k]->motion().middle](const unsigned int i) {
+        const Vector3 arm = x[i] - middle;
+        return Vector3{0., arm[2], -arm[1], 0.};
+      };
     }
-    /// Moment of all forces on hub and cells of a wheel that rolls the hub, N m. Collective.
-    double               roll_moment(const std::size_t k) const;
-    std::vector<OfWheel> of_wheels;
-    double               lightness = 0.;
-    double               keep      = kept_at_first;
-    double               residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
-    std::shared_ptr<const FrictionLaw> law;                              ///< of the motion to come
-    Contact::Sliding                   sliding;                          ///< likewise
+    /// Moment of all forces on hub and cells of a body that rolls the hub, N m. Collective.
+    double              roll_moment(const std::size_t k) const;
+    std::vector<OfBody> bodies;
+    double              lightness = 0.;
+    double              keep      = kept_at_first;
+    double              residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
+    std::shared_ptr<const FrictionLaw> law;                             ///< of the motion to come
+    Contact::Sliding                   sliding;                         ///< likewise
   };
 
 
   ExplicitDynamics::Relaxation::Relaxation(ExplicitDynamics &dynamics)
     : d(dynamics)
-    , x(d.x_damped)
+    , x(d.state.x_damped)
     , at_rest(x.size(), Vector3{})
     , mass(x.size(), Vector3{})
     , inverse(x.size(), 0.)
     , body_force(x.size(), Vector3{})
     , previous(x.size(), Vector3{})
-    , of_wheels(d.wheels.size())
-    , lightness(!d.wheels.empty() && d.contact ? lightness_of_wheel : 0.)
+    , bodies(d.carriers.size())
+    , lightness(!d.carriers.empty() && d.contact ? lightness_of_wheel : 0.)
   {
     set_masses();
     set_loads();
-    std::fill(d.v.begin(), d.v.end(), Vector3{});
+    std::fill(d.state.v.begin(), d.state.v.end(), Vector3{});
     if (d.contact)
       {
         d.contact->set_inverse_masses(inverse);
@@ -195,7 +200,7 @@ namespace tread
   {
     constexpr double longest_way = 10e-3; // m
     bool             all_stay    = true;
-    for (const Vector3 &way : d.v)
+    for (const Vector3 &way : d.state.v)
       all_stay = all_stay && dot(way, way) < longest_way * longest_way;
     if (dealii::Utilities::MPI::logical_or(!all_stay, d.mesh.comm))
       throw std::runtime_error(format("no equilibrium at the start: nodes move by more than %g mm in an "
@@ -219,23 +224,21 @@ namespace tread
       }
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());
-    if (d.supports)
-      {
-        NodalField rows(x.size(), Vector3{});
-        d.supports->add_row_sums(rows.data());
-        mesh.shared_nodes.sum(rows.data());
-        for (unsigned int i = 0; i < x.size(); ++i)
-          mass[i][0] += rows[i][0] / (frequency_of_cells * frequency_of_cells);
-      }
+    NodalField rows(x.size(), Vector3{});
+    for (const auto &part : d.parts)
+      part->add_row_sums(rows);
+    mesh.shared_nodes.sum(rows.data());
+    for (unsigned int i = 0; i < x.size(); ++i)
+      mass[i][0] += rows[i][0] / (frequency_of_cells * frequency_of_cells);
     for (unsigned int i = 0; i < x.size(); ++i)
       if (!d.carried[i] && !d.fixed[i] && mass[i][0] > 0.)
         inverse[i] = 1. / mass[i][0];
-    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
       {
-        of_wheels[k].hub_mass =
-          sum_of_wheel(k, [&](const std::size_t i) { return d.carried[i] ? mass[i][0] : 0.; });
-        of_wheels[k].hub_roll_inertia = sum_of_wheel(k, [&](const std::size_t i) {
-          const Vector3 roll = by_roll(d.wheels[k], i);
+        bodies[k].hub_mass =
+          sum_of_body(k, [&](const std::size_t i) { return d.carried[i] ? mass[i][0] : 0.; });
+        bodies[k].hub_roll_inertia = sum_of_body(k, [&, by_roll = by_roll(k)](const std::size_t i) {
+          const Vector3 roll = by_roll(i);
           return d.carried[i] ? mass[i][0] * dot(roll, roll) : 0.;
         });
       }
@@ -245,28 +248,33 @@ namespace tread
   void ExplicitDynamics::Relaxation::set_loads()
   {
     // Weight and true centrifugal force act on the true masses; once on nodes that ranks share.
+    NodalField of_parts(x.size(), Vector3{});
+    for (const auto &part : d.parts)
+      part->add_static_loads(of_parts);
+    std::vector<RigidMotion> motions;
+    for (const CarriesBody *carrier : d.carriers)
+      motions.push_back(carrier->motion());
     for (unsigned int i = 0; i < x.size(); ++i)
       if (is_free_and_owned(i))
         {
           body_force[i] = Vector3{0., 0., -d.parameters.gravity * d.true_mass[i], 0.};
-          if (const int number = d.wheel_of(i); number >= 0)
+          if (const int number = d.carrier_of(i); number >= 0)
             {
-              const Wheel &wheel  = d.wheels[number];
-              const double omega2 = wheel.nominal_angular_velocity * wheel.nominal_angular_velocity;
-              body_force[i] += omega2 * d.true_mass[i] * wheel.hub->off_axle(x[i] - wheel.hub->middle());
+              const RigidMotion &motion = motions[number];
+              const double       omega  = d.carriers[number]->angular_velocity();
+              const Vector3      arm    = x[i] - motion.middle;
+              body_force[i] += omega * omega * d.true_mass[i] * (arm - dot(motion.axle, arm) * motion.axle);
             }
-          if (!d.external_force.empty())
-            body_force[i] += d.external_force[i];
-          body_force[i] = d.quanta.force.round(body_force[i]);
+          body_force[i] = d.quanta.force.round(body_force[i] + of_parts[i]);
         }
-    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
       {
-        OfWheel &wheel = of_wheels[k];
-        wheel.hub_load = d.wheels[k].hub->static_force();
-        wheel.mass     = sum_of_wheel(k, [&](const std::size_t i) { return mass[i][0]; });
-        wheel.load = sum_of_wheel(k, [&](const std::size_t i) { return body_force[i][2]; }) + wheel.hub_load;
-        wheel.roll_inertia = sum_of_wheel(k, [&](const std::size_t i) {
-          const Vector3 roll = by_roll(d.wheels[k], i);
+        OfBody &wheel  = bodies[k];
+        wheel.hub_load = d.carriers[k]->load().force;
+        wheel.mass     = sum_of_body(k, [&](const std::size_t i) { return mass[i][0]; });
+        wheel.load = sum_of_body(k, [&](const std::size_t i) { return body_force[i][2]; }) + wheel.hub_load;
+        wheel.roll_inertia = sum_of_body(k, [&, by_roll = by_roll(k)](const std::size_t i) {
+          const Vector3 roll = by_roll(i);
           return mass[i][0] * dot(roll, roll);
         });
       }
@@ -275,26 +283,26 @@ namespace tread
 
   double ExplicitDynamics::Relaxation::roll_moment(const std::size_t k) const
   {
-    return sum_of_wheel(k,
-                        [&](const std::size_t i) {
-                          return inverse[i] > 0. ? dot(by_roll(d.wheels[k], i), d.force[i]) : 0.;
-                        }) -
-           d.rank_sums[n_hub_sums * k + 3];
+    return sum_of_body(k,
+                       [&, by_roll = by_roll(k)](const std::size_t i) {
+                         return inverse[i] > 0. ? dot(by_roll(i), d.state.force[i]) : 0.;
+                       }) -
+           d.carriers[k]->resultant(d.sums_of_carrier(k)).moment[0];
   }
 
 
   void ExplicitDynamics::Relaxation::find_forces()
   {
-    std::copy(body_force.begin(), body_force.end(), d.force.begin());
-    d.solid.add_internal_forces(x.data(), at_rest.data(), d.force.data(), d.history);
-    d.matched_surface.add_forces(x.data(), at_rest.data(), d.force.data(), 0.);
-    d.mesh.condense_hanging_nodes(d.force.data());
-    if (d.supports)
+    std::copy(body_force.begin(), body_force.end(), d.state.force.begin());
+    d.solid.add_internal_forces(x.data(), at_rest.data(), d.state.force.data(), d.state.history);
+    d.matched_surface.add_forces(x.data(), at_rest.data(), d.state.force.data(), 0.);
+    d.mesh.condense_hanging_nodes(d.state.force.data());
+    for (const auto &part : d.parts)
       {
-        d.supports->set_at_rest(x.data());
-        d.supports->add_forces(d.force.data());
+        part->set_at_rest(d.state);
+        part->add_forces(d.state.force);
       }
-    d.mesh.shared_nodes.sum(d.force.data());
+    d.mesh.shared_nodes.sum(d.state.force.data());
   }
 
 
@@ -302,22 +310,24 @@ namespace tread
   {
     // Rayleigh quotient of the last displacement, of which the velocities are what damping leaves: the
     // frequency that still moves (Underwood 1983).
-    const double change =
-      -sum_of_free([&](const std::size_t i) { return dot(d.v[i], d.force[i] - previous[i]); }) / keep;
-    double inertia = sum_of_free([&](const std::size_t i) { return dot(d.v[i], d.v[i]) / inverse[i]; });
-    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+    const double change = -sum_of_free([&](const std::size_t i) {
+      return dot(d.state.v[i], d.state.force[i] - previous[i]);
+    }) / keep;
+    double       inertia =
+      sum_of_free([&](const std::size_t i) { return dot(d.state.v[i], d.state.v[i]) / inverse[i]; });
+    for (std::size_t k = 0; k < bodies.size(); ++k)
       {
-        const OfWheel &wheel = of_wheels[k];
-        const double   momentum =
-          sum_of_wheel(k, [&](const std::size_t i) { return inverse[i] > 0. ? d.v[i][2] / inverse[i] : 0.; });
+        const OfBody &wheel    = bodies[k];
+        const double  momentum = sum_of_body(
+           k, [&](const std::size_t i) { return inverse[i] > 0. ? d.state.v[i][2] / inverse[i] : 0.; });
         const double total = momentum + wheel.hub_mass * wheel.hub_velocity;
         inertia += wheel.hub_mass * wheel.hub_velocity * wheel.hub_velocity;
         if (lightness > 0.)
           inertia -= lightness / (1. + lightness) * total * total / wheel.mass;
-        if (!d.wheels[k].hub->rolls())
+        if (!d.carriers[k]->rolls())
           continue;
-        const double turning = sum_of_wheel(k, [&](const std::size_t i) {
-          return inverse[i] > 0. ? dot(by_roll(d.wheels[k], i), d.v[i]) / inverse[i] : 0.;
+        const double turning = sum_of_body(k, [&, by_roll = by_roll(k)](const std::size_t i) {
+          return inverse[i] > 0. ? dot(by_roll(i), d.state.v[i]) / inverse[i] : 0.;
         });
         const double turns   = turning + wheel.hub_roll_inertia * wheel.hub_roll_velocity;
         inertia += wheel.hub_roll_inertia * wheel.hub_roll_velocity * wheel.hub_roll_velocity;
@@ -327,9 +337,9 @@ namespace tread
     inertia /= keep * keep;
     const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
     const double kept  = std::exchange(keep, std::clamp(1. - 2. * omega, least_kept, most_kept));
-    for (Vector3 &velocity : d.v)
+    for (Vector3 &velocity : d.state.v)
       velocity *= keep / kept;
-    for (OfWheel &wheel : of_wheels)
+    for (OfBody &wheel : bodies)
       {
         wheel.hub_velocity *= keep / kept;
         wheel.hub_roll_velocity *= keep / kept;
@@ -339,42 +349,44 @@ namespace tread
 
   void ExplicitDynamics::Relaxation::add_contact()
   {
-    d.hold_guided_nodes(d.force);
-    d.set_hub_sums(d.rank_sums);
+    d.hold_guided_nodes(d.state.force);
+    d.set_part_sums();
     if (d.contact)
       {
         if (d.contact->refresh_due())
           refresh_contact();
-        d.contact->predict(d.v.data(), d.force.data(), unit_step, d.rank_sums);
-        d.contact->solve(unit_step, d.force.data());
+        d.contact->predict(d.state.v.data(), d.state.force.data(), unit_step, d.rank_sums);
+        d.contact->solve(unit_step, d.state.force.data());
       }
-    else if (!d.wheels.empty())
+    else if (!d.rank_sums.empty())
       dealii::Utilities::MPI::sum(d.rank_sums, d.mesh.comm, d.rank_sums);
   }
 
 
-  void ExplicitDynamics::Relaxation::follow_beam()
+  void ExplicitDynamics::Relaxation::bend_parts()
   {
-    // The wheels with all of their loads included.
-    std::vector<reference::SupportedBeam::Load> loads;
-    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+    // The carried bodies with all of their loads included.
+    std::vector<MovingLoad> loads = d.loads_of_carriers();
+    for (std::size_t k = 0; k < bodies.size(); ++k)
       {
         const double on_nodes =
-          sum_of_wheel(k, [&](const std::size_t i) { return d.carried[i] ? 0. : d.force[i][2]; });
-        loads.push_back(
-          {d.wheels[k].hub->motion.x, on_nodes + d.rank_sums[n_hub_sums * k + 2] + of_wheels[k].hub_load});
+          sum_of_body(k, [&](const std::size_t i) { return d.carried[i] ? 0. : d.state.force[i][2]; });
+        loads[k].force =
+          on_nodes + d.carriers[k]->resultant(d.sums_of_carrier(k)).force[2] + bodies[k].hub_load;
       }
-    const RailBeam::Field field = d.rail_beam->balance(d.force.data(), loads);
-    d.rail_beam->add(field, 1., x.data());
-    std::vector<double> up;
-    for (const Wheel &wheel : d.wheels)
-      {
-        up.push_back(field.rail.deflection(wheel.hub->motion.x).real());
-        wheel.hub->motion.z += up.back();
-      }
-    for (unsigned int i = 0; i < x.size(); ++i)
-      if (const int number = d.wheel_of(i); number >= 0)
-        x[i][2] += up[number];
+    bool bent = false;
+    for (const auto &part : d.parts)
+      if (const std::vector<double> up = part->bend(d.state, loads); !up.empty())
+        {
+          bent = true;
+          for (std::size_t k = 0; k < bodies.size(); ++k)
+            d.carriers[k]->move_up(up[k]);
+          for (unsigned int i = 0; i < x.size(); ++i)
+            if (const int number = d.carrier_of(i); number >= 0)
+              x[i][2] += up[number];
+        }
+    if (!bent)
+      return;
     d.mesh.distribute_hanging_nodes(x.data());
     if (d.contact)
       refresh_contact();
@@ -385,59 +397,60 @@ namespace tread
   {
     // The rigid shift r of a wheel: inverse masses M^-1 + lightness r r^T / (r^T M r). It strains no cell, as
     // K r = 0. So is a roll.
-    std::vector<double> shift(of_wheels.size(), 0.), roll(of_wheels.size(), 0.), rolled(of_wheels.size(), 0.);
+    std::vector<double> shift(bodies.size(), 0.), roll(bodies.size(), 0.), rolled(bodies.size(), 0.);
     double              of_hubs = 0., hub_loads = 0.;
-    for (std::size_t k = 0; k < of_wheels.size(); ++k)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
       {
-        OfWheel     &of_wheel = of_wheels[k];
-        const Wheel &wheel    = d.wheels[k];
+        OfBody         &of_body   = bodies[k];
+        CarriesBody    &carrier   = *d.carriers[k];
+        const Resultant resultant = carrier.resultant(d.sums_of_carrier(k));
         if (lightness > 0.)
-          shift[k] = lightness / of_wheel.mass * (of_wheel.load + d.contact->total_impulse_on(wheel.body)[2]);
-        const double imbalance    = d.rank_sums[n_hub_sums * k + 2] + of_wheel.hub_load;
-        const double displacement = of_wheel.hub_velocity + imbalance / of_wheel.hub_mass + shift[k];
-        wheel.hub->motion.z += displacement;
-        of_wheel.hub_velocity = keep * displacement;
-        of_hubs               = std::max(of_hubs, std::abs(imbalance));
-        hub_loads             = std::max(hub_loads, std::abs(of_wheel.hub_load));
-        if (!wheel.hub->rolls())
+          shift[k] =
+            lightness / of_body.mass * (of_body.load + d.contact->total_impulse_on(carrier.body())[2]);
+        const double imbalance    = resultant.force[2] + of_body.hub_load;
+        const double displacement = of_body.hub_velocity + imbalance / of_body.hub_mass + shift[k];
+        carrier.move_up(displacement);
+        of_body.hub_velocity = keep * displacement;
+        of_hubs              = std::max(of_hubs, std::abs(imbalance));
+        hub_loads            = std::max(hub_loads, std::abs(of_body.hub_load));
+        if (!carrier.rolls())
           continue;
-        const double moment = -d.rank_sums[n_hub_sums * k + 3];
+        const double moment = -resultant.moment[0];
         if (lightness > 0.)
-          roll[k] = lightness / of_wheel.roll_inertia * roll_moment(k);
-        of_wheel.hub_roll_velocity += moment / of_wheel.hub_roll_inertia + roll[k];
-        rolled[k] = of_wheel.hub_roll_velocity;
-        of_wheel.hub_roll_velocity *= keep;
+          roll[k] = lightness / of_body.roll_inertia * roll_moment(k);
+        of_body.hub_roll_velocity += moment / of_body.hub_roll_inertia + roll[k];
+        rolled[k] = of_body.hub_roll_velocity;
+        of_body.hub_roll_velocity *= keep;
         of_hubs =
-          std::max(of_hubs, std::abs(moment) / std::sqrt(of_wheel.hub_roll_inertia / of_wheel.hub_mass));
+          std::max(of_hubs, std::abs(moment) / std::sqrt(of_body.hub_roll_inertia / of_body.hub_mass));
       }
+    std::vector<decltype(by_roll(0))> rolls;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      rolls.push_back(by_roll(k));
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        const int number = d.wheel_of(i);
-        Vector3   displacement =
-          d.v[i] + inverse[i] * d.force[i] + Vector3{0., 0., number >= 0 ? shift[number] : 0., 0.};
+        const int number       = d.carrier_of(i);
+        Vector3   displacement = d.state.v[i] + inverse[i] * d.state.force[i] +
+                               Vector3{0., 0., number >= 0 ? shift[number] : 0., 0.};
         if (number >= 0 && roll[number] != 0.)
-          displacement += roll[number] * by_roll(d.wheels[number], i);
+          displacement += roll[number] * rolls[number](i);
         x[i] += displacement;
-        d.v[i] = keep * displacement;
+        d.state.v[i] = keep * displacement;
       }
-    for (std::size_t k = 0; k < of_wheels.size(); ++k)
-      {
-        const Wheel &wheel = d.wheels[k];
-        if (rolled[k] != 0.)
-          wheel.hub->roll_by(rolled[k]);
-        for (std::size_t j = 0; j < wheel.nodes.size(); ++j)
-          {
-            const unsigned int i = wheel.nodes[j];
-            x[i]                 = wheel.hub->position_of(wheel.reference[j]);
-            d.v[i]               = Vector3{0., 0., of_wheels[k].hub_velocity, 0.} +
-                     of_wheels[k].hub_roll_velocity * by_roll(wheel, i);
-          }
-      }
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      if (rolled[k] != 0.)
+        d.carriers[k]->roll_by(rolled[k]);
+    for (const auto &part : d.parts)
+      part->place_nodes(d.state);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      for (const auto of_node = by_roll(k); const unsigned int i : d.carriers[k]->carried())
+        d.state.v[i] = Vector3{0., 0., bodies[k].hub_velocity, 0.} + bodies[k].hub_roll_velocity * of_node(i);
     d.mesh.distribute_hanging_nodes(x.data());
-    Mesh::distribute(d.levels.hanging_at_contact, d.v.data()); // all that is asked for
+    Mesh::distribute(d.levels.hanging_at_contact, d.state.v.data()); // all that is asked for
     if (!measure)
       return;
-    const double squares = sum_of_free([&](const std::size_t i) { return dot(d.force[i], d.force[i]); });
+    const double squares =
+      sum_of_free([&](const std::size_t i) { return dot(d.state.force[i], d.state.force[i]); });
     const double load_squares =
       sum_of_free([&](const std::size_t i) { return dot(body_force[i], body_force[i]); });
     residual = std::max(of_hubs, std::sqrt(squares));
@@ -451,7 +464,7 @@ namespace tread
                                        const unsigned int                               max_iterations,
                                        const std::function<void(unsigned int, double)> &after_measurement)
   {
-    set_damping_time(0.);
+    state.set_damping_time(0.);
     // Sweeps on the way to equilibrium are no steps in time.
     const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
     Relaxation          relaxation(*this);
@@ -466,8 +479,8 @@ namespace tread
         if (place == iterations_between_looks - 1)
           relaxation.remember_forces();
         relaxation.add_contact();
-        if (supports && iteration % iterations_between_beams == 1)
-          relaxation.follow_beam();
+        if (iteration % iterations_between_beams == 1)
+          relaxation.bend_parts();
         relaxation.advance(measure);
         if (!measure)
           continue;
@@ -493,13 +506,14 @@ namespace tread
       throw std::runtime_error(
         "no equilibrium at the start within " + std::to_string(max_iterations) +
         " iterations: raise 'Start/Largest number of iterations' or check loads and supports");
-    std::fill(v.begin(), v.end(), Vector3{});
-    solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history);
-    if (supports)
-      supports->set_at_rest(x_damped.data());
-    std::fill(force.begin(), force.end(), Vector3{});
-    for (const Wheel &wheel : wheels)
-      wheel.hub->balance_suspension();
+    std::fill(state.v.begin(), state.v.end(), Vector3{});
+    solid.update_internal_forces(state.x_damped.data(), state.v.data(), state.force.data(), state.history);
+    std::fill(state.force.begin(), state.force.end(), Vector3{});
+    for (const auto &part : parts)
+      {
+        part->set_at_rest(state);
+        part->balance();
+      }
     if (contact)
       contact->set_n_unconverged_steps(unconverged_steps);
     return iteration;

@@ -46,13 +46,12 @@ namespace tread
   void ExplicitDynamics::set_node_levels()
   {
     std::vector<unsigned int> smallest_steps;
-    for (const Wheel &wheel : wheels)
-      smallest_steps.insert(smallest_steps.end(), wheel.nodes.begin(), wheel.nodes.end());
-    smallest_steps.insert(smallest_steps.end(), base_nodes.begin(), base_nodes.end());
-    if (supports)
-      for (const unsigned int i : supports->nodes())
-        smallest_steps.push_back(i);
-    levels           = NodeLevels(mesh, solid, smallest_steps, wheel_of_body);
+    for (const auto &part : parts)
+      {
+        const std::vector<unsigned int> nodes = part->nodes_of_every_step();
+        smallest_steps.insert(smallest_steps.end(), nodes.begin(), nodes.end());
+      }
+    levels           = NodeLevels(mesh, solid, smallest_steps, carrier_of_body);
     std::size_t most = force_before.size();
     for (const SlowShares &shares : levels.slow_shares)
       most = std::max(most, shares.nodes.size());
@@ -75,8 +74,8 @@ namespace tread
       return critical_step;
     // The stress-free reference configuration is used instead of the present one: small strain changes the
     // result by less than the margin.
-    NodalField reference(v.size());
-    for (unsigned int i = 0; i < v.size(); ++i)
+    NodalField reference(state.v.size());
+    for (unsigned int i = 0; i < state.v.size(); ++i)
       reference[i] = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
     critical_step = critical_time_step_of(highest_of_levels(reference, solid.virgin()));
     return critical_step;
@@ -106,31 +105,25 @@ namespace tread
     };
     // Forces at x + beta v of half a step back, dampers with v of half a step back: dt^2 K + 2 dt C <= 4 for
     // the largest eigenvalues of M^-1 K (1 + 2 beta/dt) and M^-1 C, or their bounds by row sums.
-    highest            = rounded(highest);
-    highest_of_step    = highest;
-    bound_found_stable = 0.;
-    double K = highest * highest * (1. + 2. * parameters.damping_steps), C = 0.;
-    if (supports)
+    highest                     = rounded(highest);
+    highest_of_step             = highest;
+    bound_found_stable          = 0.;
+    double                    K = highest * highest * (1. + 2. * parameters.damping_steps), C = 0.;
+    const std::vector<double> inverse = free_inverse_masses();
+    for (const auto &part : parts)
       {
-        const std::vector<double> inverse = free_inverse_masses();
-        NodalField                rows(v.size(), Vector3{});
-        supports->add_row_sums(rows.data());
+        NodalField rows(state.v.size(), Vector3{});
+        part->add_row_sums(rows);
         mesh.shared_nodes.sum(rows.data());
-        double of_springs, of_dampers;
-        supports->sleeper_row_sums(of_springs, of_dampers);
+        Part::OwnRates rates = part->own_rates(levels);
         for (unsigned int i = 0; i < rows.size(); ++i)
           {
-            of_springs = std::max(of_springs, inverse[i] * rows[i][0]);
-            of_dampers = std::max(of_dampers, inverse[i] * rows[i][1]);
+            rates.stiffness = std::max(rates.stiffness, inverse[i] * rows[i][0]);
+            rates.damping   = std::max(rates.damping, inverse[i] * rows[i][1]);
           }
-        K += rounded(dealii::Utilities::MPI::max(of_springs, mesh.comm));
-        C = rounded(dealii::Utilities::MPI::max(of_dampers, mesh.comm));
+        K += rounded(dealii::Utilities::MPI::max(rates.stiffness, mesh.comm));
+        C += rounded(dealii::Utilities::MPI::max(rates.damping, mesh.comm));
       }
-    // A node of level l moves with a step 2^l times as long.
-    double of_nodes = 0.;
-    for (const DampedNode &damped : damped_nodes)
-      of_nodes = std::max(of_nodes, std::ldexp(damped.rate, levels.of_node[damped.node]));
-    C += rounded(dealii::Utilities::MPI::max(of_nodes, mesh.comm));
     return 4. / (C + std::sqrt(C * C + 4. * K));
   }
 
@@ -151,14 +144,14 @@ namespace tread
     const std::vector<double> inverse = free_inverse_masses();
     const auto                product = [&](const NodalField &a, const NodalField &b) {
       return reproducible_sum(
-                       v.size(),
+                       state.v.size(),
                        [&](const std::size_t i) {
           return inverse[i] > 0. && mesh.shared_nodes.is_owned(i) ? dot(a[i], b[i]) / inverse[i] : 0.;
         },
                        mesh.comm);
     };
-    NodalField mode(v.size(), Vector3{}), mode_before(v.size(), Vector3{}), moved(v.size()),
-      rate(v.size(), Vector3{}), f(v.size()), forces_at_x(v.size(), Vector3{});
+    NodalField mode(state.v.size(), Vector3{}), mode_before(state.v.size(), Vector3{}), moved(state.v.size()),
+      rate(state.v.size(), Vector3{}), f(state.v.size()), forces_at_x(state.v.size(), Vector3{});
     // Damping of the surface counts like stiffness: dt^2 K (1 + 2 beta/dt) + 2 dt C <= 4. Here it acts on
     // displacements as rates.
     const double   like_stiffness = 2. * solid.surface_damping() / (1. + 2. * parameters.damping_steps);
@@ -186,17 +179,17 @@ namespace tread
         for (const Vector3 &row : mode)
           largest = std::max(largest, dot(row, row));
         const double scale = probing_displacement / std::sqrt(max(largest, mesh.comm));
-        for (unsigned int i = 0; i < v.size(); ++i)
+        for (unsigned int i = 0; i < state.v.size(); ++i)
           {
             rate[i]  = scale * mode[i];
             moved[i] = x[i] + rate[i];
             f[i]     = Vector3{};
           }
         add_forces(moved, f);
-        for (unsigned int i = 0; i < v.size(); ++i)
+        for (unsigned int i = 0; i < state.v.size(); ++i)
           f[i] = (inverse[i] / scale) * (forces_at_x[i] - f[i]);
         tridiagonal(k, k) = product(f, mode);
-        for (unsigned int i = 0; i < v.size(); ++i)
+        for (unsigned int i = 0; i < state.v.size(); ++i)
           mode_before[i] = f[i] - tridiagonal(k, k) * mode[i] - size * mode_before[i];
         mode.swap(mode_before);
         size = std::sqrt(product(mode, mode));
@@ -216,33 +209,34 @@ namespace tread
   {
     const auto add_matched = [&](const unsigned int level) {
       totals.external_work.add(-matched_surface.advance(
-        x_damped.data(), v.data(), force.data(), surface_damping_time(),
-        damping_time + 0.5 * std::ldexp(time_step, level), Levels{level, level, true}));
+        state.x_damped.data(), state.v.data(), state.force.data(), surface_damping_time(),
+        state.damping_time + 0.5 * std::ldexp(state.time_step, level), Levels{level, level, true}));
     };
-    totals.plastic.add(
-      solid.update_internal_forces(x_damped.data(), v.data(), force.data(), history, Levels{0, 0, true}));
+    totals.plastic.add(solid.update_internal_forces(state.x_damped.data(), state.v.data(), state.force.data(),
+                                                    state.history, Levels{0, 0, true}));
     add_matched(0);
-    Mesh::condense(levels.hanging[0].loaded, force.data());
+    Mesh::condense(levels.hanging[0].loaded, state.force.data());
     for (unsigned int level = 1; level <= max_level(); ++level)
       {
         SlowShares &shares = levels.slow_shares[level];
         if (level > due)
           {
             shares.for_nodes_up_to(due, [&](const std::size_t k, const double own) {
-              force[shares.nodes[k]] += own * shares.steady[k];
+              state.force[shares.nodes[k]] += own * shares.steady[k];
             });
             continue;
           }
         for (std::size_t k = 0; k < shares.nodes.size(); ++k)
-          force_before[k] = force[shares.nodes[k]];
-        solid.add_elastic_forces(x_damped.data(), v.data(), force.data(), Levels{level, level, true});
+          force_before[k] = state.force[shares.nodes[k]];
+        solid.add_elastic_forces(state.x_damped.data(), state.v.data(), state.force.data(),
+                                 Levels{level, level, true});
         add_matched(level);
-        Mesh::condense(levels.hanging[level].loaded, force.data());
+        Mesh::condense(levels.hanging[level].loaded, state.force.data());
         if (levels.reproducible)
           give_to_owners(shares);
         const double factor = std::ldexp(1., level);
         shares.for_nodes_up_to(level - 1, [&](const std::size_t k, const double own) {
-          Vector3      &here = force[shares.nodes[k]];
+          Vector3      &here = state.force[shares.nodes[k]];
           const Vector3 now  = (1. / factor) * (here - force_before[k]);
           const Vector3 change =
             quanta.force.round((levels.slow_shares_known ? follow : 1.) * (now - shares.steady[k]));
@@ -261,24 +255,24 @@ namespace tread
   {
     if (mesh.shared_nodes.nodes().empty())
       return;
-    given_to_owners.assign(v.size(), Vector3{});
+    given_to_owners.assign(state.v.size(), Vector3{});
     for (const std::size_t k : shares.with_copies)
       {
-        Vector3 &here                    = force[shares.nodes[k]];
+        Vector3 &here                    = state.force[shares.nodes[k]];
         given_to_owners[shares.nodes[k]] = here - force_before[k];
         here                             = force_before[k];
       }
     mesh.shared_nodes.sum(given_to_owners.data());
     for (const std::size_t k : shares.with_copies)
       if (const unsigned int i = shares.nodes[k]; mesh.shared_nodes.is_owned(i))
-        force[i] += given_to_owners[i];
+        state.force[i] += given_to_owners[i];
   }
 
 
   unsigned int ExplicitDynamics::level_due() const
   {
     unsigned int level = max_level();
-    while (n_steps % (std::uint64_t(1) << level) != 0)
+    while (state.n_steps % (std::uint64_t(1) << level) != 0)
       --level;
     return level;
   }
@@ -288,17 +282,17 @@ namespace tread
   {
     if (synchronised())
       {
-        for (Vector3 *field : {v.data(), x_damped.data()})
+        for (Vector3 *field : {state.v.data(), state.x_damped.data()})
           mesh.distribute_hanging_nodes(field);
         return;
       }
     for (unsigned int level = 0; level <= level_due(); ++level)
       {
-        Mesh::distribute(levels.hanging[level].placed, x_damped.data());
+        Mesh::distribute(levels.hanging[level].placed, state.x_damped.data());
         if (solid.needs_velocity())
-          Mesh::distribute(levels.hanging[level].placed, v.data());
+          Mesh::distribute(levels.hanging[level].placed, state.v.data());
       }
-    Mesh::distribute(levels.hanging_at_contact, x_damped.data());
-    Mesh::distribute(levels.hanging_at_contact, v.data());
+    Mesh::distribute(levels.hanging_at_contact, state.x_damped.data());
+    Mesh::distribute(levels.hanging_at_contact, state.v.data());
   }
 } // namespace tread

@@ -148,7 +148,7 @@ namespace tread
           {
             number[node] = nodes.size();
             nodes.push_back(node);
-            add_point(picture, dynamics.position(node));
+            add_point(picture, dynamics.state.position(node));
           }
         picture.corners.push_back(number[node]);
       }
@@ -239,8 +239,9 @@ namespace tread
   {
     const Mesh                              &mesh = dynamics.mesh;
     const std::vector<std::array<double, 6>> stress =
-      dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
-    const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+      dynamics.solid.cauchy_stress(dynamics.state.positions().data(), dynamics.state.history);
+    const std::vector<double> strain =
+      dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history);
 
     Picture       picture;
     PointsOfNodes points(dynamics, picture);
@@ -254,10 +255,10 @@ namespace tread
          Vector3 rigid{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.};
          if (const auto wheel = hubs.find(mesh.node_bodies[i]); wheel != hubs.end())
            rigid = wheel->second->position_of(rigid - wheel->second->start());
-         return 1e6 * (dynamics.position(i) - rigid);
+         return 1e6 * (dynamics.state.position(i) - rigid);
        }},
       {"velocity_m_per_s", [&](const unsigned int i) {
-         return dynamics.v[i];
+         return dynamics.state.v[i];
        }}};
     Scalars<unsigned int> of_cells{{"von_mises_MPa",
                                     [&](const unsigned int c) {
@@ -275,7 +276,7 @@ namespace tread
                             return 1e-6 * stress[c][k];
                           }});
     // The same fields on all ranks.
-    if (dealii::Utilities::MPI::logical_or(!dynamics.history.values.empty(), comm))
+    if (dealii::Utilities::MPI::logical_or(!dynamics.state.history.values.empty(), comm))
       of_cells.push_back({"equivalent_plastic_strain_percent", [&](const unsigned int c) {
                             return strain.empty() ? 0. : 100. * strain[c];
                           }});
@@ -283,7 +284,7 @@ namespace tread
     std::iota(cells.begin(), cells.end(), 0u);
     add_fields(picture, points.nodes, true, of_nodes, stress_fields(stresses, 1));
     add_fields(picture, cells, false, {}, of_cells);
-    add_picture("volume", picture, dynamics.time);
+    add_picture("volume", picture, dynamics.state.time);
   }
 
 
@@ -299,7 +300,7 @@ namespace tread
       if (const int node = contact.surfaces.nodes[state.node].local; node >= 0)
         {
           const double normal = dot(state.impulse, state.normal),
-                       scale  = 1e-6 / (state.area * dynamics.time_step);
+                       scale  = 1e-6 / (state.area * dynamics.state.time_step);
           of_nodes[node]      = {scale * normal, scale * (state.impulse - normal * state.normal), state.slip};
           state_of_node[node] = state.adhesion ? adheres : slips;
         }
@@ -322,7 +323,7 @@ namespace tread
       values.push_back(of_nodes[node]);
     add_surface_fields(picture, values, true, states);
     add_fields(picture, points.nodes, true, {}, stress_fields(stresses, 7));
-    add_picture("surface", picture, dynamics.time);
+    add_picture("surface", picture, dynamics.state.time);
   }
 
 

@@ -18,8 +18,9 @@ namespace tread
   {
     const Mesh                              &mesh = dynamics.mesh;
     const std::vector<std::array<double, 6>> stress =
-      dynamics.solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
-    const std::vector<double> strain = dynamics.solid.plastic().equivalent_plastic_strain(dynamics.history);
+      dynamics.solid.cauchy_stress(dynamics.state.positions().data(), dynamics.state.history);
+    const std::vector<double> strain =
+      dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history);
     std::vector<std::array<double, 11>> cells;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (mesh.cells[c].body == body)
@@ -40,7 +41,7 @@ namespace tread
           if (mesh.shared_nodes.is_owned(i) && std::abs(mesh.nodes[i][1]) <= depth)
             {
               const dealii::Point<3>       &p = mesh.nodes[i];
-              const Vector3                 u = dynamics.position(i) - Vector3{p[0], p[1], p[2], 0.};
+              const Vector3                 u = dynamics.state.position(i) - Vector3{p[0], p[1], p[2], 0.};
               const StressRecovery::Stress &s = stresses[i];
               own[mesh.node_key(i)]           = {
                           {p[0], p[1], p[2], u[0], u[1], u[2], von_mises(s), s[0], s[1], s[2], s[3], s[4], s[5]}};

@@ -54,7 +54,7 @@ namespace tread
       const Solid &solid = dynamics.solid;
       if (dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm) == 0)
         return "";
-      const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
+      const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.state.history);
       std::string               line;
       for (const auto &[body, key, name] : {std::tuple(rail_body, "largest_plastic_strain", "rail"),
                                             std::tuple(wheel, "wheel_largest_plastic_strain", "wheel")})
@@ -110,13 +110,13 @@ namespace tread
           mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
           std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
         {
-          settled.add(p[2] - dynamics.position(i)[2]);
-          shifted.add(dynamics.position(i)[0] - p[0]);
+          settled.add(p[2] - dynamics.state.position(i)[2]);
+          shifted.add(dynamics.state.position(i)[0] - p[0]);
           n_nodes += 1.;
         }
     const std::vector<std::array<double, 6>> stress =
-      solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
-    const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.history);
+      solid.cauchy_stress(dynamics.state.positions().data(), dynamics.state.history);
+    const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.state.history);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
           std::abs(mesh.nodes[mesh.cells[c].nodes[0]][0] - middle) <= half_length)
@@ -277,8 +277,8 @@ namespace tread
     const auto n_plastic_cells = dealii::Utilities::MPI::sum(solid.plastic().n_cells(), comm);
     summary.set("plastic_cells", n_plastic_cells);
     summary.set("unknowns", 3 * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
-    summary.set("steps", dynamics.n_steps);
-    summary.set("time_step_s", dynamics.time_step);
+    summary.set("steps", dynamics.state.n_steps);
+    summary.set("time_step_s", dynamics.state.time_step);
     summary.set("density_scale", scene.general.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
     summary.set("passages", scene.motion.passages);
@@ -332,7 +332,7 @@ namespace tread
   void Simulation::add_cost(Summary &summary) const
   {
     using dealii::Utilities::MPI::max;
-    const StepTimes &times           = dynamics.times;
+    const StepTimes &times           = dynamics.times();
     const double     internal_forces = max(times.internal_forces, comm);
     summary.set("wall_s", max(wall_seconds, comm));
     summary.set("wall_s_start", max(relaxation_seconds, comm));
@@ -340,7 +340,7 @@ namespace tread
     summary.set("wall_s_contact", max(times.contact + times.search, comm));
     summary.set("wall_s_communication", max(times.communication, comm));
     summary.set("wall_s_nodes", max(times.nodes, comm));
-    const double updates = mesh.n_global_cells / dynamics.ideal_gain_of_levels() * dynamics.n_steps;
+    const double updates = mesh.n_global_cells / dynamics.ideal_gain_of_levels() * dynamics.state.n_steps;
     summary.set("element_updates", updates);
     summary.set("element_updates_per_s", updates / std::max(1e-9, internal_forces));
     summary.set("cells_and_nodes_bytes", memory_of_cells_and_nodes());
@@ -396,7 +396,7 @@ namespace tread
       return lines;
     // Slow cells are looked at when all nodes are at the same instant.
     const double last_instant =
-      dynamics.time - (std::uint64_t(1) << dynamics.max_level()) * dynamics.time_step;
+      dynamics.state.time - (std::uint64_t(1) << dynamics.max_level()) * dynamics.state.time_step;
     bool       still_grows = false;
     const auto add         = [&](const std::string &name, const Peak &peak, const bool with_depth) {
       summary.set(name + "_Pa", peak.value);
@@ -591,7 +591,7 @@ namespace tread
     if (averaged)
       quality.slip_chatter = wheel.average.slip_chatter();
     quality.contact_unconverged =
-      dynamics.n_steps > 0 ? double(contact.n_unconverged_steps()) / dynamics.n_steps : 0.;
+      dynamics.state.n_steps > 0 ? double(contact.n_unconverged_steps()) / dynamics.state.n_steps : 0.;
     quality.add_to(summary);
     if (scene.has_impacts())
       impacts.add_to(summary, scene.static_load());

@@ -113,11 +113,11 @@ namespace tread
     const std::uint64_t steps = remaining_steps();
     // A few force evaluations tell this machine's pace.
     NodalField       force(mesh.nodes.size(), Vector3{});
-    const NodalField x     = dynamics.positions();
+    const NodalField x     = dynamics.state.positions();
     const auto       start = MPI_Wtime();
     unsigned int     n     = 0;
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
-      solid.add_internal_forces(x.data(), dynamics.v.data(), force.data());
+      solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data());
     const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
     const double           memory = memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
     constexpr unsigned int n_choices = 4; // of levels

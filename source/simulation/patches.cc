@@ -45,7 +45,7 @@ namespace tread
     std::vector<std::vector<PatchNode>> patches;
     const auto                          states = contact_states();
     for (const RollingWheel &wheel : wheels)
-      patches.push_back(patch_nodes(states[wheel.number], wheel.hub.motion.x, dynamics.time_step));
+      patches.push_back(patch_nodes(states[wheel.number], wheel.hub.motion.x, dynamics.state.time_step));
     return patches;
   }
 

@@ -2,11 +2,16 @@
 #include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/base/went_wrong.h>
+#include <tread/dynamics/parts/nodes.h>
+#include <tread/dynamics/parts/rail_base.h>
+#include <tread/dynamics/parts/supports.h>
+#include <tread/dynamics/parts/wheel.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/simulation.h>
+#include <tread/track/rail_ends.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -65,25 +70,25 @@ namespace tread
           supports->add_probe(mid_span_beside(scene, number));
         if (!scene.recorded_supports().empty())
           seats = std::make_unique<RailSeats>(*supports, scene.recorded_supports(), scene.first_support());
-        dynamics.attach_supports(*supports, scene.rail.material.elastic());
+        dynamics.add<RailOnSupports>(*supports, scene.rail.material.elastic());
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
         if (const AbsorbingEnds ends = scene.absorbing_ends(); ends.length > 0.)
-          dynamics.damp_nodes(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
+          dynamics.add<DampedNodes>(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
         dynamics.guide_nodes(supports->guided_nodes(1), 1);
         for (const SolidSleeper &sleeper : supports->solid_sleepers)
           dynamics.guide_nodes(dynamics.boundary_nodes(sleeper.body, Boundary::end), 1);
         if (!supports->solid_sleepers.empty())
           dynamics.guide_nodes(supports->guided_nodes(0), 0);
       }
-    else if (scene.track.runs_along())
-      {
-        rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());
-        dynamics.attach_rail_base(*rail_base, rail_body);
-      }
-    else
+    else if (!scene.track.runs_along())
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     for (RollingWheel &wheel : wheels)
-      dynamics.attach_hub(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
+      dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
+    if (scene.track.runs_along())
+      {
+        rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());
+        dynamics.add<RailOnBase>(*rail_base, rail_body);
+      }
     dynamics.attach_contact(contact);
     if (!scene.contact.friction_places.empty())
       contact.vary_friction(
@@ -97,7 +102,7 @@ namespace tread
           std::find_if(wheels.begin(), wheels.end(), [&](const RollingWheel &w) { return w.body == body; });
         // The sliding is a velocity, at the middle of the step: there the hub will be half a step further.
         const WheelHub::Motion &hub = wheel->hub.motion;
-        const double            x   = place[0] - (hub.x + 0.5 * dynamics.time_step * hub.velocity_x),
+        const double            x   = place[0] - (hub.x + 0.5 * dynamics.state.time_step * hub.velocity_x),
                      y              = place[1] - this->scene.first_contact().y;
         const MotionSection &motion = this->scene.motion;
         return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
@@ -173,8 +178,8 @@ namespace tread
 
   std::uint64_t Simulation::remaining_steps() const
   {
-    const double        step     = dynamics.time_step > 0.
-                                     ? dynamics.time_step
+    const double        step     = dynamics.state.time_step > 0.
+                                     ? dynamics.state.time_step
                                      : scene.time_stepping.courant_number * dynamics.critical_time_step();
     const std::uint64_t together = std::uint64_t(1) << dynamics.max_level();
     return together * static_cast<std::uint64_t>(
@@ -256,10 +261,10 @@ namespace tread
         const auto states = contact_states();
         for (RollingWheel &wheel : wheels)
           {
-            wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.time_step);
+            wheel.average.add(states[wheel.number], wheel.hub.motion.x, dynamics.state.time_step);
             for (unsigned int k = 0; k < wheel.averages_of_patches.size(); ++k)
               wheel.averages_of_patches[k].add(placed().of_patch(k, states[wheel.number], wheel.hub.motion.x),
-                                               wheel.hub.motion.x, dynamics.time_step);
+                                               wheel.hub.motion.x, dynamics.state.time_step);
           }
       }
   }
@@ -305,12 +310,12 @@ namespace tread
   void Simulation::end_interval(RunFolder &folder)
   {
     HistoryRow row;
-    row.time           = dynamics.time;
+    row.time           = dynamics.state.time;
     row.position       = position();
     const auto patches = patches_now();
     for (RollingWheel &wheel : wheels)
       row.wheels.push_back(wheel.end_interval(scene, patches[wheel.number], interval_steps,
-                                              dynamics.time - interval_start_time));
+                                              dynamics.state.time - interval_start_time));
     row.energy   = dynamics.ledger();
     row.supports = support_records();
     if (rail_base)
@@ -319,10 +324,10 @@ namespace tread
       row.cells = probes->record(dynamics);
     if (strip)
       strip->sample(dynamics, contact.surface_impulses(), position());
-    impacts.add(row, dynamics.time - interval_start_time, scene.recorded_supports());
+    impacts.add(row, dynamics.state.time - interval_start_time, scene.recorded_supports());
     folder.append(row);
     watch(row.energy);
-    interval_start_time = dynamics.time;
+    interval_start_time = dynamics.state.time;
     interval_steps      = 0;
   }
 
@@ -337,7 +342,7 @@ namespace tread
         "and %.4g J stored as strain ('Watchdogs/Stop at energy residual' %g): the step is unstable, "
         "or what the scene asks for is beyond its mesh; lower 'Time stepping/Courant number' or use one "
         "level",
-        energy.residual(), 1e3 * position(), (unsigned long long)dynamics.n_steps, energy.dissipated(),
+        energy.residual(), 1e3 * position(), (unsigned long long)dynamics.state.n_steps, energy.dissipated(),
         energy.stored_strain + energy.stored_hourglass, limit));
   }
 
@@ -420,8 +425,8 @@ namespace tread
 
     announce(progress);
     if (resume)
-      progress.say(
-        format("resumed at %.2f mm, step %llu", 1e3 * position(), (unsigned long long)dynamics.n_steps));
+      progress.say(format("resumed at %.2f mm, step %llu", 1e3 * position(),
+                          (unsigned long long)dynamics.state.n_steps));
     else
       {
         try
@@ -514,23 +519,24 @@ namespace tread
 
   Simulation::End Simulation::roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress)
   {
-    std::uint64_t n_steps = dynamics.n_steps + remaining_steps();
-    progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.time_step,
-                        (unsigned long long)(n_steps - dynamics.n_steps), 1e3 * (end_position - position())));
+    std::uint64_t n_steps = dynamics.state.n_steps + remaining_steps();
+    progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.state.time_step,
+                        (unsigned long long)(n_steps - dynamics.state.n_steps),
+                        1e3 * (end_position - position())));
     for (const std::string &doubt : doubts_at_start())
       progress.say("WARNING: " + doubt);
     // mpirun gives its ranks a second to end after Ctrl-C.
-    EverySoManySteps look_at_signals{10, dynamics.n_steps}, check{100, dynamics.n_steps + 100};
-    Pace             pace{progress.seconds(), dynamics.n_steps, progress.seconds(),
+    EverySoManySteps look_at_signals{10, dynamics.state.n_steps}, check{100, dynamics.state.n_steps + 100};
+    Pace             pace{progress.seconds(), dynamics.state.n_steps, progress.seconds(),
               mesh.n_global_cells / dynamics.ideal_gain_of_levels()};
-    while (dynamics.n_steps < n_steps)
+    while (dynamics.state.n_steps < n_steps)
       {
         set_drive();
         dynamics.step();
         add_to_interval();
         look_for_peaks();
         if (seats)
-          seats->record(dynamics.time, position());
+          seats->record(dynamics.state.time, position());
         if (!dynamics.synchronised())
           continue;
         if (contact.contact_at_rim())
@@ -540,7 +546,7 @@ namespace tread
           }
         write_what_is_due(folder);
 
-        const bool at_end = dynamics.n_steps == n_steps, checks = check.due(dynamics.n_steps);
+        const bool at_end = dynamics.state.n_steps == n_steps, checks = check.due(dynamics.state.n_steps);
         if (checks || at_end)
           {
             dynamics.check_stability();
@@ -552,15 +558,15 @@ namespace tread
           {
             if (!change_wheels(folder, checkpoint, progress))
               return End::between_passages;
-            n_steps = dynamics.n_steps + remaining_steps();
+            n_steps = dynamics.state.n_steps + remaining_steps();
           }
-        if (look_at_signals.due(dynamics.n_steps) && interrupted())
+        if (look_at_signals.due(dynamics.state.n_steps) && interrupted())
           return End::interrupted;
         if (checks)
           {
             keep_checkpoint(checkpoint, progress, pace);
             if (progress.due())
-              show_pace(progress, pace, n_steps - dynamics.n_steps);
+              show_pace(progress, pace, n_steps - dynamics.state.n_steps);
           }
       }
     return End::complete;
@@ -579,7 +585,7 @@ namespace tread
       {
         const auto patches = patches_now();
         for (const RollingWheel &wheel : wheels)
-          folder.append_patch(wheel.number, dynamics.time, wheel.hub.motion.x, patches[wheel.number]);
+          folder.append_patch(wheel.number, dynamics.state.time, wheel.hub.motion.x, patches[wheel.number]);
       }
     if (scene.output.write_volume && interval_ended(scene.output.volume_interval))
       write_volume(folder);
@@ -637,7 +643,7 @@ namespace tread
   void Simulation::show_pace(Progress &progress, const Pace &pace, const std::uint64_t steps_left) const
   {
     const Vector3 force = force_on(wheels.front());
-    const double  spent = progress.seconds() - pace.began, done = dynamics.n_steps - pace.first_step;
+    const double  spent = progress.seconds() - pace.began, done = dynamics.state.n_steps - pace.first_step;
     progress.show(
       format("x %8.2f mm  N %7.2f kN  T/N %+.4f  %5.1f ns/update/rank  %5.0f s left", 1e3 * position(),
              1e-3 * force[2], force[2] > 0. ? force[0] / force[2] : 0.,

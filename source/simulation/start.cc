@@ -60,7 +60,7 @@ namespace tread
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
-      const NodalField x       = dynamics.positions();
+      const NodalField x       = dynamics.state.positions();
       const double     stretch = half_space_stretch(scene);
       for (RollingWheel &wheel : wheels)
         wheel.free_creepage = contact.free_rolling_creepage(x.data(), wheel.body) - stretch;
@@ -142,11 +142,11 @@ namespace tread
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }
     if (supports)
-      dynamics.set_track_velocities();
-    dynamics.set_wheel_velocities();
+      dynamics.set_bending_velocities();
+    dynamics.set_rigid_velocities();
     contact.scale_impulses(scene.time_stepping.courant_number * dynamics.critical_time_step());
     dynamics.start();
-    interval_start_time = dynamics.time;
+    interval_start_time = dynamics.state.time;
     for (RollingWheel &wheel : wheels)
       wheel.interval_start_speed = wheel.hub.motion.velocity_z;
   }
@@ -202,12 +202,12 @@ namespace tread
         // residual stresses and strains anew from what the cells remember.
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
           if (supports || rail_base || mesh.node_bodies[i] == wheel.body)
-            dynamics.set_position(i, Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
-        solid.plastic().forget(wheel.body, dynamics.history);
+            dynamics.state.set_position(i, Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
+        solid.plastic().forget(wheel.body, dynamics.state.history);
         wheel.place(scene);
       }
     if (supports)
-      supports->set_at_rest(dynamics.positions().data());
+      supports->set_at_rest(dynamics.state.positions().data());
     if (rail_base)
       rail_base->place();
     contact.scale_impulses(0.);

@@ -100,13 +100,13 @@ namespace
 
   void take(ExplicitDynamics &dynamics, const Field &field, const double time)
   {
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
       {
-        Vector3 x = dynamics.position(i);
+        Vector3 x = dynamics.state.position(i);
         x[0]      = dynamics.mesh.nodes[i][0] + field.displacement(dynamics.mesh.nodes[i]);
-        dynamics.set_position(i, x);
+        dynamics.state.set_position(i, x);
       }
-    dynamics.time = time;
+    dynamics.state.time = time;
   }
 
   void check_strip(tests::Check &check, ExplicitDynamics &dynamics)
@@ -237,10 +237,10 @@ namespace
     const Solid      solid(mesh, {ElasticMaterial()}, parameters);
     ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
     StressPeaks      peaks(dynamics, nullptr, true, 0, ElasticMaterial(), region_of_peaks());
-    dynamics.n_steps = 1;
+    dynamics.state.n_steps = 1;
     take(dynamics, Field{0.1, false}, 1.);
     peaks.sample(dynamics, {}, {}, 10.);
-    dynamics.n_steps = 2;
+    dynamics.state.n_steps = 2;
     take(dynamics, Field{0.09, false}, 2.);
     peaks.sample(dynamics, {}, {}, 20.);
     const StressPeaks::Answer answer = peaks.answer(dynamics);
@@ -312,20 +312,20 @@ namespace
     const Mesh   &mesh = dynamics.mesh;
     const Contact contact(mesh, ContactParameters(), std::make_shared<CoulombFriction>(0.3));
     StressPeaks   peaks(dynamics, &contact, true, 0, ElasticMaterial(), region_of_peaks());
-    dynamics.time_step        = 1e-7;
+    dynamics.state.time_step  = 1e-7;
     constexpr double pressure = 300e6, shear = 50e6, area = 6e-6, strain = 1e-3;
     const auto       stretch = [&](const double share, const double time) {
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         {
           const Point<3> &p = mesh.nodes[i];
-          dynamics.set_position(i, Vector3{(1. + share) * p[0], p[1], p[2], 0.});
+          dynamics.state.set_position(i, Vector3{(1. + share) * p[0], p[1], p[2], 0.});
         }
-      dynamics.time = time;
+      dynamics.state.time = time;
     };
     std::vector<ContactNodeState> states;
     // What acts on the nodes is given over the areas that belong to them in the mesh.
-    std::vector<Vector3> impulses(contact.surfaces.nodes.size(),
-                                  fine * fine * dynamics.time_step * Vector3{-shear, 0., -pressure, 0.});
+    std::vector<Vector3> impulses(contact.surfaces.nodes.size(), fine * fine * dynamics.state.time_step *
+                                                                   Vector3{-shear, 0., -pressure, 0.});
     for (unsigned int k = 0; k < contact.surfaces.nodes.size(); ++k)
       {
         ContactNodeState state{};
@@ -333,7 +333,7 @@ namespace
         state.position = contact.surfaces.nodes[k].reference;
         state.normal   = Vector3{0., 0., 1., 0.};
         state.area     = area;
-        state.impulse  = area * dynamics.time_step * Vector3{shear, 0., pressure, 0.};
+        state.impulse  = area * dynamics.state.time_step * Vector3{shear, 0., pressure, 0.};
         states.push_back(state);
       }
     stretch(0., 1.);

@@ -95,8 +95,8 @@ namespace
           const Vector3 p = contact.surfaces.nodes[k].reference;
           impulses[k]     = time_step * area[k] * traction(Point<3>(p[0], p[1], p[2]));
         }
-      recovery.recover(x.data(), solid.cauchy_stress(x.data(), dynamics.history),
-                       solid.plastic().yield_limits(dynamics.history), impulses, time_step);
+      recovery.recover(x.data(), solid.cauchy_stress(x.data(), dynamics.state.history),
+                       solid.plastic().yield_limits(dynamics.state.history), impulses, time_step);
       return recovery;
     }
   };
@@ -311,7 +311,7 @@ namespace
             const Point<3> &p = block.mesh.nodes[i];
             x[i]              = Vector3{p[0], p[1], p[2], 0.} + u(p);
           }
-        block.solid.update_internal_forces(x.data(), v.data(), force.data(), block.dynamics.history);
+        block.solid.update_internal_forces(x.data(), v.data(), force.data(), block.dynamics.state.history);
         const auto recovery = block.recovered(everywhere, u, [](const Point<3> &) { return Vector3{}; });
         double     most = 0., least = std::numeric_limits<double>::max();
         for (const Stress &stress : recovery.stress_at_surface())

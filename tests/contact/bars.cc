@@ -47,12 +47,12 @@ namespace
     dynamics.attach_contact(contact);
 
     const std::vector<unsigned int> &body_of = mesh.node_bodies;
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-      dynamics.v[i] = Vector3{(body_of[i] == 0 ? 0.5 : -0.5) * relative_speed, 0., 0., 0.};
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
+      dynamics.state.v[i] = Vector3{(body_of[i] == 0 ? 0.5 : -0.5) * relative_speed, 0., 0., 0.};
     // A third of what they approach in a step.
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
       if (body_of[i] == 1)
-        dynamics.set_position(i, dynamics.position(i) + Vector3{1e-7, 0., 0., 0.});
+        dynamics.state.set_position(i, dynamics.state.position(i) + Vector3{1e-7, 0., 0., 0.});
     dynamics.start();
 
     // Between a tenth and nine tenths of the shorter bar's round trip the stress is uniform.
@@ -60,31 +60,31 @@ namespace
     double       last = 0., plateau = 0., gap = 0.;
     const double start_kinetic = 0.25 * material.density * edge * edge * (bars.length[0] + bars.length[1]) *
                                  0.5 * relative_speed * relative_speed;
-    while (dynamics.time < 3. * round_trip)
+    while (dynamics.state.time < 3. * round_trip)
       {
-        const double begin = dynamics.time;
+        const double begin = dynamics.state.time;
         dynamics.step();
         const double now = contact.total_impulse()[0];
         for (const ContactNodeState &state : contact.active_nodes())
           gap = std::max(gap, std::abs(state.gap));
         // Bars of unlike lengths stay together without stress, so the end is where it falls below half.
         if (now > 0.25 * material.density * material.pressure_wave_speed() * relative_speed * edge * edge *
-                    dynamics.time_step)
-          last = dynamics.time;
+                    dynamics.state.time_step)
+          last = dynamics.state.time;
         if (begin > 0.1 * round_trip && begin < 0.9 * round_trip)
           plateau += now;
       }
-    const double steps =
-      std::floor(0.9 * round_trip / dynamics.time_step) - std::floor(0.1 * round_trip / dynamics.time_step);
+    const double steps = std::floor(0.9 * round_trip / dynamics.state.time_step) -
+                         std::floor(0.1 * round_trip / dynamics.state.time_step);
     Vector3 momentum[2] = {};
     double  mass[2]     = {};
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
       {
-        momentum[body_of[i]] += dynamics.true_masses()[i] * dynamics.v[i];
+        momentum[body_of[i]] += dynamics.true_masses()[i] * dynamics.state.v[i];
         mass[body_of[i]] += dynamics.true_masses()[i];
       }
     const EnergyLedger energy = dynamics.ledger();
-    return {plateau / (steps * dynamics.time_step * edge * edge), last,
+    return {plateau / (steps * dynamics.state.time_step * edge * edge), last,
             (momentum[1][0] / mass[1] - momentum[0][0] / mass[0]) / relative_speed,
             (energy.contact + energy.damping) / start_kinetic, gap};
   }

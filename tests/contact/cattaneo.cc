@@ -43,15 +43,15 @@ void run_test(Check &check, const tests::Arguments &)
   // The hub is moved along x, slowly and with a smooth start; instants are chosen by the force that contact
   // carries.
   const unsigned int steps = 6000;
-  const double       shift = 4.6e-6, total = steps * dynamics.time_step; // the whole would just make it slide
+  const double shift = 4.6e-6, total = steps * dynamics.state.time_step; // the whole would just make it slide
   std::vector<double> shares{0.3, 0.5, 0.7, 0.875};                      // T/(f N)
   for (unsigned int n = 0; n < steps && !shares.empty(); ++n)
     {
       hub.motion.velocity_x = 2. * shift / total * std::pow(std::sin(dealii::numbers::PI * n / steps), 2);
       dynamics.step();
       const Vector3 p         = contact.total_impulse();
-      const double  normal    = std::abs(p[2]) / dynamics.time_step,
-                   tangential = std::abs(p[0]) / dynamics.time_step;
+      const double  normal    = std::abs(p[2]) / dynamics.state.time_step,
+                   tangential = std::abs(p[0]) / dynamics.state.time_step;
       const double share      = tangential / (friction * normal);
       if (share < shares.front())
         continue;
@@ -65,7 +65,7 @@ void run_test(Check &check, const tests::Arguments &)
           (state.adhesion ? stick : slip) += 1;
           stick_area += state.adhesion ? state.area : 0.;
           const double r     = std::hypot(state.position[0] - hub.motion.x, state.position[1]);
-          const double shear = std::abs(state.impulse[0]) / (dynamics.time_step * state.area);
+          const double shear = std::abs(state.impulse[0]) / (dynamics.state.time_step * state.area);
           squares[0] += std::pow(shear - theory.shear(r), 2);
           squares[1] += std::pow(friction * theory.max_pressure, 2);
         }

@@ -50,18 +50,18 @@ namespace
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(5.));
     dynamics.attach_contact(contact);
     dynamics.start();
-    const double down = -gap / (share * dynamics.time_step);
+    const double down = -gap / (share * dynamics.state.time_step);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 1)
-        dynamics.v[i] = Vector3{along, across, down, 0.};
+        dynamics.state.v[i] = Vector3{along, across, down, 0.};
     dynamics.step();
     Result result{0., 0., 0., 0., true, 0.};
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 1 && mesh.nodes[i][2] < 0.5 * size)
         {
-          result.along += 0.25 * dynamics.v[i][0] / along;
-          result.across += 0.25 * dynamics.v[i][1] / across;
-          result.down += 0.25 * dynamics.v[i][2] / down;
+          result.along += 0.25 * dynamics.state.v[i][0] / along;
+          result.across += 0.25 * dynamics.state.v[i][1] / across;
+          result.down += 0.25 * dynamics.state.v[i][2] / down;
         }
     for (const ContactNodeState &node : contact.active_nodes())
       {

@@ -4,6 +4,7 @@
 // at the start. Coulomb's law and the balances of momentum and energy do not depend on the mesh. The block is
 // the slave: its sharp edges would cover faces of a slave plate in part, and such contact gives energy.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -74,6 +75,7 @@ namespace
     Mesh             mesh;
     Solid            solid;
     ExplicitDynamics dynamics;
+    NodeLoads       &loads = dynamics.add<NodeLoads>();
     Contact          contact;
     double           mass = 0.; ///< of the block, kg
 
@@ -85,7 +87,6 @@ namespace
     {
       dynamics.fix_nodes(dynamics.support_nodes(0));
       dynamics.attach_contact(contact);
-      dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
       of_block([&](const unsigned int, const double m) { mass += m; });
       dynamics.start();
     }
@@ -102,22 +103,22 @@ namespace
     Vector3 velocity() const
     {
       Vector3 momentum{};
-      of_block([&](const unsigned int i, const double m) { momentum += m * dynamics.v[i]; });
+      of_block([&](const unsigned int i, const double m) { momentum += m * dynamics.state.v[i]; });
       return (1. / mass) * momentum;
     }
 
     void set_weight(const double share)
     {
       of_block([&](const unsigned int i, const double m) {
-        dynamics.external_force[i] = Vector3{0., 0., -share * m * gravity, 0.};
+        loads.force[i] = Vector3{0., 0., -share * m * gravity, 0.};
       });
     }
 
     void settle()
     {
-      while (dynamics.time < settling)
+      while (dynamics.state.time < settling)
         {
-          const double s = dynamics.time / settling;
+          const double s = dynamics.state.time / settling;
           set_weight(s * s * (3. - 2. * s));
           dynamics.step();
         }
@@ -125,12 +126,14 @@ namespace
 
     void push()
     {
-      of_block([&](const unsigned int i, const double) { dynamics.v[i] += Vector3{speed, 0., 0., 0.}; });
+      of_block([&](const unsigned int i, const double) {
+        dynamics.state.v[i] += Vector3{speed, 0., 0., 0.};
+      });
     }
 
     void stand(const double seconds)
     {
-      for (const double end = dynamics.time + seconds; dynamics.time < end;)
+      for (const double end = dynamics.state.time + seconds; dynamics.state.time < end;)
         dynamics.step();
     }
 
@@ -169,25 +172,25 @@ namespace
     ExplicitDynamics  &dynamics = slide.dynamics;
     const EnergyLedger at_first = dynamics.ledger();
     const Vector3      first    = slide.velocity();
-    const double       begin    = dynamics.time;
+    const double       begin    = dynamics.state.time;
     double             along = 0., normal = 0., way = 0.;
-    while (slide.velocity()[0] > 0.1 * speed && dynamics.time < begin + 0.1)
+    while (slide.velocity()[0] > 0.1 * speed && dynamics.state.time < begin + 0.1)
       {
         dynamics.step();
         const Vector3 impulse = slide.contact.total_impulse_on(1);
         along += impulse[0];
         normal += impulse[2];
-        way += dynamics.time_step * slide.velocity()[0];
+        way += dynamics.state.time_step * slide.velocity()[0];
       }
     const Vector3      change = slide.velocity() - first;
     const EnergyLedger now    = dynamics.ledger();
     const double       energy = 0.5 * slide.mass * (1. - 0.1 * 0.1) * speed * speed;
     std::printf("%s%u + %u cells, slid %.3f mm, %llu steps in all\n", name.c_str(),
                 (unsigned int)test.plate.cells.size(), (unsigned int)test.block.cells.size(), 1e3 * way,
-                (unsigned long long)dynamics.n_steps);
+                (unsigned long long)dynamics.state.n_steps);
     check.relative(name + "change of momentum over impulse along", slide.mass * change[0] / along, 1., 1e-9);
     check.relative(name + "impulse of the weight, N s", normal - slide.mass * change[2],
-                   slide.mass * gravity * (dynamics.time - begin), 1e-9);
+                   slide.mass * gravity * (dynamics.state.time - begin), 1e-9);
     check.below(name + "energy residual over what was dissipated",
                 (now.residual() - at_first.residual()) / (now.dissipated() - at_first.dissipated()),
                 test.hops ? 2e-4 : 1e-8);
@@ -208,22 +211,23 @@ namespace
   void check_standing(Check &check, const std::string &name, const Case &test, Slide &slide)
   {
     slide.stand(0.03);
-    const NodalField x    = slide.dynamics.positions();
+    const NodalField x    = slide.dynamics.state.positions();
     const double     lost = slide.dynamics.ledger().friction;
-    const auto       n    = slide.dynamics.n_steps;
+    const auto       n    = slide.dynamics.state.n_steps;
     slide.stand(test.standing);
-    std::printf("%sstood for %llu steps\n", name.c_str(), (unsigned long long)(slide.dynamics.n_steps - n));
+    std::printf("%sstood for %llu steps\n", name.c_str(),
+                (unsigned long long)(slide.dynamics.state.n_steps - n));
     double drift = 0.;
     for (const Mesh::Face &face : slide.mesh.faces)
       if (face.body == 1 && face.boundary == Boundary::contact)
         for (const unsigned int i : face.nodes)
-          drift = std::max(drift, std::abs(slide.dynamics.position(i)[0] - x[i][0]));
+          drift = std::max(drift, std::abs(slide.dynamics.state.position(i)[0] - x[i][0]));
     check.below(name + "drift while it stands, share of its length", drift / edge, test.drift);
     check.below(name + "friction while it stands, share of what there was",
                 (slide.dynamics.ledger().friction - lost) / lost, 1e-9);
     check.relative(name + "weight that the plate carries in the end, N",
-                   slide.contact.total_impulse_on(1)[2] / slide.dynamics.time_step, slide.mass * gravity,
-                   3e-5);
+                   slide.contact.total_impulse_on(1)[2] / slide.dynamics.state.time_step,
+                   slide.mass * gravity, 3e-5);
   }
 
   void check_case(Check &check, const Case &test)

@@ -134,7 +134,7 @@ namespace
         of_plane.push_back(i);
       else
         {
-          dynamics.v[i] = Vector3{0., 0., -speed, 0.};
+          dynamics.state.v[i] = Vector3{0., 0., -speed, 0.};
           if (mesh.nodes[i][0] < 1e-9)
             on_x.push_back(i);
           if (mesh.nodes[i][1] < 1e-9)
@@ -154,21 +154,21 @@ namespace
     const double duration = reference::hertz_impact(4. * mass, radius, plane_modulus(steel), speed).duration;
     Impact       impact;
     double       begin = -1., end = 0., velocity = -speed, middle = 0.;
-    while (dynamics.time < 1.1 * duration || !dynamics.synchronised())
+    while (dynamics.state.time < 1.1 * duration || !dynamics.synchronised())
       {
         dynamics.step();
-        const double force = 4. * std::abs(contact.total_impulse()[2]) / dynamics.time_step;
+        const double force = 4. * std::abs(contact.total_impulse()[2]) / dynamics.state.time_step;
         // The middle of the mass moves by the contact force alone.
-        velocity += 0.25 * force / mass * dynamics.time_step;
-        middle += velocity * dynamics.time_step;
+        velocity += 0.25 * force / mass * dynamics.state.time_step;
+        middle += velocity * dynamics.state.time_step;
         if (force > 0.)
           {
-            begin = begin < 0. ? dynamics.time : begin;
-            end   = dynamics.time;
+            begin = begin < 0. ? dynamics.state.time : begin;
+            end   = dynamics.state.time;
           }
         impact.force    = std::max(impact.force, force);
         impact.approach = std::max(impact.approach, -middle);
-        if (dynamics.n_steps % 256 == 0)
+        if (dynamics.state.n_steps % 256 == 0)
           for (const ContactNodeState &node : contact.active_nodes())
             impact.reach = std::max(impact.reach, std::hypot(node.position[0], node.position[1]));
       }
@@ -178,7 +178,7 @@ namespace
     impact.energy_residual = dynamics.ledger().residual() / (0.5 * mass * speed * speed);
     std::printf("%llu cells, %llu steps, mass %.4f of the sphere's\n",
                 static_cast<unsigned long long>(mesh.n_global_cells),
-                static_cast<unsigned long long>(dynamics.n_steps), impact.mass / sphere_mass(steel));
+                static_cast<unsigned long long>(dynamics.state.n_steps), impact.mass / sphere_mass(steel));
     return impact;
   }
 } // namespace

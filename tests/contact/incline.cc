@@ -89,22 +89,22 @@ namespace
 
     for (unsigned int n = 0; n < test.steps_before; ++n)
       dynamics.step();
-    const double v0 = mean(dynamics.v), x0 = mean(dynamics.positions()), t0 = dynamics.time,
+    const double v0 = mean(dynamics.state.v), x0 = mean(dynamics.state.positions()), t0 = dynamics.state.time,
                  loss0      = dynamics.ledger().friction;
-    const NodalField before = dynamics.positions();
+    const NodalField before = dynamics.state.positions();
     for (unsigned int n = 0; n < test.steps; ++n)
       {
         dynamics.step();
         const Vector3 p = contact.total_impulse();
         result.normal_impulse += std::abs(p[2] * std::cos(slope) + p[0] * std::sin(slope));
       }
-    result.seconds       = dynamics.time - t0;
-    result.slide         = mean(dynamics.positions()) - x0;
-    result.acceleration  = (mean(dynamics.v) - v0) / result.seconds;
+    result.seconds       = dynamics.state.time - t0;
+    result.slide         = mean(dynamics.state.positions()) - x0;
+    result.acceleration  = (mean(dynamics.state.v) - v0) / result.seconds;
     result.friction_loss = dynamics.ledger().friction - loss0;
-    result.n_steps       = dynamics.n_steps;
+    result.n_steps       = dynamics.state.n_steps;
     for (const unsigned int i : touching)
-      result.drift = std::max(result.drift, std::abs(dot(dynamics.position(i) - before[i], down)));
+      result.drift = std::max(result.drift, std::abs(dot(dynamics.state.position(i) - before[i], down)));
     return result;
   }
 } // namespace

@@ -43,13 +43,13 @@ namespace
   Momentum momentum(const ExplicitDynamics &dynamics)
   {
     Momentum m;
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
       if (dynamics.mesh.shared_nodes.is_owned(i))
         {
           const double mass = dynamics.true_masses()[i];
-          m.of_body[dynamics.mesh.node_bodies[i]] += mass * dynamics.v[i];
-          m.angular += mass * cross(dynamics.position(i), dynamics.v[i]);
-          m.kinetic += 0.5 * mass * dot(dynamics.v[i], dynamics.v[i]);
+          m.of_body[dynamics.mesh.node_bodies[i]] += mass * dynamics.state.v[i];
+          m.angular += mass * cross(dynamics.state.position(i), dynamics.state.v[i]);
+          m.kinetic += 0.5 * mass * dot(dynamics.state.v[i], dynamics.state.v[i]);
         }
     const MPI_Comm comm = dynamics.mesh.comm;
     for (Vector3 &of_body : m.of_body)
@@ -89,8 +89,8 @@ namespace
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.3));
     dynamics.attach_contact(contact);
 
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
-      dynamics.v[i] = mesh.node_bodies[i] == 0 ? Vector3{-1., 0., 2., 0.} : Vector3{3., 1., -5., 0.};
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
+      dynamics.state.v[i] = mesh.node_bodies[i] == 0 ? Vector3{-1., 0., 2., 0.} : Vector3{3., 1., -5., 0.};
     dynamics.start();
 
     Result result;
@@ -119,7 +119,7 @@ namespace
     result.energy = dynamics.ledger();
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
-        result.velocities[mesh.node_key(i)] = dynamics.v[i];
+        result.velocities[mesh.node_key(i)] = dynamics.state.v[i];
     return result;
   }
 } // namespace

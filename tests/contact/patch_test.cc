@@ -2,6 +2,7 @@
 // Contact patch test: uniform pressure must pass through an interface whose meshes do not match (Taylor &
 // Papadopoulos 1991), also where cells of one surface change their size and nodes hang.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -65,15 +66,16 @@ namespace
     return both;
   }
 
-  /// The pressure on the top of the upper body.
-  void load_top(const Case &test, const Vector3 up, const Mesh &mesh, ExplicitDynamics &dynamics)
+  /// The pressure on the top of the upper body. @returns the loads, N
+  const NodalField &load_top(const Case &test, const Vector3 up, const Mesh &mesh, ExplicitDynamics &dynamics)
   {
-    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
+    NodalField &external_force = dynamics.add<NodeLoads>().force;
     for (const Mesh::Face &face : mesh.faces)
       if (face.body == 1 && face.boundary == Boundary::end)
         for (const unsigned int i : face.nodes) // all faces of the top are equal squares
-          dynamics.external_force[i] -= (pressure * edge * edge / (4. * test.n_upper * test.n_upper)) * up;
-    mesh.shared_nodes.sum(dynamics.external_force.data());
+          external_force[i] -= (pressure * edge * edge / (4. * test.n_upper * test.n_upper)) * up;
+    mesh.shared_nodes.sum(external_force.data());
+    return external_force;
   }
 
   /// On each body, N and N m.
@@ -86,18 +88,19 @@ namespace
   ContactForces contact_forces(const Mesh             &mesh,
                                const Solid            &solid,
                                const ExplicitDynamics &dynamics,
+                               const NodalField       &external_force,
                                Contact                &contact)
   {
     NodalField       without(mesh.nodes.size(), Vector3{});
     const NodalField at_rest(mesh.nodes.size(), Vector3{});
-    solid.add_internal_forces(dynamics.positions().data(), at_rest.data(), without.data());
+    solid.add_internal_forces(dynamics.state.positions().data(), at_rest.data(), without.data());
     mesh.condense_hanging_nodes(without.data());
     mesh.shared_nodes.sum(without.data());
     for (unsigned int i = 0; i < without.size(); ++i)
-      without[i] += dynamics.external_force[i];
+      without[i] += external_force[i];
     NodalField          with = without;
     std::vector<double> nothing;
-    contact.refresh(dynamics.positions().data(), at_rest.data(), 1.);
+    contact.refresh(dynamics.state.positions().data(), at_rest.data(), 1.);
     contact.predict(at_rest.data(), without.data(), 1., nothing);
     contact.solve(1., with.data());
 
@@ -106,7 +109,7 @@ namespace
       if (mesh.shared_nodes.is_owned(i))
         {
           sum.force[mesh.node_bodies[i]] += with[i] - without[i];
-          sum.moment[mesh.node_bodies[i]] += cross(dynamics.position(i), with[i] - without[i]);
+          sum.moment[mesh.node_bodies[i]] += cross(dynamics.state.position(i), with[i] - without[i]);
         }
     for (unsigned int b = 0; b < 2; ++b)
       {
@@ -123,7 +126,7 @@ namespace
                           const MPI_Comm          comm)
   {
     double largest = 0.;
-    for (const std::array<double, 6> &s : solid.cauchy_stress(dynamics.positions().data()))
+    for (const std::array<double, 6> &s : solid.cauchy_stress(dynamics.state.positions().data()))
       {
         const double tensor[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
         for (unsigned int i = 0; i < 3; ++i)
@@ -153,13 +156,13 @@ namespace
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));
     dynamics.attach_contact(contact);
 
-    const Point<3> up_point = tests::turn(Point<3>(0., 0., 1.), axis, test.tilt);
-    const Vector3  up{up_point[0], up_point[1], up_point[2], 0.};
-    load_top(test, up, mesh, dynamics);
-    constexpr double   balance    = 1e-9; // of the relaxation, share of the load
-    const unsigned int iterations = dynamics.relax(balance, 20000, nullptr);
-    const auto [force, moment]    = contact_forces(mesh, solid, dynamics, contact);
-    const double load             = pressure * edge * edge;
+    const Point<3>     up_point = tests::turn(Point<3>(0., 0., 1.), axis, test.tilt);
+    const Vector3      up{up_point[0], up_point[1], up_point[2], 0.};
+    const NodalField  &external_force = load_top(test, up, mesh, dynamics);
+    constexpr double   balance        = 1e-9; // of the relaxation, share of the load
+    const unsigned int iterations     = dynamics.relax(balance, 20000, nullptr);
+    const auto [force, moment]        = contact_forces(mesh, solid, dynamics, external_force, contact);
+    const double load                 = pressure * edge * edge;
 
     const std::vector<ContactNodeState> states = contact.active_nodes();
     const unsigned int                  n      = test.slave == 0 ? test.n_lower : test.n_upper;

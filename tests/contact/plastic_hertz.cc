@@ -48,8 +48,8 @@ namespace
     const ExplicitDynamics &dynamics = pressed.dynamics;
     Yielding                result;
     result.force                     = pressed.force();
-    const std::vector<double> strain = solid.plastic().equivalent_plastic_strain(dynamics.history);
-    const auto                stress = solid.cauchy_stress(dynamics.positions().data(), dynamics.history);
+    const std::vector<double> strain = solid.plastic().equivalent_plastic_strain(dynamics.state.history);
+    const auto stress = solid.cauchy_stress(dynamics.state.positions().data(), dynamics.state.history);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.plastic().contains(c))
         {

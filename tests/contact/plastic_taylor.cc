@@ -109,17 +109,17 @@ namespace
       if (mesh.node_bodies[i] == 1)
         held.push_back(i);
       else
-        dynamics.v[i] = Vector3{0., 0., -227., 0.};
+        dynamics.state.v[i] = Vector3{0., 0., -227., 0.};
     dynamics.fix_nodes(held);
     ContactParameters contact_parameters;
     contact_parameters.slave_body = 0;
     Contact contact(mesh, contact_parameters, std::make_shared<CoulombFriction>(0.));
     dynamics.attach_contact(contact);
     dynamics.start();
-    while (dynamics.time < 80e-6)
+    while (dynamics.state.time < 80e-6)
       {
         dynamics.step();
-        if (dynamics.n_steps % 500 == 0)
+        if (dynamics.state.n_steps % 500 == 0)
           dynamics.check_stability();
       }
     Result result{};
@@ -127,7 +127,7 @@ namespace
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 0)
         {
-          const Vector3 x = dynamics.position(i);
+          const Vector3 x = dynamics.state.position(i);
           low             = std::min(low, x[2]);
           high            = std::max(high, x[2]);
           if (std::hypot(mesh.nodes[i][0], mesh.nodes[i][1]) > 0.99 * radius && mesh.nodes[i][2] < 1e-6)
@@ -143,13 +143,14 @@ namespace
     result.residual      = energy.residual() / energy.kinetic;
     result.plastic_share = -energy.plastic / energy.kinetic;
     result.n_cells       = mesh.n_global_cells;
-    for (const double p : solid.plastic().equivalent_plastic_strain(dynamics.history))
+    for (const double p : solid.plastic().equivalent_plastic_strain(dynamics.state.history))
       result.largest_strain = std::max(result.largest_strain, p);
     std::printf(
       "core of %u cells across: %u steps, length %.3f mm, foot %.3f mm, largest plastic strain %.2f, "
       "kinetic %.2f plastic %.2f strain %.3f hourglass %.3f contact %.3f damping %.3f J\n",
-      n_across, unsigned(dynamics.n_steps), 1e3 * result.length, 1e3 * result.foot, result.largest_strain,
-      energy.kinetic, energy.plastic, energy.strain, energy.hourglass, energy.contact, energy.damping);
+      n_across, unsigned(dynamics.state.n_steps), 1e3 * result.length, 1e3 * result.foot,
+      result.largest_strain, energy.kinetic, energy.plastic, energy.strain, energy.hourglass, energy.contact,
+      energy.damping);
     std::fflush(stdout);
     return result;
   }

@@ -2,6 +2,7 @@
 // A block on a plane is pushed aside and released: after stick it returns, after slip it remains at its new
 // position.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -58,22 +59,22 @@ namespace
     const auto mean_x = [&] {
       double sum  = 0.;
       result.mass = 0.;
-      for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+      for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
         if (mesh.node_bodies[i] == 1)
           {
-            sum += dynamics.true_masses()[i] * dynamics.position(i)[0];
+            sum += dynamics.true_masses()[i] * dynamics.state.position(i)[0];
             result.mass += dynamics.true_masses()[i];
           }
       return sum / result.mass;
     };
-    const auto push = [&](const double factor) { // on every node by its mass, so that the block hardly tips
-      for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+    NodalField &external_force = dynamics.add<NodeLoads>().force;
+    const auto  push = [&](const double factor) { // on every node by its mass, so that the block hardly tips
+      for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
         if (mesh.node_bodies[i] == 1)
-          dynamics.external_force[i] =
+          external_force[i] =
             Vector3{factor * share * friction * gravity * dynamics.true_masses()[i], 0., 0., 0.};
     };
 
-    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     dynamics.start();
     for (unsigned int n = 0; n < 4000; ++n)
       dynamics.step();
@@ -87,7 +88,7 @@ namespace
     for (unsigned int n = 0; n < hold; ++n)
       dynamics.step();
     result.pushed    = mean_x() - x0;
-    result.push_time = hold * dynamics.time_step;
+    result.push_time = hold * dynamics.state.time_step;
     for (unsigned int n = 0; n < ramp; ++n)
       {
         push(1. - double(n) / ramp);

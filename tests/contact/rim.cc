@@ -53,7 +53,7 @@ namespace
     dynamics.attach_contact(contact);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 1)
-        dynamics.v[i] = Vector3{0., 0., -1., 0.};
+        dynamics.state.v[i] = Vector3{0., 0., -1., 0.};
     dynamics.start();
     Result result;
     for (unsigned int step = 0; step < 60; ++step)

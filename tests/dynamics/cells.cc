@@ -34,7 +34,7 @@ namespace
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       {
         const Point<3> p = moved(mesh.nodes[i]);
-        dynamics.set_position(i, Vector3{p[0], p[1], p[2], 0.});
+        dynamics.state.set_position(i, Vector3{p[0], p[1], p[2], 0.});
       }
     const std::string text = tests::complaint<std::runtime_error>([&] { dynamics.check_cells(); });
     dynamics.renew_critical_time_step();

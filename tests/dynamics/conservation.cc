@@ -31,12 +31,12 @@ namespace
     Sums        sums;
     // Energy at the instant of the velocities, half a step back: there central differences keep it to second
     // order.
-    NodalField middle(dynamics.v.size());
+    NodalField middle(dynamics.state.v.size());
     for (unsigned int i = 0; i < middle.size(); ++i)
       {
-        const Vector3 x = dynamics.position(i), v = dynamics.v[i];
+        const Vector3 x = dynamics.state.position(i), v = dynamics.state.v[i];
         const double  m = dynamics.true_masses()[i];
-        middle[i]       = x - 0.5 * dynamics.time_step * v;
+        middle[i]       = x - 0.5 * dynamics.state.time_step * v;
         if (!mesh.shared_nodes.is_owned(i))
           continue;
         for (unsigned int d = 0; d < 3; ++d)
@@ -101,8 +101,8 @@ namespace
             energy = std::max(energy, std::abs(now.energy / start.energy - 1.));
           }
       }
-    std::printf("%s: %u steps of %.3g us, energy %.5g J\n", name.c_str(), n_steps, 1e6 * dynamics.time_step,
-                start.energy);
+    std::printf("%s: %u steps of %.3g us, energy %.5g J\n", name.c_str(), n_steps,
+                1e6 * dynamics.state.time_step, start.energy);
     // Forces cancel in pairs up to 1e-16 of each; thousands of steps and hundreds of nodes add at random.
     check.below(name + ": drift of momentum", momentum, 1e-12);
     check.below(name + ": drift of angular momentum", angular, 1e-12);
@@ -131,12 +131,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
           {
             // A turn of 300 rad/s about a skew axis, a translation and 2 m/s of noise.
-            const Vector3 r = dynamics.position(i) - Vector3{.02, .015, .015, 0.};
-            dynamics.v[i] =
+            const Vector3 r = dynamics.state.position(i) - Vector3{.02, .015, .015, 0.};
+            dynamics.state.v[i] =
               2. * random_at(mesh.nodes[i]) + Vector3{5., -3., 2., 0.} +
               300. * Vector3{-.6 * r[1] + .5 * r[2], .6 * r[0] - .6 * r[2], -.5 * r[0] + .6 * r[1], 0.};
           }
-        mesh.distribute_hanging_nodes(dynamics.v.data());
+        mesh.distribute_hanging_nodes(dynamics.state.v.data());
         // Random velocities excite every mode up to omega dt = 1.8, where energy swings by (omega dt)^2/8 of
         // the strain part; turn and translation hold most of the energy and hundreds of modes average, which
         // leaves some 1e-3 of the whole.
@@ -151,9 +151,10 @@ void run_test(tests::Check &check, const tests::Arguments &)
     const Solid      solid(mesh, {steel}, SolidParameters());
     ExplicitDynamics dynamics(mesh, solid, parameters);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      dynamics.v[i] = 400. * Vector3{dynamics.position(i)[2], 0., -dynamics.position(i)[0], 0.};
+      dynamics.state.v[i] =
+        400. * Vector3{dynamics.state.position(i)[2], 0., -dynamics.state.position(i)[0], 0.};
     dynamics.start();
-    const unsigned int n_steps = std::ceil(2. * 3.14159 / 400. / dynamics.time_step);
+    const unsigned int n_steps = std::ceil(2. * 3.14159 / 400. / dynamics.state.time_step);
     // Mostly the breathing mode is excited, omega dt = 0.04: energy swings by some 1e-4 of the strain energy,
     // which is 1e-3 of the kinetic one. A drift of 1e-6 a turn would be seen.
     run(check, dynamics, n_steps, 3e-6, "ring");

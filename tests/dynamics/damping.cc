@@ -46,22 +46,22 @@ namespace
       {
         const double per_m = 1e-3 / edge; // small strain: 1 mm/s at the faces makes some 1e-8
         for (unsigned int d = 0; d < 3; ++d)
-          dynamics.v[i][d] = per_m * (mesh.nodes[i][d] - 0.5 * edge);
-        energy += 0.5 * dynamics.true_masses()[i] * dot(dynamics.v[i], dynamics.v[i]);
+          dynamics.state.v[i][d] = per_m * (mesh.nodes[i][d] - 0.5 * edge);
+        energy += 0.5 * dynamics.true_masses()[i] * dot(dynamics.state.v[i], dynamics.state.v[i]);
       }
     dynamics.start();
-    beta = damping_steps * dynamics.time_step;
+    beta = damping_steps * dynamics.state.time_step;
     // U = V (9 lambda + 6 mu)/2 e^2, K = rho V (3 edge^2/4)/2 (de/dt)^2.
     const double frequency =
       std::sqrt(4. * (3. * steel.lame() + 2. * steel.shear_modulus()) / steel.density) / edge;
     const double duration = 20. * dealii::numbers::PI / frequency; // ten whole periods
-    while (dynamics.time < duration)
+    while (dynamics.state.time < duration)
       dynamics.step();
     const EnergyLedger ledger = dynamics.ledger();
     const double       lost   = -(ledger.kinetic + ledger.strain + ledger.hourglass);
-    std::printf("%u steps, %.4g nJ at first, lost %.4g nJ, damping %.4g nJ\n", unsigned(dynamics.n_steps),
-                1e9 * energy, 1e9 * lost, 1e9 * ledger.damping);
-    return {-std::log(1. - lost / energy) / dynamics.time, ledger.damping / lost,
+    std::printf("%u steps, %.4g nJ at first, lost %.4g nJ, damping %.4g nJ\n",
+                unsigned(dynamics.state.n_steps), 1e9 * energy, 1e9 * lost, 1e9 * ledger.damping);
+    return {-std::log(1. - lost / energy) / dynamics.state.time, ledger.damping / lost,
             ledger.residual() / ledger.damping};
   }
 

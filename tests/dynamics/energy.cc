@@ -2,6 +2,8 @@
 // The energy ledger must close: the work of prescribed forces and weight equals kinetic, strain and hourglass
 // energy plus the energy dissipated by damping.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
+#include <tread/dynamics/parts/wheel.h>
 #include <tread/solid/fully_integrated.h>
 #include <tread/solid/one_point.h>
 
@@ -61,14 +63,14 @@ namespace
       hub.follow(waves);
     else if (guidance == Guidance::springs)
       hub.release({3e7, 1e4, 2e7, 1e3, 3e5, 5e4});
-    dynamics.attach_hub(hub, 0, 60.);
+    dynamics.add<WheelOnHub>(hub, 0, 60.);
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      dynamics.v[i] = hub.velocity_at(dynamics.position(i));
-    const std::vector<char> hanging = tests::which_hang(mesh);
-    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
+      dynamics.state.v[i] = hub.velocity_at(dynamics.state.position(i));
+    const std::vector<char> hanging        = tests::which_hang(mesh);
+    NodalField             &external_force = dynamics.add<NodeLoads>().force;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (!hanging[i] && mesh.nodes[i][2] < -.46 + 1e-3)
-        dynamics.external_force[i] = Vector3{-500., 200., 5000., 0.};
+        external_force[i] = Vector3{-500., 200., 5000., 0.};
     dynamics.start();
     double       worst = 0., worst_of_damping = 0.;
     EnergyLedger ledger;
@@ -85,8 +87,8 @@ namespace
     std::printf(
       "hub: %u steps, work %.5g J (gross %.5g), kinetic %.5g, strain %.4g, hourglass %.4g, damping %.4g, "
       "residual %.2g J\n",
-      unsigned(dynamics.n_steps), ledger.external_work, ledger.gross_work, ledger.kinetic, ledger.strain,
-      ledger.hourglass, ledger.damping, ledger.residual());
+      unsigned(dynamics.state.n_steps), ledger.external_work, ledger.gross_work, ledger.kinetic,
+      ledger.strain, ledger.hourglass, ledger.damping, ledger.residual());
     const std::string name = std::string("hub, ") + (drive == Drive::torque ? "torque" : "creepage") +
                              ", density times " + std::to_string(int(density_scale)) + ", mass damping " +
                              std::to_string(int(mass_damping)) +
@@ -97,8 +99,8 @@ namespace
       std::printf("moved by %.3g mm, yaw %.3g mrad, roll %.3g mrad\n", 1e3 * hub.motion.y,
                   1e3 * hub.motion.yaw, 1e3 * hub.motion.roll);
     // A ledger begins with its start, whatever was before; what the cells hold is held still.
-    const double held =
-      dealii::Utilities::MPI::sum(solid.strain_energy(dynamics.positions().data()).hourglass, mesh.comm);
+    const double held = dealii::Utilities::MPI::sum(
+      solid.strain_energy(dynamics.state.positions().data()).hourglass, mesh.comm);
     dynamics.start();
     const EnergyLedger anew = dynamics.ledger();
     check.below(name + ": work after another start, share", anew.external_work / ledger.gross_work, 1e-12);
@@ -263,7 +265,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const Solid      solid(mesh, {steel}, solid_parameters);
       ExplicitDynamics dynamics(mesh, solid, parameters);
       dynamics.fix_nodes(dynamics.support_nodes(0));
-      dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
+      NodalField &external_force = dynamics.add<NodeLoads>().force;
       dynamics.start();
 
       // A push that starts and ends smoothly within half a period of the first bending mode, then free
@@ -272,16 +274,16 @@ void run_test(tests::Check &check, const tests::Arguments &)
       double       worst = 0., damping = 0., last_damping = 0., gross = 0.;
       bool         damping_grows = true;
       EnergyLedger ledger;
-      while (dynamics.time < 1000e-6)
+      while (dynamics.state.time < 1000e-6)
         {
-          const double s = dynamics.time / duration;
+          const double s = dynamics.state.time / duration;
           const double f = s < 1. ? 0.5 * (1. - std::cos(2. * dealii::numbers::PI * s)) * force : 0.;
           for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
             if (!hanging[i] && mesh.nodes[i][0] > .06 - 1e-9)
-              dynamics.external_force[i] = Vector3{.5 * f, 0., f, 0.};
+              external_force[i] = Vector3{.5 * f, 0., f, 0.};
           dynamics.step();
           // Not a multiple of the steps between the ledger's own samples of damping, and rarer than these.
-          if (dynamics.n_steps % 130 == 0)
+          if (dynamics.state.n_steps % 130 == 0)
             {
               ledger = dynamics.ledger();
               if (s >= 1.)
@@ -295,8 +297,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
       std::printf(
         "%s: %u steps, work %.4g mJ (gross %.4g), kinetic %.4g, strain %.4g, hourglass %.4g, damping %.4g, "
         "residual %.2g mJ\n",
-        c.name, unsigned(dynamics.n_steps), 1e3 * ledger.external_work, 1e3 * gross, 1e3 * ledger.kinetic,
-        1e3 * ledger.strain, 1e3 * ledger.hourglass, 1e3 * damping, 1e3 * ledger.residual());
+        c.name, unsigned(dynamics.state.n_steps), 1e3 * ledger.external_work, 1e3 * gross,
+        1e3 * ledger.kinetic, 1e3 * ledger.strain, 1e3 * ledger.hourglass, 1e3 * damping,
+        1e3 * ledger.residual());
       // All of this work is the push's; without damping the ledger closes to 1e-7 of it.
       check.below(std::string(c.name) + ": residual/gross work", worst, 2e-5);
       if (c.damping_steps > 0. || c.viscosity > 0.)

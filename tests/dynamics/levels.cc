@@ -2,6 +2,7 @@
 // Levels of time steps: they are stable over 1e5 steps, conserve momentum and close the ledger, a loaded body
 // remains at rest, and the answer is that of a single step for all cells.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -68,10 +69,10 @@ namespace
             end.push_back(i);
             n += mesh.shared_nodes.is_owned(i);
           }
-      n = dealii::Utilities::MPI::sum(n, mesh.comm);
-      dynamics->external_force.assign(mesh.nodes.size(), Vector3{});
+      n                          = dealii::Utilities::MPI::sum(n, mesh.comm);
+      NodalField &external_force = dynamics->add<NodeLoads>().force;
       for (const unsigned int i : end)
-        dynamics->external_force[i] = (1. / n) * force;
+        external_force[i] = (1. / n) * force;
     }
 
     /// Mean displacement of the end, m.
@@ -81,7 +82,7 @@ namespace
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         if (mesh.nodes[i][0] > .08 - 1e-9 && mesh.shared_nodes.is_owned(i))
           {
-            sum += dynamics->position(i)[2] - mesh.nodes[i][2];
+            sum += dynamics->state.position(i)[2] - mesh.nodes[i][2];
             n += 1.;
           }
       return dealii::Utilities::MPI::sum(sum, mesh.comm) / dealii::Utilities::MPI::sum(n, mesh.comm);
@@ -93,15 +94,15 @@ namespace
     std::mt19937                     random(17);
     std::uniform_real_distribution<> component(-speed, speed);
     ExplicitDynamics                &dynamics = *block.dynamics;
-    for (unsigned int i = 0; i < dynamics.v.size(); ++i)
+    for (unsigned int i = 0; i < dynamics.state.v.size(); ++i)
       {
         const auto key = block.mesh.node_key(i); // the same on all ranks
         random.seed(key[1] + 1000003 * key[2] + 998244353 * key[3]);
-        dynamics.v[i] = Vector3{component(random), component(random), component(random), 0.};
+        dynamics.state.v[i] = Vector3{component(random), component(random), component(random), 0.};
       }
-    block.mesh.distribute_hanging_nodes(dynamics.v.data());
+    block.mesh.distribute_hanging_nodes(dynamics.state.v.data());
     for (const unsigned int i : dynamics.support_nodes(0))
-      dynamics.v[i] = Vector3{};
+      dynamics.state.v[i] = Vector3{};
   }
 
   Vector3 momentum(const Block &block)
@@ -109,7 +110,7 @@ namespace
     Vector3 sum{};
     for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
       if (block.mesh.shared_nodes.is_owned(i))
-        sum += block.dynamics->true_masses()[i] * block.dynamics->v[i];
+        sum += block.dynamics->true_masses()[i] * block.dynamics->state.v[i];
     return tests::sum_over_ranks(sum, block.mesh.comm);
   }
 
@@ -159,8 +160,8 @@ namespace
     const Solid      solid(mesh, {ElasticMaterial()}, solid_parameters);
     ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      dynamics.v[i] = Vector3{std::sin(40. * mesh.nodes[i][0]), 0., mesh.nodes[i][1], 0.};
-    mesh.distribute_hanging_nodes(dynamics.v.data());
+      dynamics.state.v[i] = Vector3{std::sin(40. * mesh.nodes[i][0]), 0., mesh.nodes[i][1], 0.};
+    mesh.distribute_hanging_nodes(dynamics.state.v.data());
     dynamics.start();
     double       largest = 0.;
     unsigned int n       = 0;
@@ -172,8 +173,8 @@ namespace
             {
               Vector3 mean{};
               for (const unsigned int parent : h.parents)
-                mean += Mesh::HangingNode::weight * dynamics.v[parent];
-              largest = std::max(largest, tests::size(dynamics.v[h.node] - mean));
+                mean += Mesh::HangingNode::weight * dynamics.state.v[parent];
+              largest = std::max(largest, tests::size(dynamics.state.v[h.node] - mean));
               ++n;
             }
       }
@@ -193,13 +194,13 @@ namespace
     for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
       if (block.mesh.shared_nodes.is_owned(i))
         kinetic_at_first +=
-          .5 * block.dynamics->true_masses()[i] * dot(block.dynamics->v[i], block.dynamics->v[i]);
+          .5 * block.dynamics->true_masses()[i] * dot(block.dynamics->state.v[i], block.dynamics->state.v[i]);
     kinetic_at_first = dealii::Utilities::MPI::sum(kinetic_at_first, block.mesh.comm);
     double highest   = 0.;
-    while (block.dynamics->n_steps < 100000)
+    while (block.dynamics->state.n_steps < 100000)
       {
         block.advance();
-        if (block.dynamics->n_steps % 1000 == 0)
+        if (block.dynamics->state.n_steps % 1000 == 0)
           {
             ledger  = block.dynamics->ledger();
             highest = std::max(highest, ledger.kinetic + ledger.strain + ledger.hourglass);
@@ -222,13 +223,14 @@ namespace
     const Vector3 before = momentum(block);
     double        scale  = 0.;
     for (unsigned int i = 0; i < block.mesh.nodes.size(); ++i)
-      scale += block.dynamics->true_masses()[i] * std::sqrt(dot(block.dynamics->v[i], block.dynamics->v[i]));
+      scale += block.dynamics->true_masses()[i] *
+               std::sqrt(dot(block.dynamics->state.v[i], block.dynamics->state.v[i]));
     const auto change = [&] {
       const Vector3 difference = momentum(block) - before;
       return std::sqrt(dot(difference, difference)) / scale;
     };
     double largest = 0.;
-    while (block.dynamics->n_steps < 100000)
+    while (block.dynamics->state.n_steps < 100000)
       {
         block.advance();
         largest = std::max(largest, change());
@@ -245,11 +247,11 @@ namespace
     block.dynamics->relax(1e-10, 100000, {});
     block.dynamics->start();
     const double at_rest = block.deflection();
-    while (block.dynamics->n_steps < 20000)
+    while (block.dynamics->state.n_steps < 20000)
       block.advance();
     check.relative("loaded and at rest: deflection stays", block.deflection() / at_rest, 1., 1e-7);
     double fastest = 0.;
-    for (const Vector3 &v : block.dynamics->v)
+    for (const Vector3 &v : block.dynamics->state.v)
       fastest = std::max(fastest, std::sqrt(dot(v, v)));
     fastest = dealii::Utilities::MPI::max(fastest, block.mesh.comm);
     std::printf("loaded and at rest: deflection %.4g um, fastest node %.2g m/s\n", 1e6 * at_rest, fastest);
@@ -268,33 +270,34 @@ namespace
     const auto push = [&](Block &block) {
       do
         {
-          const double s = block.dynamics->time / duration;
+          const double s = block.dynamics->state.time / duration;
           block.load_end(
             Vector3{0., 0., s < 1. ? 250. * (1. - std::cos(2. * dealii::numbers::PI * s)) : 0., 0.});
           block.dynamics->step();
         }
       while (!block.dynamics->synchronised());
     };
-    while (levels.dynamics->time < 1e-3)
+    while (levels.dynamics->state.time < 1e-3)
       {
         push(levels);
-        double before = plain.deflection(), time_before = plain.dynamics->time;
-        while (plain.dynamics->time < levels.dynamics->time)
+        double before = plain.deflection(), time_before = plain.dynamics->state.time;
+        while (plain.dynamics->state.time < levels.dynamics->state.time)
           {
             before      = plain.deflection();
-            time_before = plain.dynamics->time;
+            time_before = plain.dynamics->state.time;
             push(plain);
           }
-        const double share = (levels.dynamics->time - time_before) / (plain.dynamics->time - time_before);
+        const double share =
+          (levels.dynamics->state.time - time_before) / (plain.dynamics->state.time - time_before);
         const double then  = before + share * (plain.deflection() - before);
         largest_deflection = std::max(largest_deflection, std::abs(then));
         worst_deflection   = std::max(worst_deflection, std::abs(levels.deflection() - then));
       }
     levels.load_end(Vector3{});
-    while (levels.dynamics->n_steps < 100000)
+    while (levels.dynamics->state.n_steps < 100000)
       {
         levels.advance();
-        if (levels.dynamics->n_steps % 5000 == 0)
+        if (levels.dynamics->state.n_steps % 5000 == 0)
           worst_residual = std::max(worst_residual, std::abs(levels.dynamics->ledger().residual_share()));
       }
     const EnergyLedger ledger = levels.dynamics->ledger();

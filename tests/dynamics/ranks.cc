@@ -2,6 +2,8 @@
 // The same history on any number of ranks: the result that all ranks compute together is compared with that
 // of each rank alone.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
+#include <tread/dynamics/parts/wheel.h>
 #include <tread/solid/fully_integrated.h>
 #include <tread/solid/one_point.h>
 
@@ -85,19 +87,19 @@ namespace
         hub.motion.angular_velocity = 60.;
         hub.drive                   = Drive::torque;
         hub.drive_torque            = 5000.;
-        dynamics.attach_hub(hub, 0, 60.);
+        dynamics.add<WheelOnHub>(hub, 0, 60.);
         for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-          dynamics.v[i] = hub.velocity_at(dynamics.position(i));
+          dynamics.state.v[i] = hub.velocity_at(dynamics.state.position(i));
       }
     else
       dynamics.fix_nodes(dynamics.support_nodes(0));
 
-    const std::vector<char> hanging = tests::which_hang(mesh);
-    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
-    const double extreme = with_hub ? -.46 + 1e-3 : .03 - 1e-9;
+    const std::vector<char> hanging        = tests::which_hang(mesh);
+    NodalField             &external_force = dynamics.add<NodeLoads>().force;
+    const double            extreme        = with_hub ? -.46 + 1e-3 : .03 - 1e-9;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (!hanging[i] && (with_hub ? mesh.nodes[i][2] < extreme : mesh.nodes[i][2] > extreme))
-        dynamics.external_force[i] = Vector3{300., -200., 1000., 0.};
+        external_force[i] = Vector3{300., -200., 1000., 0.};
 
     dynamics.start();
     History history;
@@ -114,8 +116,9 @@ namespace
       }
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       history.nodes[mesh.node_key(i)] = {
-        {dynamics.position(i)[0] - mesh.nodes[i][0], dynamics.position(i)[1] - mesh.nodes[i][1],
-         dynamics.position(i)[2] - mesh.nodes[i][2], dynamics.v[i][0], dynamics.v[i][1], dynamics.v[i][2]}};
+        {dynamics.state.position(i)[0] - mesh.nodes[i][0], dynamics.state.position(i)[1] - mesh.nodes[i][1],
+         dynamics.state.position(i)[2] - mesh.nodes[i][2], dynamics.state.v[i][0], dynamics.state.v[i][1],
+         dynamics.state.v[i][2]}};
     history.hub       = hub.motion;
     history.n_cells   = mesh.n_global_cells;
     history.n_hanging = mesh.n_global_hanging_nodes;

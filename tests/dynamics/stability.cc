@@ -2,6 +2,7 @@
 // The time step: not above the stability limit (1e5 steps at Courant number 0.95 keep their energy), not far
 // below it (true highest frequency by power iteration), and a run beyond the limit is stopped with advice.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 #include <tread/solid/fully_integrated.h>
 #include <tread/solid/one_point.h>
 
@@ -39,22 +40,22 @@ namespace
   {
     std::mt19937                     random(17);
     std::uniform_real_distribution<> component(-speed, speed);
-    for (Vector3 &v : dynamics.v)
+    for (Vector3 &v : dynamics.state.v)
       v = Vector3{component(random), component(random), component(random), 0.};
-    dynamics.mesh.distribute_hanging_nodes(dynamics.v.data());
+    dynamics.mesh.distribute_hanging_nodes(dynamics.state.v.data());
     for (const unsigned int i : dynamics.support_nodes(0))
-      dynamics.v[i] = Vector3{};
+      dynamics.state.v[i] = Vector3{};
   }
 
   /// Kinetic and strain energy (J) at the instant of the velocities.
   double energy_of(const ExplicitDynamics &dynamics)
   {
-    NodalField middle(dynamics.v.size());
+    NodalField middle(dynamics.state.v.size());
     double     energy = 0.;
     for (unsigned int i = 0; i < middle.size(); ++i)
       {
-        middle[i] = dynamics.position(i) - 0.5 * dynamics.time_step * dynamics.v[i];
-        energy += 0.5 * dynamics.true_masses()[i] * dot(dynamics.v[i], dynamics.v[i]);
+        middle[i] = dynamics.state.position(i) - 0.5 * dynamics.state.time_step * dynamics.state.v[i];
+        energy += 0.5 * dynamics.true_masses()[i] * dot(dynamics.state.v[i], dynamics.state.v[i]);
       }
     const StrainEnergy strain = dynamics.solid.strain_energy(middle.data());
     return energy + strain.strain + strain.hourglass;
@@ -186,7 +187,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
                 }
             }
           std::printf("%s: %u steps of %.4f us, energy %.5g J at first, between %.5g and %.5g J later\n",
-                      c.name, unsigned(dynamics.n_steps), 1e6 * dynamics.time_step, start, low, high);
+                      c.name, unsigned(dynamics.state.n_steps), 1e6 * dynamics.state.time_step, start, low,
+                      high);
           const std::string name = std::string(hanging ? "hanging nodes, " : "bricks, ") + c.name;
           // Modes near omega dt = 1.9 swing by (omega dt)^2/8 = 0.45 of their strain energy; many modes
           // average.
@@ -211,7 +213,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const Solid            solid(mesh, {steel}, SolidParameters());
       const ExplicitDynamics undamped(mesh, solid, parameters);
       ExplicitDynamics       dynamics(mesh, solid, parameters);
-      dynamics.damp_nodes(0, [&](const Point<3> &p) { return p[0] > 0.03 ? rate : 0.; });
+      dynamics.add<DampedNodes>(0, [&](const Point<3> &p) { return p[0] > 0.03 ? rate : 0.; });
       const double      omega    = 2. / undamped.critical_time_step();
       const double      expected = 4. / (rate + std::sqrt(rate * rate + 4. * omega * omega));
       const std::string name     = "nodes damped with " + std::to_string(int(1e-6 * rate)) + " per us: ";
@@ -285,23 +287,23 @@ void run_test(tests::Check &check, const tests::Arguments &)
           dynamics.check_stability();
         }
     });
-    std::printf("message after %u steps: %s\n", unsigned(dynamics.n_steps), message.c_str());
+    std::printf("message after %u steps: %s\n", unsigned(dynamics.state.n_steps), message.c_str());
     check.that("Courant number 1.3 ends with a message", message.find("Courant number") != std::string::npos);
-    check.that("and not before the first step", dynamics.n_steps > 0);
+    check.that("and not before the first step", dynamics.state.n_steps > 0);
     // A velocity that is not a number must not pass as slow.
-    std::fill(dynamics.v.begin(), dynamics.v.end(), Vector3{});
-    dynamics.v.back()[1] = std::nan("");
-    message              = tests::complaint<std::runtime_error>([&] { dynamics.check_stability(); });
+    std::fill(dynamics.state.v.begin(), dynamics.state.v.end(), Vector3{});
+    dynamics.state.v.back()[1] = std::nan("");
+    message                    = tests::complaint<std::runtime_error>([&] { dynamics.check_stability(); });
     check.that("no number (NaN) is found too", !message.empty());
     const auto &p = mesh.nodes.back();
     char        place[80];
     std::snprintf(place, sizeof(place), "x = %.2f, y = %.2f, z = %.2f mm", 1e3 * p[0], 1e3 * p[1],
                   1e3 * p[2]);
     check.that(std::string("and where: ") + place, message.find(place) != std::string::npos);
-    dynamics.v.back() = Vector3{0., 0., 999., 0.};
+    dynamics.state.v.back() = Vector3{0., 0., 999., 0.};
     check.that("999 m/s are borne",
                tests::complaint<std::runtime_error>([&] { dynamics.check_stability(); }).empty());
-    dynamics.v.back() = Vector3{0., 0., 1001., 0.};
+    dynamics.state.v.back() = Vector3{0., 0., 1001., 0.};
     check.that("1001 m/s are not",
                !tests::complaint<std::runtime_error>([&] { dynamics.check_stability(); }).empty());
   }

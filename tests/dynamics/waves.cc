@@ -2,6 +2,7 @@
 // Waves with known speeds: bar, pressure and shear waves along a column of single cells, a Rayleigh wave in a
 // half-space, and the dispersion that theory gives for lumped masses and central differences.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -26,6 +27,7 @@ namespace
     std::unique_ptr<Mesh>             mesh;
     std::unique_ptr<Solid>            solid;
     std::unique_ptr<ExplicitDynamics> dynamics;
+    NodeLoads                        *loads;
     NodalField                        internal;
 
     Box(const std::array<unsigned int, 3> &n,
@@ -42,7 +44,7 @@ namespace
       parameters.damping_steps = 0.;
       dynamics                 = std::make_unique<ExplicitDynamics>(*mesh, *solid, parameters);
       dynamics->fix_nodes(dynamics->support_nodes(0));
-      dynamics->external_force.assign(mesh->nodes.size(), Vector3{});
+      loads = &dynamics->add<NodeLoads>();
     }
 
     /// Nodes whose reference x (or another coordinate) is that given.
@@ -59,20 +61,21 @@ namespace
     void hold(const std::vector<unsigned int> &nodes, const unsigned int direction)
     {
       for (const unsigned int i : nodes)
-        dynamics->external_force[i][direction] = -internal[i][direction];
+        loads->force[i][direction] = -internal[i][direction];
     }
 
     void evaluate_internal_forces()
     {
       internal.assign(mesh->nodes.size(), Vector3{});
-      solid->add_internal_forces(dynamics->positions().data(), dynamics->v.data(), internal.data());
+      solid->add_internal_forces(dynamics->state.positions().data(), dynamics->state.v.data(),
+                                 internal.data());
     }
 
     double mean_velocity(const std::vector<unsigned int> &nodes, const unsigned int direction) const
     {
       double sum = 0.;
       for (const unsigned int i : nodes)
-        sum += dynamics->v[i][direction];
+        sum += dynamics->state.v[i][direction];
       return sum / nodes.size();
     }
   };
@@ -124,7 +127,7 @@ namespace
         ExplicitDynamics &dynamics = *bar.dynamics;
         const auto loaded = bar.nodes_at(0.), middle = bar.nodes_at(0.5 * length), far = bar.nodes_at(length);
         for (const unsigned int i : loaded)
-          dynamics.external_force[i][0] = traction * h * h / 4.;
+          bar.loads->force[i][0] = traction * h * h / 4.;
         dynamics.start();
         unsigned int last_cell = 0;
         for (unsigned int c = 0; c < bar.mesh->cells.size(); ++c)
@@ -138,17 +141,18 @@ namespace
         // A step that travels along lumped masses has reached 1/3 of its height at the exact time: the
         // front is the integral of Airy's function, and that from 0 to infinity is 1/3.
         Arrival front{velocity / 3.}, front_end{2. * velocity / 3.};
-        while (dynamics.time < 3. * unit)
+        while (dynamics.state.time < 3. * unit)
           {
             dynamics.step();
-            const double t = dynamics.time - 0.5 * dynamics.time_step, dt = dynamics.time_step;
+            const double t  = dynamics.state.time - 0.5 * dynamics.state.time_step,
+                         dt = dynamics.state.time_step;
             first.add(t, dt, bar.mean_velocity(loaded, 0));
             later.add(t, dt, bar.mean_velocity(loaded, 0));
             far_velocity.add(t, dt, bar.mean_velocity(far, 0));
             front.add(t, bar.mean_velocity(middle, 0));
             front_end.add(t, bar.mean_velocity(far, 0));
-            far_stress.add(dynamics.time, dt,
-                           bar.solid->cauchy_stress(dynamics.positions().data())[last_cell][0]);
+            far_stress.add(dynamics.state.time, dt,
+                           bar.solid->cauchy_stress(dynamics.state.positions().data())[last_cell][0]);
           }
         const std::string name = far_end_fixed ? "bar, fixed end: " : "bar, free end: ";
         // 200 cells: ripples behind the front average out to some 1e-3.
@@ -187,21 +191,21 @@ namespace
     const double velocity = traction / (material.density * speed), rise = 20. * h / speed;
     Arrival      at_near{0.5 * velocity}, at_away{0.5 * velocity};
     WindowMean   plateau{0., 1e9};
-    while (dynamics.time < 190. * h / speed)
+    while (dynamics.state.time < 190. * h / speed)
       {
         column.evaluate_internal_forces();
         for (unsigned int d = 0; d < 3; ++d)
           if (d != direction)
             column.hold(all, d);
-        const double s = std::min(1., dynamics.time / rise);
+        const double s = std::min(1., dynamics.state.time / rise);
         for (const unsigned int i : loaded)
-          dynamics.external_force[i][direction] = 0.5 * (1. - std::cos(pi * s)) * traction * h * h / 4.;
+          column.loads->force[i][direction] = 0.5 * (1. - std::cos(pi * s)) * traction * h * h / 4.;
         dynamics.step();
-        const double t = dynamics.time - 0.5 * dynamics.time_step;
+        const double t = dynamics.state.time - 0.5 * dynamics.state.time_step;
         at_near.add(t, column.mean_velocity(near, direction));
         at_away.add(t, column.mean_velocity(away, direction));
         if (t > 90. * h / speed && t < 180. * h / speed)
-          plateau.add(t, dynamics.time_step, column.mean_velocity(near, direction));
+          plateau.add(t, dynamics.state.time_step, column.mean_velocity(near, direction));
       }
     // A front over 20 cells: wave lengths of 40 cells lag by (k h)^2/24 = 1e-3 at most.
     check.relative(name + " speed (m/s)", 100. * h / (at_away.time - at_near.time), speed, 0.005);
@@ -228,16 +232,16 @@ namespace
         for (unsigned int i = 0; i < all.size(); ++i)
           {
             all[i]    = i;
-            Vector3 x = dynamics.position(i);
+            Vector3 x = dynamics.state.position(i);
             x[direction] += 1e-6 / k * std::cos(k * column.mesh->nodes[i][0]);
-            dynamics.set_position(i, x);
+            dynamics.state.set_position(i, x);
           }
         const auto amplitude = [&]() {
           double sum = 0., norm = 0.;
           for (unsigned int i = 0; i < all.size(); ++i)
             {
               const double shape = std::cos(k * column.mesh->nodes[i][0]) * dynamics.true_masses()[i];
-              sum += shape * (dynamics.position(i)[direction] - column.mesh->nodes[i][direction]);
+              sum += shape * (dynamics.state.position(i)[direction] - column.mesh->nodes[i][direction]);
               norm += shape * std::cos(k * column.mesh->nodes[i][0]);
             }
           return sum / norm;
@@ -253,7 +257,7 @@ namespace
         dynamics.step();
         const double after    = amplitude();
         const double measured = std::asin(std::sqrt((before - after) / (4. * before)));
-        const double theory   = std::asin(speed * dynamics.time_step / h * std::sin(0.5 * k * h));
+        const double theory   = std::asin(speed * dynamics.state.time_step / h * std::sin(0.5 * k * h));
         char         what[100];
         std::snprintf(what, sizeof what, "%s, %.1f cells a wave: omega dt", name.c_str(),
                       2. * n / half_waves);
@@ -283,7 +287,7 @@ namespace
         shape[i] = Vector3{(-k * std::exp(-q * depth) + s * b * std::exp(-s * depth)) * std::sin(k * x), 0.,
                            (q * std::exp(-q * depth) - k * b * std::exp(-s * depth)) * std::cos(k * x), 0.} /
                    k;
-        dynamics.set_position(i, dynamics.position(i) + amplitude * shape[i]);
+        dynamics.state.set_position(i, dynamics.state.position(i) + amplitude * shape[i]);
       }
     dynamics.start();
     std::vector<unsigned int> all(shape.size());
@@ -293,7 +297,7 @@ namespace
     // Zero crossings of the mass-weighted amplitude over five periods.
     double              last = 0., last_time = 0.;
     std::vector<double> crossings;
-    while (dynamics.time < 5.2 * 2. * pi / (c * k))
+    while (dynamics.state.time < 5.2 * 2. * pi / (c * k))
       {
         block.evaluate_internal_forces();
         block.hold(all, 1);
@@ -302,14 +306,14 @@ namespace
         dynamics.step();
         double now = 0.;
         for (unsigned int i = 0; i < all.size(); ++i)
-          now +=
-            dynamics.true_masses()[i] *
-            dot(shape[i], dynamics.position(i) - Vector3{block.mesh->nodes[i][0], block.mesh->nodes[i][1],
-                                                         block.mesh->nodes[i][2], 0.});
-        if (dynamics.n_steps > 1 && now * last < 0.)
-          crossings.push_back(last_time + last / (last - now) * (dynamics.time - last_time));
+          now += dynamics.true_masses()[i] *
+                 dot(shape[i],
+                     dynamics.state.position(i) - Vector3{block.mesh->nodes[i][0], block.mesh->nodes[i][1],
+                                                          block.mesh->nodes[i][2], 0.});
+        if (dynamics.state.n_steps > 1 && now * last < 0.)
+          crossings.push_back(last_time + last / (last - now) * (dynamics.state.time - last_time));
         last      = now;
-        last_time = dynamics.time;
+        last_time = dynamics.state.time;
       }
     const double period = 2. * (crossings.back() - crossings.front()) / (crossings.size() - 1);
     // 48 cells a wave: dispersion of 1e-3.

@@ -161,7 +161,7 @@ namespace
       hub.motion.x     = rolled;
       hub.motion.angle = turned;
       // Before the positions, which are kept together with the velocities.
-      for (Vector3 &v : dynamics.v)
+      for (Vector3 &v : dynamics.state.v)
         v = velocity;
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         {
@@ -169,19 +169,19 @@ namespace
           const Vector3   start{p[0], p[1], p[2], 0.};
           if (mesh.node_bodies[i] == 0)
             {
-              dynamics.set_position(i, start + displacement(p));
+              dynamics.state.set_position(i, start + displacement(p));
               continue;
             }
           // Rolling to +x takes what is below the axle to -x.
           const double c = std::cos(turned), s = std::sin(turned), z = p[2] - axle_height;
-          dynamics.set_position(
+          dynamics.state.set_position(
             i, Vector3{rolled + c * p[0] + s * z, p[1], axle_height - s * p[0] + c * z, 0.} + beyond_rolling);
         }
-      std::vector<CellHistory> histories                 = solid.plastic().stored(dynamics.history);
+      std::vector<CellHistory> histories                 = solid.plastic().stored(dynamics.state.history);
       constexpr unsigned int   equivalent_plastic_strain = 6; // behind the plastic deformation
       for (CellHistory &cell : histories)
         cell.values[equivalent_plastic_strain] = plastic_strain;
-      solid.plastic().restore(histories, dynamics.history);
+      solid.plastic().restore(histories, dynamics.state.history);
     }
 
     /// All of the rail, which does not yield.
@@ -405,15 +405,15 @@ namespace
     const Vector3 approach = slips ? Vector3{1.6, 1.2, -1., 0.} : Vector3{0.2, -0.1, -1., 0.};
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == 1)
-        dynamics.v[i] = approach;
+        dynamics.state.v[i] = approach;
     dynamics.start();
     dynamics.step();
-    dynamics.time = slips ? 2e-3 : 1e-3; // one instant has one picture
+    dynamics.state.time = slips ? 2e-3 : 1e-3; // one instant has one picture
     folder.write_surface(dynamics, contact, nodal_stresses(mesh), 0);
     auto fields = picture(folder.path(slips ? "surface-0001.vtu" : "surface-0000.vtu"));
 
-    const std::string name     = slips ? "contact that slips: " : "contact that adheres: ";
-    const double      pressure = 1e-6 * ElasticMaterial().density * cell / 4. / dynamics.time_step; // MPa
+    const std::string name = slips ? "contact that slips: " : "contact that adheres: ";
+    const double pressure  = 1e-6 * ElasticMaterial().density * cell / 4. / dynamics.state.time_step; // MPa
     // On the upper block, whose speed along the surface is 2 m/s in the direction 0.8, 0.6 where it slips.
     const Vector3 shear = slips ? pressure * Vector3{-0.8 * friction, -0.6 * friction, 0., 0.}
                                 : pressure * Vector3{-0.2, 0.1, 0., 0.},
@@ -439,7 +439,7 @@ namespace
       row.time = time;
       row.wheels.resize(1);
       folder.append(row);
-      bodies.dynamics.time = time;
+      bodies.dynamics.state.time = time;
       folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {});
     };
     std::string kept; // by a checkpoint at 2.5 ms
@@ -500,7 +500,7 @@ namespace
           folder.open_patches(1);
           folder.append_patch(0, time, 0., {PatchNode{}});
         }
-      bodies.dynamics.time = time;
+      bodies.dynamics.state.time = time;
       folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {});
       kept = folder.progress();
       if (with_patches)

@@ -5,6 +5,9 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
+#include <tread/dynamics/parts/supports.h>
+#include <tread/dynamics/parts/wheel.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/mesh/wheel_body.h>
 
@@ -124,11 +127,11 @@ namespace
       hub.place(Vector3{0., 0., axle_height, 0.});
       hub.motion.angular_velocity = speed / axle_height;
       supports.add_probe(0.);
-      dynamics.attach_supports(supports, ElasticMaterial());
+      dynamics.add<RailOnSupports>(supports, ElasticMaterial());
       dynamics.guide_nodes(dynamics.boundary_nodes(0, Boundary::end), 0);
       dynamics.guide_nodes(supports.guided_nodes(1), 1);
-      dynamics.damp_nodes(0, [](const Point<3> &p) { return std::abs(p[0]) > 0.4 ? 2e3 : 0.; });
-      dynamics.attach_hub(hub, 1, hub.motion.angular_velocity);
+      dynamics.add<DampedNodes>(0, [](const Point<3> &p) { return std::abs(p[0]) > 0.4 ? 2e3 : 0.; });
+      dynamics.add<WheelOnHub>(hub, 1, hub.motion.angular_velocity);
       dynamics.attach_contact(contact);
     }
 
@@ -147,19 +150,19 @@ namespace
       hub.drive                   = Drive::creepage;
       hub.motion.velocity_x       = speed;
       hub.motion.angular_velocity = 1.002 * speed / axle_height;
-      dynamics.set_track_velocities();
-      dynamics.set_wheel_velocities();
+      dynamics.set_bending_velocities();
+      dynamics.set_rigid_velocities();
       contact.scale_impulses(dynamics_parameters().courant_number * dynamics.critical_time_step());
       dynamics.start();
     }
 
     void roll(const unsigned int n_steps)
     {
-      const std::uint64_t end = dynamics.n_steps + n_steps;
-      while (dynamics.n_steps < end || !dynamics.synchronised())
+      const std::uint64_t end = dynamics.state.n_steps + n_steps;
+      while (dynamics.state.n_steps < end || !dynamics.synchronised())
         {
           dynamics.step();
-          average.add(contact.active_nodes(), hub.motion.x, dynamics.time_step);
+          average.add(contact.active_nodes(), hub.motion.x, dynamics.state.time_step);
           if (dynamics.synchronised())
             strip.sample(dynamics, {}, hub.motion.x);
         }
@@ -295,13 +298,13 @@ namespace
     const auto all = [&](const std::string &what, const bool same) {
       check.that(name + what, !dealii::Utilities::MPI::logical_or(!same, a.mesh.comm));
     };
-    all("step and time",
-        a.dynamics.n_steps == b.dynamics.n_steps && same_bits(a.dynamics.time, b.dynamics.time));
-    all("time step", same_bits(a.dynamics.time_step, b.dynamics.time_step) &&
+    all("step and time", a.dynamics.state.n_steps == b.dynamics.state.n_steps &&
+                           same_bits(a.dynamics.state.time, b.dynamics.state.time));
+    all("time step", same_bits(a.dynamics.state.time_step, b.dynamics.state.time_step) &&
                        same_bits(a.dynamics.critical_time_step(), b.dynamics.critical_time_step()));
-    all("positions", same_bits(a.dynamics.positions(), b.dynamics.positions()));
-    all("velocities", same_bits(a.dynamics.v, b.dynamics.v));
-    all("plastic history", same_bits(a.dynamics.history.values, b.dynamics.history.values));
+    all("positions", same_bits(a.dynamics.state.positions(), b.dynamics.state.positions()));
+    all("velocities", same_bits(a.dynamics.state.v, b.dynamics.state.v));
+    all("plastic history", same_bits(a.dynamics.state.history.values, b.dynamics.state.history.values));
     all("hub", same_bits(a.hub.motion, b.hub.motion) && a.hub.drive == b.hub.drive &&
                  same_bits(a.hub.drive_torque, b.hub.drive_torque) &&
                  same_bits(a.hub.external_work(), b.hub.external_work()) &&
@@ -335,7 +338,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   std::printf(
     "%llu cells, %u levels, %llu steps of %.4g us, %llu of them unconverged, %llu nodes in contact\n",
     (unsigned long long)original->mesh.n_global_cells, original->dynamics.max_level() + 1,
-    (unsigned long long)original->dynamics.n_steps, 1e6 * original->dynamics.time_step,
+    (unsigned long long)original->dynamics.state.n_steps, 1e6 * original->dynamics.state.time_step,
     (unsigned long long)original->contact.n_unconverged_steps(),
     (unsigned long long)original->contact.active_nodes().size());
   check.that("there are levels of time steps", original->dynamics.max_level() == 2);

@@ -3,6 +3,7 @@
 // with coefficient 1, bend like a plate of one cell's thickness. Fully integrated cells beside them lock in
 // bending.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 #include <tread/solid/fully_integrated.h>
 #include <tread/solid/one_point.h>
 
@@ -166,7 +167,7 @@ namespace
     dynamics_parameters.gravity = 0.;
     ExplicitDynamics dynamics(mesh, solid, dynamics_parameters);
     dynamics.fix_nodes(dynamics.support_nodes(0));
-    dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
+    NodalField &external_force = dynamics.add<NodeLoads>().force;
     for (const Mesh::Face &face : mesh.faces)
       {
         bool at_tip = true;
@@ -174,13 +175,13 @@ namespace
           at_tip = at_tip && mesh.nodes[i][0] > length * (1. - 1e-9);
         if (at_tip)
           for (const unsigned int i : face.nodes)
-            dynamics.external_force[i][2] += 0.25 * load / (n_height * n_height);
+            external_force[i][2] += 0.25 * load / (n_height * n_height);
       }
     // Rounding of positions (1e-17 m) in cells of 0.01 m is worth 1e-8 N or so, 1e-9 of the load.
     dynamics.relax(1e-6, 200000, {});
     double work = 0.; // deflection at the load = work over load
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      work += dynamics.external_force[i][2] * (dynamics.position(i)[2] - mesh.nodes[i][2]);
+      work += external_force[i][2] * (dynamics.state.position(i)[2] - mesh.nodes[i][2]);
     const double area = width * height, inertia = width * height * height * height / 12.;
     const double theory = load * length * length * length / (3. * material.young_modulus * inertia) +
                           load * length / (5. / 6. * material.shear_modulus() * area);

@@ -2,6 +2,7 @@
 // Thick-walled sphere under inner pressure, perfectly plastic (Hill 1950, chapter V): the plastic front, the
 // displacement of the outer surface, and the residual stress after unloading.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -70,6 +71,7 @@ namespace
     Mesh             mesh;
     Solid            solid;
     ExplicitDynamics dynamics;
+    NodeLoads       &loads = dynamics.add<NodeLoads>();
     NodalField       unit; ///< nodal forces of a unit pressure on the inner surface
 
     Shell(const unsigned int n, const unsigned int n_radial)
@@ -115,8 +117,8 @@ namespace
 
     void load(const double pressure)
     {
-      dynamics.external_force = unit;
-      for (Vector3 &f : dynamics.external_force)
+      loads.force = unit;
+      for (Vector3 &f : loads.force)
         f *= pressure;
       dynamics.relax(1e-5, 20000, nullptr);
     }
@@ -129,7 +131,7 @@ namespace
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         if (mesh.nodes[i].norm() > outer - 1e-6)
           {
-            sum += std::sqrt(dot(dynamics.position(i), dynamics.position(i))) - outer;
+            sum += std::sqrt(dot(dynamics.state.position(i), dynamics.state.position(i))) - outer;
             ++n;
           }
       return sum / n;
@@ -154,7 +156,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
     Shell shell(8, 12);
     shell.load(0.99 * first);
     const std::vector<double> before =
-      shell.solid.plastic().equivalent_plastic_strain(shell.dynamics.history);
+      shell.solid.plastic().equivalent_plastic_strain(shell.dynamics.state.history);
     double largest = 0.;
     for (const double p : before)
       largest = std::max(largest, p);
@@ -173,7 +175,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
                          n_radial == 8 ? 0.03 : 0.015);
           // The front lies between the cells that yielded and those that did not.
           const std::vector<double> strain =
-            shell.solid.plastic().equivalent_plastic_strain(shell.dynamics.history);
+            shell.solid.plastic().equivalent_plastic_strain(shell.dynamics.state.history);
           const auto masses         = shell.solid.cell_masses(shell.mesh);
           double     plastic_volume = 0.;
           for (unsigned int cell = 0; cell < shell.mesh.cells.size(); ++cell)
@@ -189,7 +191,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const double p = pressure_at(0.08);
       shell.load(0.);
       const auto stress =
-        shell.solid.cauchy_stress(shell.dynamics.positions().data(), shell.dynamics.history);
+        shell.solid.cauchy_stress(shell.dynamics.state.positions().data(), shell.dynamics.state.history);
       double error = 0., scale = 0.;
       for (unsigned int cell = 0; cell < shell.mesh.cells.size(); ++cell)
         {

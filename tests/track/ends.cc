@@ -2,6 +2,7 @@
 // Waves that reach the end of a rail: what comes back from absorbing ends beside what symmetric ends reflect.
 // A longitudinal pulse against the closed form of the layer; a hammer blow on a bar on its track against the
 // same bar so long that nothing comes back; energy; and all ranks together against each alone.
+#include <tread/dynamics/parts/nodes.h>
 #include <tread/track/rail_ends.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,7 +20,7 @@ namespace
   void absorb(tests::TrackRail &rail, const double length)
   {
     const AbsorbingEnds ends{-rail.end, rail.end, length, tests::steel().shear_wave_speed()};
-    rail.dynamics->damp_nodes(0, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
+    rail.dynamics->add<DampedNodes>(0, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
   }
 
   double energy(const tests::TrackRail &rail)
@@ -62,12 +63,12 @@ namespace
     const double speed  = std::sqrt(tests::steel().young_modulus / tests::steel().density);
     rail.dynamics->start();
     double before = 0.;
-    while (rail.dynamics->time < 2. * rail.end / speed + duration)
+    while (rail.dynamics->state.time < 2. * rail.end / speed + duration)
       {
-        const double s = rail.dynamics->time / duration, phase = 2. * dealii::numbers::PI * s;
+        const double s = rail.dynamics->state.time / duration, phase = 2. * dealii::numbers::PI * s;
         const double f = s < 1. ? .5 * (1. - std::cos(phase)) * std::sin(4. * phase) * blow : 0.;
         for (const auto &[node, share] : struck)
-          rail.dynamics->external_force[node] = Vector3{f * share, 0., 0., 0.};
+          rail.loads->force[node] = Vector3{f * share, 0., 0., 0.};
         rail.dynamics->step();
         if (s > 1. && before == 0.)
           before = energy(rail);
@@ -124,7 +125,7 @@ namespace
     const auto struck = rail.sections(.3);
     rail.dynamics->start();
     History history;
-    history.time_step = rail.dynamics->time_step;
+    history.time_step = rail.dynamics->state.time_step;
     for (unsigned int n = 0; n < n_steps; ++n)
       {
         rail.load(struck, tests::blow(n));

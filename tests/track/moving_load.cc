@@ -34,6 +34,7 @@ namespace
     Mesh                                                      mesh;
     Solid                                                     solid;
     ExplicitDynamics                                          dynamics;
+    NodeLoads                                                &loads = dynamics.add<NodeLoads>();
     std::vector<std::vector<std::pair<unsigned int, double>>> nodes; ///< by section, with shares of its mass
 
     Bar(const double length, const unsigned int n)
@@ -68,18 +69,17 @@ namespace
           for (auto &node : of_section)
             node.second /= mass;
         }
-      dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
     }
 
     /// Put a downward force at x, which the two nearest sections share.
     void load(const double x, const double f)
     {
-      std::fill(dynamics.external_force.begin(), dynamics.external_force.end(), Vector3{});
+      std::fill(loads.force.begin(), loads.force.end(), Vector3{});
       const double       s = x / cell + .5 * n;
       const unsigned int k = std::clamp<int>(std::floor(s), 0, n - 1);
       for (const unsigned int side : {0u, 1u})
         for (const auto &[node, share] : nodes[k + side])
-          dynamics.external_force[node] = Vector3{0., 0., -f * share * (side ? s - k : 1. - s + k), 0.};
+          loads.force[node] = Vector3{0., 0., -f * share * (side ? s - k : 1. - s + k), 0.};
     }
 
     /// Mean downward displacement of the section at x.
@@ -90,7 +90,8 @@ namespace
       double             sum = 0.;
       for (const unsigned int side : {0u, 1u})
         for (const auto &[node, share] : nodes[k + side])
-          sum += share * (side ? s - k : 1. - s + k) * (mesh.nodes[node][2] - dynamics.position(node)[2]);
+          sum +=
+            share * (side ? s - k : 1. - s + k) * (mesh.nodes[node][2] - dynamics.state.position(node)[2]);
       return sum;
     }
   };
@@ -138,11 +139,11 @@ namespace
       }
     bar.dynamics.start();
     double worst = 0., worst_still = 0., largest = 0., cells_largest = 0.;
-    while (v * bar.dynamics.time < length)
+    while (v * bar.dynamics.state.time < length)
       {
-        bar.load(v * bar.dynamics.time - .5 * length, force);
+        bar.load(v * bar.dynamics.state.time - .5 * length, force);
         bar.dynamics.step();
-        const double t = bar.dynamics.time, w = bar.deflection(0.), exact = at_middle(length, v, t);
+        const double t = bar.dynamics.state.time, w = bar.deflection(0.), exact = at_middle(length, v, t);
         worst         = std::max(worst, std::abs(w - exact));
         worst_still   = std::max(worst_still, std::abs(w - at_middle(length, 1e-3 * v, 1e3 * t)));
         largest       = std::max(largest, exact);
@@ -188,19 +189,19 @@ namespace
                    1. / std::sqrt(1. - share_of_critical * share_of_critical), 1e-4);
 
     TrackParameters track;
-    track.two_layers    = false;
+    track.two_layers            = false;
     track.springs.pad_stiffness = u * distance;
     track.springs.pad_damping   = c * distance;
-    track.pad_length    = .02;
-    track.pad_width     = .03;
-    track.points_along  = 1;
-    track.points_across = 2;
+    track.pad_length            = .02;
+    track.pad_width             = .03;
+    track.points_along          = 1;
+    track.points_across         = 2;
     Bar                 bar(length, 288);
     std::vector<double> positions;
     for (double x = .5 * (distance - length); x < .5 * length; x += distance)
       positions.push_back(x);
     Supports supports(bar.mesh, 0, positions, track);
-    bar.dynamics.attach_supports(supports, tests::steel());
+    bar.dynamics.add<RailOnSupports>(supports, tests::steel());
     bar.dynamics.guide_nodes(bar.dynamics.boundary_nodes(0, Boundary::end), 0);
     bar.dynamics.guide_nodes(supports.guided_nodes(1), 1);
     bar.dynamics.start();
@@ -209,14 +210,14 @@ namespace
     double           sum = 0., worst = 0.;
     unsigned int     steps  = 0;
     const double     steady = winkler(s, u, c, v), still = winkler(s, u, c, 0.);
-    for (double x = begin; x < to; x = begin + v * bar.dynamics.time)
+    for (double x = begin; x < to; x = begin + v * bar.dynamics.state.time)
       {
         const double t = std::min(1., (x - begin) / (full - begin));
         bar.load(x, force * t * t * (3. - 2. * t));
         bar.dynamics.step();
         if (x > from)
           {
-            const double w = bar.deflection(begin + v * bar.dynamics.time);
+            const double w = bar.deflection(begin + v * bar.dynamics.state.time);
             sum += w;
             worst = std::max(worst, std::abs(w / steady - 1.));
             ++steps;

@@ -2,6 +2,8 @@
 // A rail's base that moves on springs and dampers: a block of steel on it, which a force pushes up and aside
 // from one instant on, swings as a mass on these springs does.
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/parts/nodes.h>
+#include <tread/dynamics/parts/rail_base.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -39,7 +41,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   ExplicitDynamics         dynamics(mesh, solid, parameters);
   const RailBaseParameters track{20., {100e6, 40e3}, {30e6, 15e3}};
   RailBase                 base(track);
-  dynamics.attach_rail_base(base, 0);
+  dynamics.add<RailOnBase>(base, 0);
+  NodalField &external_force = dynamics.add<NodeLoads>().force;
   dynamics.start();
 
   const Vector3 force{0., -3e3, 20e3, 0.}; // N
@@ -51,25 +54,24 @@ void run_test(tests::Check &check, const tests::Arguments &)
     if (mesh.shared_nodes.is_owned(i))
       n_top += is_top(i);
   n_top = dealii::Utilities::MPI::sum(n_top, MPI_COMM_WORLD);
-  dynamics.external_force.assign(mesh.nodes.size(), Vector3{});
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
     if (is_top(i))
-      dynamics.external_force[i] = (1. / n_top) * force;
+      external_force[i] = (1. / n_top) * force;
 
   // The mass of the nodes that the base carries, half of the lowest cells, is in that of the base.
   const double block  = ElasticMaterial().density * length * width * (height - 0.5 * cell);
   const double moving = track.mass + block, end = 6e-3; // kg, s
   double       worst_up = 0., worst_aside = 0., worst_residual = 0.;
-  while (dynamics.time < end)
+  while (dynamics.state.time < end)
     {
       dynamics.step();
-      if (dynamics.n_steps % 500 != 0)
+      if (dynamics.state.n_steps % 500 != 0)
         continue;
       const Vector3 moved = base.displacement();
       worst_up =
-        std::max(worst_up, std::abs(moved[2] - swing(moving, track.vertical, force[2], dynamics.time)));
-      worst_aside =
-        std::max(worst_aside, std::abs(moved[1] - swing(moving, track.lateral, force[1], dynamics.time)));
+        std::max(worst_up, std::abs(moved[2] - swing(moving, track.vertical, force[2], dynamics.state.time)));
+      worst_aside = std::max(
+        worst_aside, std::abs(moved[1] - swing(moving, track.lateral, force[1], dynamics.state.time)));
       const EnergyLedger ledger = dynamics.ledger();
       worst_residual            = std::max(worst_residual, std::abs(ledger.residual_share()));
     }

@@ -30,7 +30,7 @@ namespace
     const auto       struck = rail.sections(.3);
     rail.dynamics->start();
     History history;
-    history.time_step = rail.dynamics->time_step;
+    history.time_step = rail.dynamics->state.time_step;
     history.n_hanging = rail.mesh->n_global_hanging_nodes;
     for (unsigned int n = 1; n <= 4000; ++n)
       {

@@ -93,7 +93,7 @@ namespace
       const auto       softened =
         tests::by_beam(rail.beam(.0125, tests::softened(areas.layers(0), foot)), loads, lines);
       std::printf("%s: %zu cells, %llu steps, compliance of the foot %.3f nm/N\n", name.c_str(),
-                  rail.mesh->cells.size(), static_cast<unsigned long long>(rail.dynamics->n_steps),
+                  rail.mesh->cells.size(), static_cast<unsigned long long>(rail.dynamics->state.n_steps),
                   1e9 * foot);
       check.relative(name + ", over a sleeper: peak, rail on pads (Hz)", cells.extreme(700., 1000., 1.),
                      beam.extreme(700., 1000., 1.), .03);

@@ -2,6 +2,9 @@
 #ifndef tread_dynamics_energy_ledger_h
 #define tread_dynamics_energy_ledger_h
 
+#include <tread/base/archive.h>
+#include <tread/base/reproducible_sum.h>
+
 #include <cmath>
 
 namespace tread
@@ -54,6 +57,19 @@ namespace tread
     {
       const double internal = stored_strain + stored_hourglass;
       return internal > 0. ? stored_hourglass / internal : 0.;
+    }
+  };
+
+  /// What steps add to the ledger, J: this rank's shares of what it has by these names.
+  struct LedgerTotals
+  {
+    ReproducibleSum<double> external_work, gross_work, friction, contact, damping, plastic, contact_on_nodes;
+
+    void serialize(Archive &archive)
+    {
+      for (ReproducibleSum<double> *total :
+           {&external_work, &gross_work, &friction, &contact, &damping, &plastic, &contact_on_nodes})
+        total->serialize(archive);
     }
   };
 } // namespace tread

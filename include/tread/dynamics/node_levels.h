@@ -40,11 +40,12 @@ namespace tread
   class NodeLevels
   {
   public:
-    /// Nodes [begin, end) of one level, all of them on the same wheel or on none, and this rank's own.
+    /// Nodes [begin, end) of one level, all of them of bodies with the same carrier or none, and this rank's
+    /// own.
     struct Run
     {
       unsigned int begin, end;
-      int          wheel; ///< -1: none
+      int          carrier; ///< its number, -1: none
       bool         is_owned;
     };
 
@@ -58,12 +59,12 @@ namespace tread
     NodeLevels() = default;
 
     /// @param smallest_steps nodes of level 0, besides those of contact surfaces.
-    /// @param wheel_of_body number of the wheel that a body is, -1: none.
+    /// @param carrier_of_body number of the part that carries a body, -1: none.
     /// With a solid whose forces do not depend on the ranks steady shares do not either. Collective.
     NodeLevels(const Mesh                      &mesh,
                const Solid                     &solid,
                const std::vector<unsigned int> &smallest_steps,
-               const std::vector<int>          &wheel_of_body);
+               const std::vector<int>          &carrier_of_body);
 
     unsigned int max_level() const
     {
@@ -92,7 +93,7 @@ namespace tread
     void set_levels(const Mesh &mesh, const Solid &solid, const std::vector<unsigned int> &smallest_steps);
     void set_hanging_nodes(const Mesh &mesh, const Solid &solid, const Hangs &hangs);
     void set_slow_shares(const Mesh &mesh, const Solid &solid, const Hangs &hangs);
-    void set_runs(const Mesh &mesh, const std::vector<int> &wheel_of_body, const Hangs &hangs);
+    void set_runs(const Mesh &mesh, const std::vector<int> &carrier_of_body, const Hangs &hangs);
   };
 } // namespace tread
 

@@ -82,13 +82,13 @@ namespace tread
     /// Force on a wheel in the last step, N.
     Vector3 force_on(const RollingWheel &wheel) const
     {
-      return (1. / dynamics.time_step) * contact.total_impulse_on(wheel.body);
+      return (1. / dynamics.state.time_step) * contact.total_impulse_on(wheel.body);
     }
     /// On the other wheel of the wheelset in the last step, N. @pre scene.wheelset.both_wheels
     Vector3 force_on_other() const
     {
       // The middle of the track lies between the rails.
-      return (1. / dynamics.time_step) *
+      return (1. / dynamics.state.time_step) *
              contact.total_impulse_below(-scene.placed_wheel().surfaces.rail_origin_y());
     }
     /// Mean force on a wheel over the end of the way, or the present one if that has not begun, N.

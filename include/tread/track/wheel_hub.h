@@ -131,11 +131,6 @@ namespace tread
     }
     /// Turn the axle about x, rad.
     void roll_by(const double angle);
-    /// Displacement of a point by a small roll, per radian, from its arm from the middle (m).
-    static Vector3 by_roll(const Vector3 arm)
-    {
-      return Vector3{0., arm[2], -arm[1], 0.};
-    }
 
     /// Move across the track on springs from now on.
     void release(const GuidanceSprings &springs);

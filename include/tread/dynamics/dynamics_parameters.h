@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_dynamics_dynamics_parameters_h
+#define tread_dynamics_dynamics_parameters_h
+
+namespace tread
+{
+  struct DynamicsParameters
+  {
+    /// Time step over the critical one.
+    double courant_number = 0.9;
+    /// Stiffness-proportional damping: internal forces are taken at x + beta v with
+    /// beta = damping_steps time steps.
+    double damping_steps = 0.1;
+    /// Mass-proportional damping of the motion relative to the rigid motion, 1/s: for quasi-static scenes.
+    double mass_damping  = 0.;
+    double density_scale = 1.;
+    double gravity       = 9.81; ///< m/s^2, along -z
+    /// A cell with more strain (Green-Lagrange, Frobenius' norm) stops a run.
+    double largest_strain = 0.5;
+    /// A cell with less of its volume stops a run: where this is pressed so far, strains that are smaller
+    /// than the largest allowed are large as well.
+    double least_volume = 0.3;
+    /// A node that moves faster is part of an instability, m/s. A wheel's rim moves at up to twice the speed
+    /// of the train, 170 m/s at 300 km/h, and a pressure wave of 1000 m/s would carry a stress of rho c v =
+    /// 46 GPa, a hundred times the strength of steel. An unstable motion grows exponentially, so that half or
+    /// double the limit finds it a few steps earlier or later.
+    double largest_speed = 1e3;
+    /// Interval, in steps, at which the energy dissipated by stiffness damping and bulk viscosity is sampled,
+    /// with two more force evaluations. It is assumed to vary linearly in between; with 1 it is counted
+    /// exactly. The number is a prime, because a vibration whose period divides it would always be sampled in
+    /// the same phase.
+    unsigned int steps_between_damping_samples = 47;
+  };
+} // namespace tread
+
+#endif

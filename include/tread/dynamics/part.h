@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_dynamics_part_h
+#define tread_dynamics_part_h
+
+#include <tread/base/archive.h>
+#include <tread/dynamics/dynamics_parameters.h>
+#include <tread/dynamics/energy_ledger.h>
+#include <tread/dynamics/node_levels.h>
+#include <tread/dynamics/state.h>
+#include <tread/mesh/mesh.h>
+#include <tread/solid/solid.h>
+
+#include <cstring>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+namespace tread
+{
+  /// What is rounded before sums over nodes or ranks, so that they do not depend on the ranks; 0: nothing.
+  template <typename Q>
+  struct QuantaOf
+  {
+    Q force;     ///< on a node, N
+    Q on_hubs;   ///< forces and moments that add up to those on a rigid part, N and N m
+    Q moments;   ///< of masses of nodes that turn with it, kg m and kg m^2
+    Q loss;      ///< of one node in one step, J
+    Q stiffness; ///< of which masses of the relaxation are made, N/m
+  };
+  using Quanta = QuantaOf<Quantum>;
+
+  /// What a part is made of besides its own data; all of it lives as long as the integrator.
+  struct PartOf
+  {
+    const Mesh                &mesh;
+    const Solid               &solid;
+    const DynamicsParameters  &parameters;
+    const Quanta              &quanta;
+    const std::vector<double> &true_mass; ///< of nodes, condensed and summed: kg; 0: it hangs
+    const State               &state;     ///< as it is at present
+  };
+
+  /// What a part is told of the step in which it acts.
+  struct Step
+  {
+    State                     &state;
+    const std::vector<double> &inverse_mass; ///< by node, 1/kg of scaled mass, 0 where motion is prescribed
+    const NodeLevels          &levels;
+    unsigned int               due;    ///< nodes up to this level move
+    LedgerTotals              &totals; ///< this rank's shares
+  };
+
+  /// A load that moves along the rail.
+  struct MovingLoad
+  {
+    double x, velocity_x; ///< m, m/s
+    double force;         ///< upwards, N
+  };
+
+  /// Something that acts on nodes, or carries them: supports, a wheel's hub, absorbing ends. The integrator,
+  /// its ledger, its start and its checkpoints ask all parts in the order in which they were added and know
+  /// none of them by name. A part is called some ten times in a step, never for each node.
+  ///
+  /// All functions are called by all ranks alike. Fields have a row for each node of this rank.
+  class Part
+  {
+  public:
+    virtual ~Part() = default;
+
+    /// Nodes of this rank that have to move in every step.
+    virtual std::vector<unsigned int> nodes_of_every_step() const
+    {
+      return {};
+    }
+    /// Nodes of this rank whose motion the part prescribes.
+    virtual std::vector<unsigned int> carried_nodes() const
+    {
+      return {};
+    }
+
+    // A step, in this order.
+
+    /// Forces that only this rank knows, before they are summed over the ranks.
+    virtual void add_forces(NodalField &)
+    {
+    }
+    /// Forces that each rank with a copy of a node knows, on the nodes that move in this step.
+    virtual void add_loads(Step &)
+    {
+    }
+    /// Numbers that the part sums over the ranks in each step: @see PartWithSums.
+    virtual std::size_t n_sums() const
+    {
+      return 0;
+    }
+    /// This rank's shares of these numbers, when all forces but the contact's are known.
+    virtual void set_sums(const State &, const std::vector<double> &, double *) const
+    {
+    }
+    /// Move what the part has of its own, when all forces are known, and count the work of its forces.
+    /// @param sums over the ranks
+    virtual void advance(Step &, const double *)
+    {
+    }
+    /// Move the nodes that the part carries, when all others have been moved.
+    virtual void place_nodes(State &) const
+    {
+    }
+
+    // The critical time step.
+
+    /// Sums of the rows of stiffness (in [0], N/m) and of damping (in [1], N s/m) on the nodes of this rank.
+    virtual void add_row_sums(NodalField &) const
+    {
+    }
+    /// The largest of what the part moves itself, over its masses: 1/s^2 and 1/s.
+    struct OwnRates
+    {
+      double stiffness = 0., damping = 0.;
+    };
+    virtual OwnRates own_rates(const NodeLevels &) const
+    {
+      return {};
+    }
+
+    // Energies of all ranks, J. Velocities are those of half a step back.
+
+    /// Forces that have a potential, of this rank alone.
+    virtual void add_spring_forces(NodalField &) const
+    {
+    }
+    virtual double kinetic_energy(const double /*time_step*/) const
+    {
+      return 0.;
+    }
+    virtual double spring_energy() const
+    {
+      return 0.;
+    }
+    /// Of weight, half a step back.
+    virtual double potential(const double /*time_step*/) const
+    {
+      return 0.;
+    }
+    virtual double dissipated() const ///< so far
+    {
+      return 0.;
+    }
+    virtual double external_work() const ///< so far
+    {
+      return 0.;
+    }
+    virtual double gross_work() const ///< sum of its absolute amounts
+    {
+      return 0.;
+    }
+
+    // The start.
+
+    /// Loads at rest on nodes that are this rank's own.
+    virtual void add_static_loads(NodalField &) const
+    {
+    }
+    /// Take the present positions as a state of rest.
+    virtual void set_at_rest(const State &)
+    {
+    }
+    /// The equilibrium is found.
+    virtual void balance()
+    {
+    }
+    /// Bend under what is out of balance, the forces of the present iteration and loads. @returns by how much
+    /// what presses at the place of each load goes up, m; nothing: this part does not bend
+    virtual std::vector<double> bend(State &, const std::vector<MovingLoad> &) const
+    {
+      return {};
+    }
+    /// Set velocities to those with which the part's deflection follows loads that move. @param constrain to
+    /// be called for velocities of nodes that have been set. @returns how fast what presses at the place of
+    /// each load goes up, m/s; nothing: this part does not bend
+    virtual std::vector<double> follow(State &,
+                                       const std::vector<MovingLoad> &,
+                                       const std::function<void(NodalField &)> & /*constrain*/)
+    {
+      return {};
+    }
+    /// The motion begins.
+    virtual void start()
+    {
+    }
+
+    /// Store or restore the state. Collective.
+    virtual void serialize(Archive &)
+    {
+    }
+  };
+
+  /// A part that sums a structure of numbers over the ranks in each step. @tparam Sums of double alone
+  template <typename Sums>
+  class PartWithSums : public Part
+  {
+    static_assert(std::is_trivially_copyable_v<Sums> && sizeof(Sums) % sizeof(double) == 0);
+
+  public:
+    std::size_t n_sums() const final
+    {
+      return sizeof(Sums) / sizeof(double);
+    }
+    void set_sums(const State &state, const std::vector<double> &, double *numbers) const final
+    {
+      const Sums sums = sums_of_rank(state);
+      std::memcpy(numbers, &sums, sizeof(Sums));
+    }
+    void advance(Step &step, const double *numbers) final
+    {
+      advance(step, from(numbers));
+    }
+
+  protected:
+    virtual Sums sums_of_rank(const State &state) const        = 0;
+    virtual void advance(Step &step, const Sums &of_all_ranks) = 0;
+
+    static Sums from(const double *numbers)
+    {
+      Sums sums;
+      std::memcpy(&sums, numbers, sizeof(Sums));
+      return sums;
+    }
+  };
+
+  /// The rigid motion of a body whose cells hang on a rigid part, with what the integrator needs to know of
+  /// it where nodes move.
+  struct RigidMotion
+  {
+    Vector3 middle{}, velocity{}, turning{}; ///< m, m/s, rad/s
+    Vector3 axle{};                          ///< unit vector
+    bool    tilts        = false;            ///< the axle's direction may change
+    double  compensation = 0.; ///< centripetal acceleration per arm that added density lacks, 1/s^2
+  };
+
+  /// Mass damping relative to the rigid motion, and compensation of the centrifugal force of the density
+  /// added by scaling: sums over this rank's own nodes, weighted with their scaled masses.
+  struct LoadsOnBody
+  {
+    Vector3 arms{};     ///< from the axle to the body's nodes, at right angles to it, kg m
+    Vector3 drag{};     ///< of mass damping on the body's nodes, N
+    Vector3 products{}; ///< of these arms with the places along the axle, kg m^2
+    Vector3 moments{};  ///< of that drag about the body's middle, N m
+
+    void operator+=(const LoadsOnBody &other)
+    {
+      arms += other.arms;
+      products += other.products;
+      drag += other.drag;
+      moments += other.moments;
+    }
+  };
+
+  /// Force and moment on what carries a body.
+  struct Resultant
+  {
+    Vector3 force{}, moment{}; ///< N, N m about its middle
+  };
+
+  /// A part that carries a body: a wheel on its hub.
+  class CarriesBody
+  {
+  public:
+    virtual ~CarriesBody() = default;
+
+    virtual unsigned int                     body() const    = 0;
+    virtual const std::vector<unsigned int> &carried() const = 0; ///< nodes of this rank that it moves
+    virtual RigidMotion                      motion() const  = 0;
+    /// What nodes of the body bear in this step by mass damping and compensation.
+    virtual void take(const LoadsOnBody &) = 0;
+    /// Velocities of the nodes of the body as those of the rigid motion. @param back by how much earlier, s,
+    /// for each node
+    virtual void set_velocities(State &, const std::function<double(unsigned int)> &back) const = 0;
+
+    // At rest, where it moves up and, if it rolls, turns about x.
+
+    virtual Resultant  resultant(const double *sums) const = 0; ///< of the nodes that it moves
+    virtual MovingLoad load() const                        = 0; ///< of all but the cells
+    virtual double     angular_velocity() const            = 0; ///< of the true centrifugal force, rad/s
+    virtual void       move_up(const double way)           = 0;
+    virtual void       rise(const double velocity)         = 0; ///< added to its velocity, m/s
+    virtual bool       rolls() const                       = 0;
+    virtual void       roll_by(const double angle)         = 0;
+  };
+} // namespace tread
+
+#endif
