@@ -33,6 +33,7 @@ namespace
     Mesh                              mesh;
     Solid                             solid;
     std::unique_ptr<ExplicitDynamics> dynamics;
+    NodeLoads                        *loads;
 
     Block(const Boundary left, const unsigned int max_level, const double courant, const double damping)
       : mesh(MPI_COMM_WORLD, {graded_block(tests::Side::left, left)})
@@ -48,6 +49,7 @@ namespace
       parameters.gravity        = 0.;
       dynamics                  = std::make_unique<ExplicitDynamics>(mesh, solid, parameters);
       dynamics->fix_nodes(dynamics->support_nodes(0));
+      loads = &dynamics->add<NodeLoads>();
     }
 
     void advance()
@@ -69,10 +71,9 @@ namespace
             end.push_back(i);
             n += mesh.shared_nodes.is_owned(i);
           }
-      n                          = dealii::Utilities::MPI::sum(n, mesh.comm);
-      NodalField &external_force = dynamics->add<NodeLoads>().force;
+      n = dealii::Utilities::MPI::sum(n, mesh.comm);
       for (const unsigned int i : end)
-        external_force[i] = (1. / n) * force;
+        loads->force[i] = (1. / n) * force;
     }
 
     /// Mean displacement of the end, m.
