@@ -186,6 +186,8 @@ namespace tread
     set_masses();
     set_loads();
     std::fill(d.state.v.begin(), d.state.v.end(), Vector3{});
+    for (CarriesBody *carrier : d.carriers)
+      carrier->take(LoadsOnBody()); // those of a motion before are over
     if (d.contact)
       {
         d.contact->set_inverse_masses(inverse);
