@@ -14,7 +14,7 @@ namespace tread
     constexpr double largest_step = 0.1e-3;
 
     /// Depth below the plane that stands for no rail, m.
-    constexpr double no_rail = 0.1;
+    constexpr double where_no_rail = 0.1;
 
     /// How far beyond the overlap, along the profile, the wheel is looked at, m.
     constexpr double beyond_overlap = 10e-3;
@@ -186,7 +186,7 @@ namespace tread
       return known->second;
     const OnRail found = on_rail(x, s);
     if (!found.curve) // beyond the rail's ends
-      return known_rail[where] = {-no_rail, 0., false};
+      return known_rail[where] = {-where_no_rail, 0., false};
     const ProfileCurve::Place p = found.curve->at(found.parameter);
     return known_rail[where]    = {above({0., p.y, p.z}), std::atan2(p.dz, p.dy), found.exists};
   }
