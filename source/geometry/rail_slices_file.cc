@@ -56,15 +56,16 @@ namespace tread
       const auto fail = [&](const std::size_t row, const std::string &what) {
         throw InputError("'" + file + "', row " + std::to_string(row + 1) + ": " + what);
       };
-      const double     n_parts = part.empty() ? 0. : *std::max_element(part.begin(), part.end());
-      constexpr double most    = 100.;
-      RailSlices       rail{file, {}};
-      double           length = 0.;
+      constexpr double most = 100.;
+      for (std::size_t row = 0; row < x.size(); ++row)
+        if (!(part[row] >= 0. && part[row] <= most && part[row] == std::floor(part[row])))
+          fail(row,
+               "part is " + text_of(part[row]) + "; it must be a whole number, 0 where the slice is not cut");
+      const double n_parts = part.empty() ? 0. : *std::max_element(part.begin(), part.end());
+      RailSlices   rail{file, {}};
+      double       length = 0.;
       for (std::size_t row = 0; row < x.size(); ++row)
         {
-          if (!(part[row] >= 0. && part[row] <= most && part[row] == std::floor(part[row])))
-            fail(row, "part is " + text_of(part[row]) +
-                        "; it must be a whole number, 0 where the slice is not cut");
           const Point p(1e-3 * y[row], 1e-3 * z[row]);
           const bool  begins = rail.slices.empty() || 1e-3 * x[row] != rail.slices.back().x;
           if (begins)

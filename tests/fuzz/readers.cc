@@ -268,14 +268,19 @@ namespace tread::fuzz
 
   const std::vector<Reader> &readers()
   {
-    static const std::vector<Reader> list{
-      {"parameters", ".prm", read_parameters}, {"scene", ".prm", read_scene},
-      {"settings", ".txt", read_settings},     {"simpack", ".prr", read_profile},
-      {"miniprof", ".ban", read_profile},      {"two-columns", ".txt", read_profile},
-      {"defect", ".txt", read_defect},         {"map", ".csv", read_map},
-      {"slices", ".csv", read_slices},         {"slice-list", ".slcs", read_slices},
-      {"guidance", ".csv", read_guidance},     {"supports", ".csv", read_supports},
-      {"batch", ".csv", read_batch},           {"archive", "", read_archive}};
+    static const std::vector<Reader> list{{"parameters", ".prm", read_parameters},
+                                          {"scene", ".prm", read_scene},
+                                          {"settings", ".txt", read_settings},
+                                          {"simpack", ".prr", read_profile},
+                                          {"miniprof", ".ban", read_profile},
+                                          {"two-columns", ".txt", read_profile},
+                                          {"defect", ".txt", read_defect},
+                                          {"map", ".csv", read_map},
+                                          {"slices", ".csv", read_slices},
+                                          {"guidance", ".csv", read_guidance},
+                                          {"supports", ".csv", read_supports},
+                                          {"batch", ".csv", read_batch},
+                                          {"archive", "", read_archive}};
     return list;
   }
 
