@@ -124,7 +124,10 @@ def write_if_changed(path, text):
 
 def copy_sources(folder, faults):
     """The project in `folder` with the faults in it. Files that are the same keep their times, so that nothing is compiled twice."""
-    files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True)
+    if listed.returncode:
+        sys.exit(f"{ROOT} is no clone of the project by git, whose files are copied: {listed.stderr.strip()}")
+    files = listed.stdout
     of_file = collections.defaultdict(list)
     for fault in faults:
         of_file[fault["file"]].append(fault)
