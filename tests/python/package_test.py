@@ -393,6 +393,7 @@ class Runs(InFolder):
         self.assertEqual(arguments_of("smooth-rolling.prm", {"A/B (mm)": 1.3, "C/D": True}, "out"),
                          [shipped, "-s", "A/B (mm)=1.3", "-s", "C/D=true", "--output", "out"])
         self.assertEqual(arguments_of("smooth-rolling.prm", ["A/B=1"]), [shipped, "-s", "A/B=1"])
+        self.assertEqual(arguments_of("smooth-rolling.prm", ["A/B=1", "C/D=2", "A/B = 3"]), [shipped, "-s", "A/B = 3", "-s", "C/D=2"])
         write(self.path("smooth-rolling.prm"), "")
         self.assertEqual(arguments_of("smooth-rolling.prm"), ["smooth-rolling.prm"])
         self.assertEqual((command(["x"], 1, "tread")[0], command(["x"], 1, "tread")[-2:]), ("env", ["tread", "x"]))
@@ -834,7 +835,7 @@ class StudiesFromPython(InFolder):
         self.assertFalse(os.path.exists("out"))
 
     def test_ctrl_c_ends_the_runs_with_a_checkpoint(self):
-        program = write(self.path("slow"), "#!/usr/bin/python3\nimport sys, time\nopen('begun', 'w').close()\ntry:\n  time.sleep(60)\n"
+        program = write(self.path("slow"), "#!/usr/bin/python3\nimport sys, time\nif '--print-columns' in sys.argv:\n  sys.exit(1)\nopen('begun', 'w').close()\ntry:\n  time.sleep(60)\n"
                         "except KeyboardInterrupt:\n  sys.exit(130)\n", 0o755)
         call = f"import tread\ntry:\n  tread.study('smooth-rolling.prm', {{'Motion/Passages': [1]}}, output='out', program={program!r})\nexcept KeyboardInterrupt:\n  print('stopped')"
         with subprocess.Popen([sys.executable, "-c", call], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "contrib/python")},
@@ -910,6 +911,10 @@ class Commands(unittest.TestCase):
     def test_what_fails_is_said_in_one_line(self):
         result = subprocess.run([os.path.join(ROOT, "contrib/plot/plot-run.py"), "none"], cwd="/", capture_output=True, text=True)
         self.assertEqual((result.returncode, result.stderr), (1, "plot-run.py: none/summary.json: No such file or directory\n"))
+        scene = os.path.join(ROOT, "prm/smooth-rolling.prm")
+        for given, words in ((scene, ", but a scene: roll it first, and name the folder of its results"), (os.path.join(ROOT, "README.md"), ": name that of a run")):
+            result = subprocess.run([os.path.join(ROOT, "contrib/plot/plot-run.py"), given], cwd="/", capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr), (1, f"plot-run.py: {given} is no folder of results{words}\n"))
 
     def test_version_is_that_of_the_program(self):
         versions = []

@@ -88,6 +88,8 @@ class MeasuredProfiles(OfRuns):
             self.assertEqual(read_points(self.path(name)).tolist(), expected, name)
         write(self.path("words"), "0 1\n2 deep\n")
         self.assertRaisesRegex(DataError, "line 2: needs two numbers", read_points, self.path("words"))
+        write(self.path("map.csv"), "# of a squat\nx_mm,y_mm,z_mm\n0,-16,0.0\n")
+        self.assertRaisesRegex(DataError, "map.csv, line 2: is a map of heights, .* and no profile", read_points, self.path("map.csv"))
 
     def test_length_of_a_german_map(self):
         write(self.path("map.csv"), '"x_mm";"y_mm";"z_mm"\n-2,5;0;0\n10;0;-0,1\n22,5;0;0\n')

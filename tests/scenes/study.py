@@ -84,12 +84,12 @@ with tempfile.TemporaryDirectory() as folder:
     summary = path("product", "creepage-0.001_friction-coefficient-0.4", "summary.json")
     before = os.stat(summary).st_mtime_ns
     write(study, {"Motion/Creepage": ["0.001", "0.002"], "Contact/Friction coefficient": ["0.4", "0.5"]}, Directory=path("product"),
-          Figures="traction_coefficient | no_such_figure")
+          Figures="traction_coefficient | wheel_2_creepage")  # which runs with two wheels have
     result = perform(study)
     check.that("a complete run is not repeated", os.stat(summary).st_mtime_ns == before and "creepage-0.001" not in
                result.stdout.split("Motion/Creepage")[0])
     check.that("a new value is run", [row["state"] for row in study_table(path("product"))] == ["complete"] * 4)
-    check.that("a figure that is not there is named, with an exit code", result.returncode == 1 and "no_such_figure" in result.stdout)
+    check.that("a figure that is not there is named, with an exit code", result.returncode == 1 and "wheel_2_creepage" in result.stdout)
     write(study, {"Motion/Creepage": ["0.001"], "Contact/Friction coefficient": ["0.4"]}, SETTINGS + ["Motion/Speed (km per h)=70"],
           Directory=path("product"))
     result = perform(study)
@@ -149,6 +149,10 @@ with tempfile.TemporaryDirectory() as folder:
     refused("a misspelt parameter", write(path("bad.study"), {"Motion/Crepage": ["0.001", "0.002"]}, Directory=path("bad")),
             ["'Vary': no parameter 'Motion/Crepage'", "did you mean 'Motion/Creepage'?"])
     refused("a misspelt setting", write(path("bad.study"), vary, ["Contact/Finest cell (mm)=1.3"], Directory=path("bad")), ["'Settings'", "did you mean 'Mesh/Finest cell (mm)'?"])
+    refused("a misspelt figure", write(path("bad.study"), vary, Figures="normal_force_N | max_presure_Pa", Directory=path("bad")),
+            ["'Figures': summary.json has no 'max_presure_Pa'", "did you mean 'max_pressure_Pa'?"])
+    refused("a misspelt column", write(path("bad.study"), vary, Figures="max(strip.csv:von_mises_Mpa_)", Directory=path("bad")),
+            ["'Figures': strip.csv has no 'von_mises_Mpa_'", "did you mean 'von_mises_MPa'?"])
     check.that("nothing has begun where a study is refused", not os.path.exists(path("bad")))
     refused("an empty value", write(path("bad.study"), {"Motion/Creepage": ["0.001", "", "0.003"]}), ["Motion/Creepage", "empty"])
     refused("folders of runs", write(path("bad.study"), {"Output/Directory": ["a", "b"]}), ["Output/Directory", "folder of its own"])

@@ -26,6 +26,15 @@ class DataError(Error):
     """A file is missing or cannot be understood."""
 
 
+def why_unreadable(path: str, error: Exception) -> str:
+    """One line on a file of a folder that cannot be read."""
+    folder = os.path.dirname(path)
+    if isinstance(error, NotADirectoryError) and os.path.isfile(folder):
+        scene = ", but a scene: roll it first, and name the folder of its results" if folder.endswith(".prm") else ": name that of a run"
+        return f"{folder} is no folder of results{scene}"
+    return f"{path}: {getattr(error, 'strerror', None) or error}"
+
+
 def read_table(path: str, required: Iterable[str] = (), text: Iterable[str] = ("state",)) -> dict[str, np.ndarray]:
     """A CSV file (also .gz; lines that start with # are comments) as {column: (rows,) array}, of numbers but for the columns
     `text`; other columns that are not numbers are left out, or refused if they are required. @raises DataError"""
@@ -36,7 +45,7 @@ def read_table(path: str, required: Iterable[str] = (), text: Iterable[str] = ("
         with opener(path, "rt", encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(line for line in stream if line.strip() and not line.startswith("#")))
     except (OSError, EOFError, UnicodeDecodeError) as error:
-        raise DataError(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+        raise DataError(why_unreadable(path, error)) from None
     if not rows:
         raise DataError(f"{path}: empty file")
     names = [name.strip() for name in rows[0]]
@@ -76,7 +85,7 @@ def read_summary(folder: str | os.PathLike) -> dict:
         with open(path, encoding="utf-8") as stream:
             summary = json.load(stream)
     except OSError as error:
-        raise DataError(f"{path}: {error.strerror}") from None
+        raise DataError(why_unreadable(path, error)) from None
     except ValueError as error:
         raise DataError(f"{path}: not valid JSON ({error})") from None
     if not isinstance(summary, dict):

@@ -37,6 +37,8 @@ def read_points(path: str) -> np.ndarray:
     separate. Headings before the first point, comments behind #, ! or % and remarks behind numbers are passed over. @raises DataError"""
     rows = []
     for number, line in enumerate(read_lines(path), 1):
+        if not rows and "x_mm" in line and "y_mm" in line:
+            raise DataError(f"{os.path.basename(path)}, line {number}: is a map of heights, with columns x_mm, y_mm and z_mm, and no profile, which has two")
         text = re.sub(r"(?:^|(?<=[\s,;]))[^\W\d_].*", "", re.split("[#!%]", line)[0].replace('"', "")).strip()
         if re.match(r"[-+.]?\d", text):
             rows.append((number, text))

@@ -91,11 +91,12 @@ def text_of(value: object) -> str:
 
 def arguments_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequence[str] = (), output: str | None = None) -> list[str]:
     """What follows the program's name. @param scene a path from the current folder, or from prm/ of the source tree
-    @param settings {"Section/Name": value}, or a list of "Section/Name=value" """
+    @param settings {"Section/Name": value}, or a list of "Section/Name=value", of which the last of each name counts: the program takes
+    each name once"""
     if hasattr(settings, "items"):
         settings = [f"{name}={text_of(value)}" for name, value in settings.items()]
     arguments = [scene_path(scene)]
-    for setting in settings:
+    for setting in {setting.partition("=")[0].strip(): setting for setting in settings}.values():
         arguments += ["-s", setting]
     return arguments + (["--output", output] if output else [])
 

@@ -23,7 +23,7 @@ A study is a text file in the format of the scenes:
       set Defect/Length (mm) & Defect/Depth (mm) = 5 & 0.03 | 10 & 0.06     # vary together
     end
 
-Parameters that there are not are refused before the first run. Values that cannot be are left to the run that has them.
+Parameters and figures that there are not are refused before the first run. Values that cannot be are left to the run that has them.
 
 Figures are those of summary.json by their names; max(...), min(...) and last(...) of a column of history.csv, or of another
 table, as in max(strip.csv:von_mises_MPa); at(strip.csv:von_mises_MPa:x_mm), which is x_mm in the row where von_mises_MPa is
@@ -63,8 +63,8 @@ from typing import TYPE_CHECKING, List, Optional, Tuple
 
 from .files import DataError, Error, frame_or_rows, input_of, is_complete, own_parameters
 from .limits import Limit
-from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, own_line, scene_path, text_of, version_of
-from .schema import listing, not_among, parameters
+from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, execute, must_end_well, own_line, scene_path, text_of, version_of
+from .schema import edit_distance, listing, not_among, parameters
 
 if TYPE_CHECKING:
     import pandas
@@ -212,6 +212,24 @@ class Study:
             if name not in known:
                 raise DataError(f"{self.path}: '{entry}': {not_among(name, known)}")
 
+    def must_name_figures(self, program: str) -> None:
+        """@raises DataError naming a figure that no run leaves, which else would be found missing after all of them. Nothing is said where the
+        program does not list what it writes."""
+        known: dict[str, dict[str, str]] = {}
+        with contextlib.suppress(Error, OSError, ValueError, KeyError, TypeError, subprocess.TimeoutExpired):
+            listed = json.loads(must_end_well(execute(["--print-columns"], program=program, timeout=30)).stdout)
+            known = {table["file"]: {any_number(column["name"]): column["name"] for column in table["columns"]} for table in listed}
+        for figure in self.figures:
+            kind = re.fullmatch(r"(\w+)\((.+)\)", figure)
+            if kind and kind[1] in ("dynamic", "frequency"):
+                continue
+            names = kind[2].split(":") if kind else [figure]
+            table = names.pop(0) if len(names) > 1 else "history.csv" if kind else "summary.json"
+            for name in names:
+                if table in known and any_number(name) not in known[table] and not name.endswith("_half_space_uncertainty"):
+                    close = min(known[table].values(), key=lambda other: edit_distance(name, other))
+                    raise DataError(f"{self.path}: 'Figures': {table} has no '{name}'; did you mean '{close}'?")
+
     @staticmethod
     def count(path: str, entries: Mapping[str, str], name: str) -> int:
         if not re.fullmatch(r"[1-9]\d*", entries[name]):
@@ -224,6 +242,11 @@ def natural(text: str) -> int:
     if not re.fullmatch(r"[1-9]\d*", text):
         raise argparse.ArgumentTypeError(f"'{text}' must be 1, 2, ...")
     return int(text)
+
+
+def any_number(name: str) -> str:
+    """The name of a figure or column without the number of its wheel, support or cell."""
+    return re.sub(r"(?<=_)\d+(?=_)", "#", name)
 
 
 def split_together(text: str) -> tuple[str, ...]:
@@ -570,6 +593,7 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
     asked.must_name_parameters(program)
+    asked.must_name_figures(program)
     root = os.fspath(output or os.path.join("results", os.path.splitext(os.path.basename(scene))[0]))
     members = members_of(asked, root, program, options)
     try:
@@ -612,6 +636,7 @@ def main() -> int:
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
     asked.must_name_parameters(arguments.program)
+    asked.must_name_figures(arguments.program)
     asked.processes, asked.ranks = arguments.processes or asked.processes, arguments.ranks or asked.ranks
     root = arguments.output or asked.directory
     members = members_of(asked, root, arguments.program)
