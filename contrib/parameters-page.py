@@ -18,7 +18,7 @@ A parameter file has sections with one parameter a line:
     end
 
 On the command line the same is `-s "Wheel/Radius (mm)=460"`, which has the last word. A line `include NAME` reads another file first, relative to the
-folder of the file it stands in; what the file itself sets overrides it. Files with measured profiles are looked for in the present folder and beside
+folder of the file it stands in; what the file itself sets overrides it. One file, and the command line, sets each parameter once. Files with measured profiles are looked for in the present folder and beside
 the file that the program was given. What is not set has the default given here.
 
 This page is written by `contrib/parameters-page.py`.

@@ -52,7 +52,9 @@ namespace
                        "tread SCENE.prm [options]            mpirun -np N tread SCENE.prm [options]");
     app.set_version_flag("--version", "tread " + tread::version());
     app.add_option("SCENE.prm", line.scene, "parameter file");
-    app.add_option("-s", line.settings, "\"Section/Name=value\": set a parameter; may be repeated")
+    app
+      .add_option("-s", line.settings,
+                  "\"Section/Name=value\": set a parameter; may be repeated, each time for another one")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--output", line.output, "folder of the results; of --batch and --positions, their table");
@@ -125,6 +127,7 @@ namespace
     if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
+    tread::Scene::refuse_repeated(line.settings);
     const bool asks_of_scene = !line.settings.empty() || !line.print_parameters.empty() || line.resume ||
                                line.reference_only || line.modes.wanted || line.points.wanted ||
                                line.dry_run || line.overwrite;

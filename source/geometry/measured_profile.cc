@@ -453,6 +453,30 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// y of the back of the flange, which stands upright behind its rounded tip. Nothing where the points end
+    /// before it.
+    std::optional<double> flange_back(const Points &points)
+    {
+      // Behind the tip of S1002, an arc of 12 mm, so much higher the back is 0.7 mm away.
+      constexpr double least_rise = 8e-3;
+      const auto       before =
+        std::find_if(points.begin(), points.end(), [](const ProfilePoint &p) { return p.y > 0.; });
+      if (before == points.begin())
+        return {};
+      const auto lower = [](const ProfilePoint &a, const ProfilePoint &b) {
+        return a.z < b.z;
+      };
+      const auto tip  = std::min_element(points.begin(), before, lower);
+      const auto back = std::min_element(
+        points.begin(), tip + 1, [](const ProfilePoint &a, const ProfilePoint &b) { return a.y < b.y; });
+      const auto top = std::max_element(points.begin(), tip + 1, lower);
+      return top->z > tip->z + least_rise ? std::optional<double>(back->y) : std::nullopt;
+    }
+  } // namespace
+
+
   MeasuredProfile read_measured_profile(const std::string      &file,
                                         const ProfileBody       body,
                                         const ProfilePlacement &placement)
@@ -491,6 +515,8 @@ namespace tread
             set_zero(profile, a.z - a.y / (b.y - a.y) * (b.z - a.z));
             break;
           }
+    if (profile.has_flange)
+      profile.flange_back = flange_back(profile.points);
     std::tie(profile.noise, profile.spacing) = noise_and_spacing(profile.points, crown);
     if (body == ProfileBody::wheel && !profile.has_flange)
       profile.remarks.push_back(

@@ -178,6 +178,11 @@ namespace tread
       for (const NumberedLine &line : numbered(lines))
         {
           const std::string text = without_comment(line.text);
+          if (rows.empty() && text.find("x_mm") != text.npos && text.find("y_mm") != text.npos)
+            refuse_profile(
+              file, line.number,
+              "is a map of heights, with columns x_mm, y_mm and z_mm, which 'Defect/Shape' map reads; a "
+              "profile has two");
           if (is_blank(text) || (rows.empty() && !is_row(text))) // a heading
             continue;
           rows.push_back({line.number, text});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What of a scene makes its answer doubtful, before anything is computed.
 #include <tread/base/format.h>
+#include <tread/geometry/measured_profile.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
@@ -64,6 +65,9 @@ namespace tread
     /// More than is not sprung on any wheel of a railway, beside a sprung mass that is less. [kg]
     constexpr double largest_unsprung_mass = 4e3;
 
+    /// Across the track: a wheelset that hunts over all of its play has some tenths. [m/s]
+    constexpr double largest_lateral_speed = 2.;
+
     /// Where the treads that have a name have the back of their flange, and what it may be off. [m]
     constexpr double named_back = -70e-3, back_tolerance = 2e-3;
 
@@ -92,7 +96,37 @@ namespace tread
   } // namespace
 
 
-  std::vector<std::string> Scene::implausible_values() const
+  std::string Scene::flange_back_elsewhere() const
+  {
+    // A worn or rounded back is not known better.
+    constexpr double tolerance = 3e-3; // m
+    if (!wheel.has_measured_profile())
+      return "";
+    const double given = wheelset.track.back_position;
+    const auto   shown =
+      read_measured_profile(located(wheel.tread_profile), ProfileBody::wheel, wheel.profile_placement)
+        .flange_back;
+    if (!shown || std::abs(given - *shown) <= tolerance)
+      return "";
+    return format(
+      "'Wheelset/Flange back (mm)' %g: the flange of 'Wheel/Tread profile' '%s' has its back at %.1f, so "
+      "that the wheel stands %.1f mm off its place in the track",
+      1e3 * given, wheel.tread_profile.c_str(), 1e3 * *shown, 1e3 * std::abs(given - *shown));
+  }
+
+
+  std::string Scene::short_way() const
+  {
+    if (output.history_interval <= motion.rolled_distance * motion.passages)
+      return "";
+    return format(
+      "'Output/History interval (mm)' %g is longer than the way, %g: history.csv has one row, which is the "
+      "mean over all of it",
+      1e3 * output.history_interval, 1e3 * motion.rolled_distance * motion.passages);
+  }
+
+
+  std::vector<std::string> Scene::implausible_values(const bool stands_in_track) const
   {
     std::vector<std::string> list;
     for (const Parameter &parameter : changed_values())
@@ -138,6 +172,14 @@ namespace tread
                             "back at %g, so that the wheel stands %g mm off its place in the track",
                             1e3 * back, wheel.tread_profile.c_str(), 1e3 * named_back,
                             1e3 * std::abs(back - named_back)));
+    if (stands_in_track || is_positioned())
+      if (const std::string elsewhere = flange_back_elsewhere(); !elsewhere.empty())
+        list.push_back(elsewhere);
+    if (wheelset_motion && wheelset_motion->largest_lateral_speed() > largest_lateral_speed)
+      list.push_back(
+        format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
+               "(above %g m/s): are its shifts in mm and its times in s?",
+               wheelset_motion->largest_lateral_speed(), largest_lateral_speed));
     if (has_defect() && !defect.profile_file.empty() && defect.depth == 0. &&
         made_defect()->depth < least_height)
       list.push_back(
@@ -312,7 +354,7 @@ namespace tread
   {
     std::vector<std::string> list = implausible_values();
     for (const std::string &doubt : {missed_defect(), begins_on_defect(*this), unseen_detail_along(),
-                                     narrow_island(), short_memory(), unmatched_surface(*this)})
+                                     narrow_island(), short_memory(), short_way(), unmatched_surface(*this)})
       if (!doubt.empty())
         list.push_back(doubt);
     return list;

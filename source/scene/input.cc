@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <regex>
@@ -331,6 +332,8 @@ namespace tread
     const std::vector<Entry> entries = all_entries(handler);
     const std::string of_study       = "'" + file + "' is a study, no scene: contrib/study.py makes its runs";
     Open              open{"", 0};
+    std::map<std::string, unsigned int>
+      lines_of_parameters; // that this file sets; it may set again what one that it includes does
     for (const Line &line : lines)
       {
         const std::string where = place(file, line.number);
@@ -369,6 +372,10 @@ namespace tread
                                      "' stands outside of its section: write 'subsection " + entry->section +
                                      "', 'set " + entry->name + " = ...' and 'end'");
             require(equals != setting->npos, where + "'" + path + "' has no value: '=' is missing");
+            const auto [first, is_first] = lines_of_parameters.emplace(path, line.number);
+            require(is_first, where + "'" + path + "' is set in line " + std::to_string(first->second) +
+                                " already: leave one of the two lines out");
+            sets_something = true;
             set_entry(handler, *entry, dealii::Utilities::trim(setting->substr(equals + 1)), where);
           }
         else
@@ -382,6 +389,11 @@ namespace tread
   {
     if (!file.empty())
       parse(file);
+    require(file.empty() || sets_something || !settings.empty(),
+            "'" + shortened(file) +
+              "' sets no parameter: it is empty, or has comments alone; scenes to start from are in prm/, "
+              "and tread "
+              "--print-parameters writes all parameters with their defaults");
     for (const std::string &setting : settings)
       set(setting);
     require(!vehicle.wheel_load || !vehicle.axle_load,
@@ -464,13 +476,33 @@ namespace tread
   }
 
 
-  void Scene::set(const std::string &setting)
+  namespace
   {
-    const auto strip = [](std::string text) {
+    std::string strip(std::string text)
+    {
       text.erase(0, text.find_first_not_of(" \t"));
       text.erase(text.find_last_not_of(" \t") + 1);
       return text;
-    };
+    }
+  } // namespace
+
+
+  void Scene::refuse_repeated(const std::vector<std::string> &settings)
+  {
+    std::map<std::string, std::string> values;
+    for (const std::string &setting : settings)
+      if (const std::size_t equals = setting.find('='); equals != setting.npos)
+        {
+          const std::string value      = strip(setting.substr(equals + 1));
+          const auto [first, is_first] = values.emplace(strip(setting.substr(0, equals)), value);
+          require(is_first, "-s sets '" + shortened(first->first) + "' twice, to '" +
+                              shortened(first->second) + "' and to '" + shortened(value) + "': give it once");
+        }
+  }
+
+
+  void Scene::set(const std::string &setting)
+  {
     require(is_utf8(setting), "a setting of -s is not UTF-8 text");
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
@@ -481,6 +513,14 @@ namespace tread
       if (entry.path == path)
         return set_entry(handler, entry, value, "");
     const std::string unknown = shortened(path);
+    if (std::any_of(entries.begin(), entries.end(), [&](const Entry &e) { return e.path == value; }))
+      throw InputError("-s \"" + shortened(setting) + "\": the parameter comes first, as in \"" + value +
+                       "=" + unknown + "\"");
+    char *end;
+    std::strtod(path.c_str(), &end);
+    if (*end == 0)
+      throw InputError("-s \"" + shortened(setting) + "\": '" + unknown +
+                       "' is no parameter; expected Section/Name=value");
     throw InputError("no parameter '" + unknown + "'; " + did_you_mean(entries, unknown));
   }
 

@@ -96,7 +96,7 @@ namespace tread
                 add(scene.path_begin(k) - beyond, scene.meshed_end(k) + beyond, depth, material.yield_stress,
                     material.tangent_modulus);
           }
-        for (const MaterialSection::Zone &zone : material.zones())
+        for (const MaterialSection::Zone &zone : material.zones(wheel ? "Wheel" : "Rail"))
           add(zone.begin, zone.end, zone.depth, zone.yield_stress, zone.tangent_modulus);
       }
     return zones;

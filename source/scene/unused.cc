@@ -223,7 +223,7 @@ namespace tread
       lines.push_back("'Contact/Friction pressures (MPa)', from " + text_of(1e-6 * pressures.front()) +
                       " to " + text_of(1e-6 * pressures.back()) +
                       ", are those of no wheel on a rail: the factor is the same at all of its pressures");
-    for (const MaterialSection::Zone &zone : rail.material.zones())
+    for (const MaterialSection::Zone &zone : rail.material.zones("Rail"))
       if (beside(zone.begin, zone.end))
         lines.push_back("'Rail/Plastic zones' from " + text_in_mm(zone.begin) + " to " +
                         text_in_mm(zone.end) + " mm has no effect: it lies beside the path");

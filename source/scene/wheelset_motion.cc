@@ -92,6 +92,10 @@ namespace tread
           std::vector<double> values = table.column(column.name), times = time;
           for (double &value : values)
             value *= column.in_si;
+          if (column.curve == &shift)
+            for (std::size_t row = 1; row < time.size(); ++row)
+              lateral_speed = std::max(lateral_speed,
+                                       std::abs(values[row] - values[row - 1]) / (time[row] - time[row - 1]));
           const double final = values.back();
           const auto   curve = std::make_shared<boost::math::interpolators::pchip<std::vector<double>>>(
             std::move(times), std::move(values));

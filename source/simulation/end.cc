@@ -609,6 +609,10 @@ namespace tread
         warnings.push_back(warning);
     if (completed)
       add_doubts(warnings);
+    if (completed && !scene.has_defect() && !rolled.long_enough())
+      warnings.push_back(
+        format("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
+               rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
     const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     const std::string plastic_strain = add_plastic_strain(
       summary, dynamics, wheels.front().body,
@@ -645,10 +649,6 @@ namespace tread
                     note.c_str(), note.empty() ? "" : "\n");
         for (const std::string &warning : warnings)
           std::printf("WARNING: %s\n", warning.c_str());
-        if (completed && !scene.has_defect() && !rolled.long_enough())
-          std::printf("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more\n",
-                      rolled.patch_lengths, torque_released ? "torque acts" : "start",
-                      rolled.lengths_to_be_steady);
         const std::string pictures =
           (scene.output.write_volume ? folder.list_of_pictures("volume") + ", " : "") +
           folder.list_of_pictures("surface");

@@ -280,7 +280,7 @@ namespace tread
         1e3 * about.equilibrium));
     else if (std::isnan(about.equilibrium))
       progress.say("the rolling radii are unlike at all shifts: there is no equivalent conicity");
-    for (const std::string &warning : scene.implausible_values())
+    for (const std::string &warning : scene.implausible_values(true))
       progress.say("warning: " + warning);
     if (!complaint.empty())
       progress.say("warning: rows are missing: " + complaint);
@@ -293,6 +293,12 @@ namespace tread
         format("note: from a lateral shift of %g mm on a wheel stands on its flange between the steepest "
                "part and the tip: it climbs out of the track",
                1e3 * least));
+    const double last = request.step_mm * std::floor(request.to_mm / request.step_mm * (1. + 1e-9));
+    if (last < request.to_mm * (1. - 1e-9))
+      progress.say(format(
+        "note: the table ends at lateral shifts of %g mm, before --shift-to %g, which is no multiple of "
+        "--shift-step %g",
+        last, request.to_mm, request.step_mm));
     if (scene.wheel.lateral_position != 0.)
       progress.say(
         "note: 'Wheel/Lateral position (mm)' does not count here: the lateral shift of the wheelset "

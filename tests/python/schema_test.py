@@ -96,6 +96,9 @@ class Scenes(unittest.TestCase):
                 self.assertEqual(len(found), 1)
                 self.assertTrue(found[0].startswith("scene.prm:3: ") and words in found[0], found)
         self.assertEqual(self.errors("SUBSECTION Contact\n\tset Friction\tcoefficient \\\n = 0.3\nEND\n"), [])
+        for between in ("", "end\nsubsection Contact\n"):
+            found = self.errors(f"subsection Contact\n  set Friction coefficient = 0.3\n{between}  set Friction coefficient = 0.3\nend\n")
+            self.assertEqual(found, [f"scene.prm:{5 if between else 3}: 'Contact/Friction coefficient' is set in line 2 already: leave one of the two lines out"])
         self.assertEqual(self.errors("subsection Contact\n"), ["scene.prm:1: the subsection of line 1 has no end"])
         self.assertIn("'end' is neither", self.errors("end\n")[0])
         self.assertIn("No such file", next(schema.scene_errors("none.prm"))[2])

@@ -9,7 +9,7 @@ import os
 import sys
 import tempfile
 
-from tread.runs import ROOT, execute
+from tread.runs import ROOT, arguments_of, execute
 from loaded_once import execute_often
 from tread_runner import Check
 
@@ -52,8 +52,8 @@ SETTINGS = [
     ("Rail/Poisson's ratio=0.7", ["Rail/Poisson's ratio", "allowed", "0.49"]),
     ("Rail/Yield stress (MPa)=-500", ["Rail/Yield stress (MPa)", "allowed", "0"]),
     ("Rail/Hardening=wood", ["Rail/Hardening", "isotropic", "kinematic", "Armstrong-Frederick"]),
-    ("Rail/Plastic zones=-30:-20:8:400", ["Plastic zones", "begin:end:depth"]),
-    ("Rail/Plastic zones=-30:-20:8:soft:21", ["Plastic zones", "begin:end:depth"]),
+    ("Rail/Plastic zones=-30:-20:8:400", ["'Rail/Plastic zones'", "begin:end:depth"]),
+    ("Wheel/Plastic zones=-30:-20:8:soft:21", ["'Wheel/Plastic zones'", "begin:end:depth"]),
     ("Rail/Plastic zones=-30:500:8:400:21", ["Rail/Plastic zones", "500", "leaves the mesh"]),
     ("Rail/Plastic zones=-20:-30:8:400:21", ["Rail/Plastic zones", "-20"]),
     ("Rail/Plastic zones=-30:-20:900:400:21", ["Rail/Plastic zones", "900", "leaves the mesh"]),
@@ -85,6 +85,8 @@ SETTINGS = [
     ("Scene/Density scale=1000", ["Scene/Density scale", "allowed"]),
     ("Motion/Rolled distance (mm)=0", ["Motion/Rolled distance (mm)", "allowed"]),
     ("Friction coefficient", ["expected Section/Name=value"]),
+    ("0.35=Contact/Friction coefficient", ["the parameter comes first", '"Contact/Friction coefficient=0.35"']),
+    ("0.35=0.4", ["'0.35' is no parameter", "expected Section/Name=value"]),
 ]
 # A bar of 7.2 m with a support every 0.6 m.
 BAR = ["Rail/Shape=block", "Rail/Block width (mm)=60", "Rail/Block height (mm)=150", "Rail/Margin (mm)=3570",
@@ -195,7 +197,10 @@ with tempfile.TemporaryDirectory() as folder:
     for setting, words in SETTINGS:
         must_fail(setting, base + ["-s", setting], words)
     for settings, words in PAIRS:
-        must_fail(" and ".join(settings), base + [a for s in settings for a in ("-s", s)], words)
+        must_fail(" and ".join(settings), arguments_of(scene, settings, results), words)
+    for second in ("80", "100"):
+        must_fail(f"a parameter twice, the second time to {second}", base + ["-s", "Motion/Speed (km per h)=80", "-s", f" Motion/Speed (km per h) = {second}"],
+                  ["-s", "'Motion/Speed (km per h)' twice", "'80'", f"'{second}'"])
     must_fail("on 3 ranks", base + ["-s", "Motion/Drive=rocket"], ["Motion/Drive"], ranks=3)
     coarse = ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Mesh/Fine half width (mm)=9"]
     must_fail("a cell beyond the end of the rail, on 3 ranks", base + coarse + ["-s", "Output/Cells=-20,0,1; 900,0,1"],
@@ -205,6 +210,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Files with measured profiles.
     for name, text, words in (("gap", "0 0\n1 -.1\n2 -.2\n3 -.2\n30 0\n31 0\n", ["line 5", "gap of 27 mm"]),
                               ("columns", "0 0 1\n1 -.1 1\n2 -.2 1\n3 0 1\n", ["line 1", "two numbers"]),
+                              ("the columns of a map", "x_mm,y_mm,z_mm\n0,-1,0\n0,1,0\n1,-1,0\n1,1,0\n", ["line 1", "map of heights", "'Defect/Shape' map"]),
                               ("backwards", "0 0\n2 -.1\n1 -.2\n3 0\n", ["line 3", "x must increase"]),
                               ("one point", "x z\n0 0 # begins\n", ["has 1 point;", "at least four"]),
                               ("comments", "0 0 # begins\n1 -.1 ! falls\n2 .1 # rises\n3 0\n4 0 0\n", ["line 5", "two numbers"]),
@@ -238,6 +244,8 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("the other run was killed", [scene, "--output", os.path.join(folder, "busy"), "--resume"] + coarse,
               ["no checkpoint"])
 
+    with open(os.path.join(folder, "empty.prm"), "w", encoding="utf-8") as stream:
+        stream.write("# nothing\n")
     for name, text, words in (("unknown entry", "# a scene\nsubsection Contact\n  set Frictoin coefficient = 1\nend\n",
                                ["bad.prm', line 3", "no parameter 'Contact/Frictoin coefficient'", "did you mean 'Contact/Friction coefficient'"]),
                               ("unit left out", "subsection Wheel\n\n  set Mass = 900\nend\n", ["line 3", "'Wheel/Mass'", "did you mean 'Wheel/Mass (kg)'"]),
@@ -256,6 +264,14 @@ with tempfile.TemporaryDirectory() as folder:
                               ("no line of a scene", "subsection Contact\n  hello\nend\n", ["line 2", "cannot read 'hello'", "set NAME = VALUE"]),
                               ("a study by its scene", "set Scene = ../a.prm\n", ["is a study", "contrib/study.py"]),
                               ("a study by what varies", "subsection Vary\n  set Motion/Creepage = 0.1 | 0.2\nend\n", ["is a study"]),
+                              ("a parameter twice", "subsection Motion\n  set Speed (km per h) = 80\n  set Speed  (km per h) = 80\nend\n",
+                               ["line 3", "'Motion/Speed (km per h)' is set in line 2 already"]),
+                              ("a parameter twice, in two parts of a section", "subsection Motion\n  set Speed (km per h) = 80\nend\n\nsubsection Motion\n  set Speed (km per h) = 100\nend\n",
+                               ["line 6", "'Motion/Speed (km per h)' is set in line 2 already"]),
+                              ("nothing", "", ["bad.prm' sets no parameter", "prm/", "--print-parameters"]),
+                              ("comments alone", "# a scene\n\n  # to be written\n", ["bad.prm' sets no parameter"]),
+                              ("a section without entries", "subsection Motion\nend\n", ["bad.prm' sets no parameter"]),
+                              ("includes a file that sets nothing", "include empty.prm\n", ["bad.prm' sets no parameter"]),
                               ("a line in two", "subsection Contact\n  set Friction coefficient = \\\n    -4\nend\n", ["line 2", "'-4'", "allowed"]),
                               ("value out of range", "subsection Contact\n  set Friction coefficient = -4\nend\n",
                                ["line 2", "'Contact/Friction coefficient' cannot be '-4'; allowed: 0 to 2"])):
@@ -289,6 +305,14 @@ with tempfile.TemporaryDirectory() as folder:
             stream.write(content)
         read = json.loads(execute_often([path, "--print-parameters=json", "-s", "Scene/Title=read"], program).stdout)
         check.that(f"a parameter file with {name} is read", read["Motion"]["Speed (km per h)"]["value"] == "77")
+    # A file that includes another one sets again what that sets, and its settings may be all on the command line.
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write("subsection Motion\n  set Speed (km per h) = 77\nend\n")
+    with open(os.path.join(folder, "own.prm"), "w", encoding="utf-8") as stream:
+        stream.write("include bad.prm\nsubsection Motion\n  set Speed (km per h) = 88\nend\n")
+    for name, settings, speed in (("own.prm", [], "88"), ("empty.prm", ["Motion/Speed (km per h)=99"], "99")):
+        read = json.loads(execute_often([*arguments_of(os.path.join(folder, name), settings), "--print-parameters=json"], program).stdout)
+        check.that(f"{name} with {settings}: {speed} km/h", read["Motion"]["Speed (km per h)"]["value"] == speed)
     must_fail("a setting that is not UTF-8", base + ["-s", b"Scene/Title=Pr\xfcfstand"], ["-s", "UTF-8"])
     steps = os.path.join(folder, "map.csv")
     with open(steps, "w", encoding="utf-8") as stream:
@@ -321,6 +345,12 @@ with tempfile.TemporaryDirectory() as folder:
     for setting, needed in unused.items():
         check.that(f"{setting} without effect: needs {needed}", any(f"'{setting.split('=')[0]}' has no effect" in line and f"'{needed}'" in line for line in said))
     check.that("and nothing else", len(said) == len(unused))
+
+    seldom = execute_often([scene, "--dry-run", *coarse, "-s", "Output/History interval (mm)=70"], program)
+    check.that("a history interval longer than the way", any("WARNING" in line and "'Output/History interval (mm)' 70 is longer than the way" in line
+                                                             for line in seldom.stdout.splitlines()))
+    usual = execute_often([scene, "--dry-run", *coarse], program)
+    check.that("and none that is shorter", usual.returncode == 0 and "WARNING" not in usual.stdout)
 
     printed = execute_often(["--print-parameters", "-s", "Motion/Speed (km per h)=123"], program)
     as_json = json.loads(execute_often(["--print-parameters=json", "-s", "Motion/Speed (km per h)=123"], program).stdout)

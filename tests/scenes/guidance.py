@@ -9,7 +9,7 @@ import tempfile
 import numpy as np
 
 from tread.files import read_summary
-from tread.runs import ROOT
+from tread.runs import ROOT, arguments_of
 from loaded_once import execute_often
 from tread_runner import Check, run, run_stopped, table
 
@@ -168,6 +168,10 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("the profile of a rail on the wheel", {"Wheel/Tread profile": os.path.join(ROOT, "prm", "curves", "profiles", "crown-1-5.txt")},
               "Wheel/Tread profile", "there is no flange")
     must_fail("sideways too fast", with_rows("fast.csv", time, lateral_shift_mm=np.linspace(0., 60., 9)), "Guidance/File", "sideways", "at most 0.2")
+    for speed in (1., 3.):
+        hurried = with_rows("hurried.csv", time, lateral_shift_mm=1e3 * speed * (time - time[4]))
+        said = execute_often([*arguments_of(SCENE, {**COARSE, **hurried}), "--dry-run"], program).stdout
+        check.that(f"{speed:g} m/s across the track: a warning from 2 m/s on", (f"across the track with up to {speed:g} m/s" in said) == (speed > 2.))
     must_fail("beyond the rail's head", {"Wheelset/Lateral shift (mm)": -66, **with_rows("beyond.csv", time, lateral_shift_mm=np.linspace(-66., -71., 9))}, "Lateral shift (mm)' -66", "other wheel", "no wheelset stands there")
     must_fail("a wheel that turns backwards", {**with_rows("turns.csv", time, angular_velocity_rad_per_s=np.linspace(84., -84., 9)), "Motion/Angular velocity (rad per s)": "by the drive"},
               "Guidance/File", "backwards")

@@ -270,7 +270,7 @@ with tempfile.TemporaryDirectory() as folder:
               arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Contact/Friction coefficient=0.4"],
               ["Friction coefficient"])
         fails("a longer way is refused where the rail is not meshed for it",
-              arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Motion/Rolled distance (mm)=14"],
+              arguments_of(SCENE, settings + ["Motion/Rolled distance (mm)=14"], path("other-parameters")) + ["--resume"],
               ["Rolled distance (mm)", "Longest distance (mm)"])
         fails("other columns of the history are refused",
               arguments_of(SCENE, settings, path("other-parameters")) + ["--resume", "-s", "Output/Supports=1"], ["Supports = 1"])

@@ -11,7 +11,7 @@ import tempfile
 import numpy as np
 
 from tread.manchester import positions, solve
-from tread.runs import ROOT
+from tread.runs import ROOT, arguments_of
 from loaded_once import execute_often
 from tread_runner import Check, rows_of, run, table
 
@@ -158,6 +158,19 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("steep cones: radius difference is odd, um", 1e3 * max(abs(by_shift[shift] + by_shift[-shift]) for shift in by_shift), 0., 0.01)
     check.absolute("steep cones: at 5 mm both wheels stand on their treads, mm", by_shift[5.], 2.2784, 1e-3)
 
+    # The flange of the wheel's file has its back 70 mm from the running circle, as the scene says by default.
+    elsewhere = "'Wheelset/Flange back (mm)' -62: the flange of 'Wheel/Tread profile' 'profiles/cone-1-5.txt' has its back at -70.0, so that the wheel stands 8.0 mm off"
+    told = [run(program, "curves/klingel.prm", path(f"back {back}"), {"Wheelset/Flange back (mm)": back}, more=["--reference-only"])["warnings"] for back in (-70, -67.5, -62)]
+    check.that("a flange back of another wheel", [any("Flange back" in warning for warning in warnings) for warnings in told] == [False, False, True]
+               and any(warning.startswith(elsewhere) for warning in told[2]))
+    profiles = os.path.join(ROOT, "prm", "curves", "profiles")
+    upright = {"Wheelset/Flange back (mm)": -62, "Wheel/Tread profile": f"{profiles}/cone-1-5.txt", "Rail/Measured head": f"{profiles}/crown-1-5.txt"}
+    in_table = execute_often([*arguments_of("smooth-rolling.prm", upright, path("back-points")), "--contact-points", "--shift-step", "3"], program)
+    check.that("and in a table of contact points", in_table.returncode == 0 and "warning: " + elsewhere.replace("profiles/", f"{profiles}/") in in_table.stdout)
+    check.that("shifts that end before their last one", "the table ends at lateral shifts of 9 mm, before --shift-to 10" in in_table.stdout
+               and max(table(path("back-points"), "contact_points.csv")["lateral_shift_mm"]) == 9.)
+    check.that("nothing of both where they fit", "Flange back" not in result.stdout and "--shift-to" not in result.stdout)
+
     # What cannot be.
     def must_fail(what, arguments, *words):
         failed = execute_often([RIGHT, "--output", path("bad"), *arguments], program)
@@ -179,6 +192,9 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("no angular velocity", [reference, "-s", "Motion/Angular velocity (rad per s)=by the drive"], "Motion/Angular velocity (rad per s)")
     must_fail("torque and angular velocity", [reference, "-s", "Motion/Drive=torque"], "Motion/Drive", "torque")
     must_fail("contact points of a gauge too wide", ["--contact-points", "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
+    for what in (reference, "--contact-points"):
+        must_fail(f"{what}: a gauge below the distance of the flanges", [what, "-s", "Wheelset/Track gauge (mm)=1000"],
+                  "Wheelset/Track gauge (mm)' 1000", "Flange-back distance (mm)' 1360", "between the rails")
     must_fail("another gauge on the other side", ["--contact-points", "--other-side", path("wide.prm")], "--other-side", "track gauge")
     must_fail("shifts without a step", ["--contact-points", "--shift-step", "0"], "--shift-step")
 

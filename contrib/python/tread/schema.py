@@ -210,7 +210,7 @@ def scene_errors(path: str, schema: dict | None = None, depth: int = 0) -> Itera
     except (OSError, UnicodeDecodeError) as error:
         yield path, 1, getattr(error, "strerror", None) or "is not text"
         return
-    last, opened = 0, []
+    last, opened, first_lines = 0, [], {}
     for number, kind, name, text in parameter_lines(lines):
         last = number
         if kind is None:
@@ -226,6 +226,8 @@ def scene_errors(path: str, schema: dict | None = None, depth: int = 0) -> Itera
             opened.pop()
         elif name not in known:
             yield path, number, not_among(name, known)
+        elif first_lines.setdefault(name, number) != number:
+            yield path, number, f"'{name}' is set in line {first_lines[name]} already: leave one of the two lines out"
         elif not fits(value_of(text, known[name]), known[name]):
             yield path, number, f"'{name}' cannot be '{text}'; allowed: {allowed(known[name])}"
     if opened:

@@ -4,6 +4,8 @@
 
 #include <tread/geometry/profile_file.h>
 
+#include <optional>
+
 namespace tread
 {
   /// How a file's y is taken: turned round where it is mirrored, then moved; and how the points are smoothed.
@@ -21,11 +23,13 @@ namespace tread
     std::vector<ProfilePoint> points;
     std::vector<ProfilePoint> measured; ///< the same before they were smoothed
 
-    bool   has_flange     = false; ///< of a wheel
-    double largest_change = 0.;    ///< by smoothing, at right angles to the curve
-    double y_of_change    = 0.;    ///< where
-    double noise          = 0.;    ///< standard deviation of what is left of it within 20 mm of y = 0
-    double spacing        = 0.;    ///< usual distance of the points there
+    bool has_flange = false; ///< of a wheel
+    /// y of the back of the flange, of a wheel whose points reach it.
+    std::optional<double> flange_back;
+    double                largest_change = 0.; ///< by smoothing, at right angles to the curve
+    double                y_of_change    = 0.; ///< where
+    double                noise   = 0.; ///< standard deviation of what is left of it within 20 mm of y = 0
+    double                spacing = 0.; ///< usual distance of the points there
 
     /// Pressure that presses the noise flat, Pa: errors that are independent from point to point are waves of
     /// twice their distance, which take pi E* A / wavelength (Westergaard 1939; Johnson 1985, section 13.2).

@@ -79,6 +79,9 @@ namespace tread
     /// sections.
     void read_surfaces(const std::string &file, const std::vector<std::string> &settings);
 
+    /// @throws InputError where one parameter is given twice, of which one value would be lost.
+    static void refuse_repeated(const std::vector<std::string> &settings);
+
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
     /// The same as deal.II's JSON: of each the value, the default, the documentation and the pattern.
@@ -158,8 +161,9 @@ namespace tread
     /// are hardly meant, a defect that no wheel meets, detail that cells do not see, parts of the patch that
     /// are narrow for them.
     std::vector<std::string> doubts() const;
-    /// The values among these.
-    std::vector<std::string> implausible_values() const;
+    /// The values among these. @param stands_in_track also where the wheelset has no position of its own, as
+    /// in a table over its lateral shift
+    std::vector<std::string> implausible_values(const bool stands_in_track = false) const;
 
     /// Where the defect lies and how deep, one line; empty: there is none.
     std::string defect_in_words() const;
@@ -369,6 +373,8 @@ namespace tread
     std::vector<std::string> tables_beside_the_path() const;
     /// What doubts() says of each; empty: nothing.
     std::string missed_defect() const;
+    std::string flange_back_elsewhere() const;
+    std::string short_way() const;
     std::string unseen_detail_along() const;
     std::string narrow_island() const;
     /// Length of the cells under the path from begin to end, the longest where they are not alike, m.
@@ -387,10 +393,11 @@ namespace tread
     /// @param islands of the patch, found with it
     PatchExtent patch_under_load(std::vector<Island> &islands) const;
 
-    mutable dealii::ParameterHandler           handler;
-    std::filesystem::path                      folder; ///< of the parameter file
-    std::vector<FileRead>                      read_files;
-    std::shared_ptr<const Shapes>              shapes;
+    mutable dealii::ParameterHandler handler;
+    std::filesystem::path            folder; ///< of the parameter file
+    std::vector<FileRead>            read_files;
+    bool                             sets_something = false; ///< the parameter file, or one that it includes
+    std::shared_ptr<const Shapes>    shapes;
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
     std::map<int, TrackParameters::Springs>    support_springs; ///< of 'Track/Support file', by the number

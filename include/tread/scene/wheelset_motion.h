@@ -26,6 +26,12 @@ namespace tread
     /// those of `otherwise`; y is that of the wheelset in its track.
     Across at(double time, const Across &otherwise) const;
 
+    /// Between two rows, m/s.
+    double largest_lateral_speed() const
+    {
+      return lateral_speed;
+    }
+
     bool has_angular_velocity() const
     {
       return bool(angular_velocity);
@@ -37,7 +43,7 @@ namespace tread
 
   private:
     using Curve = std::function<double(double)>;
-    double last = 0.;
+    double last = 0., lateral_speed = 0.;
     Curve  shift, yaw, roll, angular_velocity; ///< empty: not in the table
   };
 } // namespace tread

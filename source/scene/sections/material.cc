@@ -82,7 +82,7 @@ namespace tread
   }
 
 
-  std::vector<MaterialSection::Zone> MaterialSection::zones() const
+  std::vector<MaterialSection::Zone> MaterialSection::zones(const std::string &section) const
   {
     std::vector<Zone> list;
     for (const std::string &text : dealii::Utilities::split_string_list(plastic_zones))
@@ -98,7 +98,7 @@ namespace tread
             values.clear();
           }
         require(values.size() == 5,
-                "'Plastic zones' cannot be '" + text +
+                "'" + section + "/Plastic zones' cannot be '" + text +
                   "'; allowed: begin:end:depth:yield stress:tangent modulus, in mm, MPa and GPa");
         list.push_back(
           {1e-3 * values[0], 1e-3 * values[1], 1e-3 * values[2], 1e6 * values[3], 1e9 * values[4]});
@@ -137,7 +137,7 @@ namespace tread
             text_in_mm(plastic_depth) + " leaves the mesh; at most " + text_in_mm(meshed.thickness));
     require(plastic_half_width <= meshed.half_width, "Plastic half width (mm)",
             text_in_mm(plastic_half_width) + " leaves the mesh; at most " + text_in_mm(meshed.half_width));
-    for (const Zone &zone : zones())
+    for (const Zone &zone : zones(section))
       {
         const std::string name = "Plastic zones";
         require(meshed.begin <= zone.begin && zone.begin < zone.end && zone.end <= meshed.end, name,

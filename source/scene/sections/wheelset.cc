@@ -92,6 +92,10 @@ namespace tread
       axle_damping == 0. || has_flexible_axle(),
       "'Wheelset/Axle damping (us)' is of a flexible axle: 'Axle torsional stiffness (MN m per rad)' or "
       "'Axle bending stiffness (MN m2)' must be a number");
+    require(track.gauge > track.back_distance, "'Wheelset/Track gauge (mm)' " + text_of(1e3 * track.gauge) +
+                                                 " must be above 'Flange-back distance (mm)' " +
+                                                 text_of(1e3 * track.back_distance) +
+                                                 ": both flanges run between the rails");
     require(!both_wheels || roll == 0.,
             "'Wheelset/Roll (mrad)' is found where 'Wheelset/Both wheels' is true");
   }

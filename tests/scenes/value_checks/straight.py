@@ -281,8 +281,10 @@ def words(runs: Runs, expect: Expect) -> None:
     assumed = summary["assumptions"]
     expect.same("assumptions begin with", [text.split(" ")[0] for text in assumed], ["density", "mass", "the", "the"])
     expect.that("assumptions", "times 25" in assumed[0] and "5000 per s" in assumed[1] and "axle" in assumed[2] and assumed[3].endswith("predicts for steady rolling"))
-    expect.that("warnings", len(summary["warnings"]) == 1 and summary["warnings"][0].startswith("contact did not reach its tolerance in many steps (100 %, above 1 %)")
+    expect.that("warnings", len(summary["warnings"]) == 2 and summary["warnings"][0].startswith("contact did not reach its tolerance in many steps (100 %, above 1 %)")
                 and summary["warnings"][0].endswith("'Contact/Tolerance'"))
+    expect.same("a warning of a short way", summary["warnings"][1],
+                f"only {summary['rolled_patch_lengths']:.1f} patch lengths rolled since the start: steady rolling takes 1.5 or more")
     unused = summary["unused_parameters"]
     expect.that("unused", len(unused) == 1 and "Hold distance" in unused[0] and not unused[0].endswith("-"))
 

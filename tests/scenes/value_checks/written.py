@@ -198,7 +198,6 @@ LINES = {
     ("straight", "time step # ns, # steps to roll # mm"): (("time_step_s", 1e9), ("steps", 1.), ("rolled_m", 1e3)),
     ("straight", "hourglass energy # % of the internal energy; slip chatter # % of the largest slip; contact not converged in # % of the steps"): (
         ("hourglass_of_internal_energy", 100.), ("slip_chatter_share", 100.), ("contact_unconverged_share", 100.)),
-    ("straight", "only # patch lengths rolled since the start: steady rolling takes # or more"): (("rolled_patch_lengths", 1.),),
     ("plastic", "largest equivalent plastic strain # % in the rail (x = # mm, y = # mm, depth # mm), # % in the wheel"): (
         ("largest_plastic_strain", 100.), ("largest_plastic_strain_x_m", 1e3), ("largest_plastic_strain_y_m", 1e3), ("largest_plastic_strain_depth_m", 1e3),
         ("wheel_largest_plastic_strain", 100.)),

@@ -36,8 +36,8 @@ namespace tread
     {
       double begin, end, depth, yield_stress, tangent_modulus;
     };
-    /// @throws InputError
-    std::vector<Zone> zones() const;
+    /// @param section of the body, for what is said of it. @throws InputError
+    std::vector<Zone> zones(const std::string &section) const;
 
     ElasticMaterial elastic() const
     {
