@@ -29,7 +29,7 @@ from tread.defects import extents_of_defects, profile_length
 from tread.differences import other_bits
 from tread.files import DataError
 from tread.loads import static_load
-from tread.pictures import contact_points, crossing, history, impact, mesh, patch, profiles
+from tread.pictures import contact_points, crossing, history, impact, mesh, patch, plastic, profiles
 from tread.point_files import read_points
 from tread.runs import ROOT
 from tread.vtu import read_pieces
@@ -90,6 +90,15 @@ class MeasuredProfiles(OfRuns):
         self.assertRaisesRegex(DataError, "line 2: needs two numbers", read_points, self.path("words"))
         write(self.path("map.csv"), "# of a squat\nx_mm,y_mm,z_mm\n0,-16,0.0\n")
         self.assertRaisesRegex(DataError, "map.csv, line 2: is a map of heights, .* and no profile", read_points, self.path("map.csv"))
+
+    def test_a_depth_that_coarse_cells_do_not_have(self):
+        run = mock.Mock(path=lambda name: name)
+        for depths, found in (((0.5, 1.5, 2.5), [1.2]), ((0.5, 1.5), None), ((2., 6., 10.), None)):
+            run.cells = {"x_mm": np.zeros(len(depths)), "y_mm": np.ones(len(depths)), "z_mm": -np.array(depths), "stress": np.array(depths) + 0.5}
+            if found:
+                self.assertEqual(np.round(plastic.Tables.level(run, 0.7, "stress")[1], 9).tolist(), found)
+            else:
+                self.assertRaisesRegex(DataError, "rail_cells.csv: no three layers of cells around a depth of 0.7 mm", plastic.Tables.level, run, 0.7, "stress")
 
     def test_length_of_a_german_map(self):
         write(self.path("map.csv"), '"x_mm";"y_mm";"z_mm"\n-2,5;0;0\n10;0;-0,1\n22,5;0;0\n')

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..files import DataError
 from ..plots import BLUE, GREEN, ORANGE, PURPLE, RED, SKY, rolling_arrow, subplots
 from ..runs import Run
 
@@ -48,6 +49,8 @@ class Tables(Run):
                 continue
             x_of.append(x)
             value_of.append(np.interp(depth, depths, [np.mean(columns[x][d]) for d in depths]))
+        if not x_of:
+            raise DataError(f"{self.path('rail_cells.csv')}: no three layers of cells around a depth of {depth:g} mm; smaller cells, or a larger 'Output/Table depth (mm)'")
         return np.array(x_of), np.array(value_of)
 
     def settlement(self) -> tuple[np.ndarray, np.ndarray]:
