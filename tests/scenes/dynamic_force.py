@@ -42,9 +42,9 @@ def smooth(t):
 
 
 def write_parameters(folder, settings):
-    """parameters.prm, as a run writes it."""
+    """parameters.prm, as a run writes it. The last setting of each name counts."""
     arguments = ["--print-parameters"]
-    for setting in settings:
+    for setting in {setting.partition("=")[0]: setting for setting in settings}.values():
         arguments += ["-s", setting]
     printed = must_end_well(execute_often(arguments, program))
     os.makedirs(folder, exist_ok=True)

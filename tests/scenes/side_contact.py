@@ -88,7 +88,7 @@ with tempfile.TemporaryDirectory() as folder:
     press_ctrl_c(process, os.path.join(path("parts"), "history.csv"), 40)
     process.wait(timeout=120)
     check.that("Ctrl-C ends with its own exit code", process.returncode == 130)
-    more = execute_often(arguments + ["--resume", "-s", "Output/Cells=-8,-12,1"], program)
+    more = execute_often(arguments_of(SCENE, settings + ["Output/Cells=-8,-12,1"], path("parts")) + ["--resume"], program)
     check.that("resuming with other cells is refused by name", more.returncode == 1 and "set Cells" in more.stderr)
     run(program, SCENE, path("parts"), settings, 2, more=["--resume"])
     parts = table(path("parts"), "strip.csv")
