@@ -135,8 +135,9 @@ namespace tread
       hold_guided_nodes(v);
       mesh.distribute_hanging_nodes(v.data());
     };
+    const std::vector<MovingLoad> loads = loads_of_carriers();
     for (const auto &part : parts)
-      if (const std::vector<double> up = part->follow(state, loads_of_carriers(), constrain); !up.empty())
+      if (const std::vector<double> up = part->follow(state, loads, constrain); !up.empty())
         for (std::size_t k = 0; k < carriers.size(); ++k)
           carriers[k]->rise(up[k]);
   }

@@ -46,12 +46,12 @@ namespace tread
   }
 
 
-  template <typename Quanta, typename Loop>
-  inline void ExplicitDynamics::with_rounded_loads(const Quanta quanta, // a copy, which no force overwrites
-                                                   const Run   &run,
-                                                   const double factor,
-                                                   BodyLoads   &sums,
-                                                   const Loop  &loop) const
+  template <typename Rounding, typename Loop>
+  inline void ExplicitDynamics::with_rounded_loads(const Rounding quanta, // a copy, which no force overwrites
+                                                   const Run     &run,
+                                                   const double   factor,
+                                                   BodyLoads     &sums,
+                                                   const Loop    &loop) const
   {
     Vector3      loss{};
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;

@@ -273,10 +273,4 @@ namespace tread
       }
     return nearest->bodies.empty() ? "" : nearest->bodies[best];
   }
-
-
-  double SlicedRail::small_step() const
-  {
-    return 1e-6;
-  }
 } // namespace tread

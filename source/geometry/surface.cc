@@ -61,7 +61,7 @@ namespace tread
     if (is_constant())
       return height;
     // A surface that ends here has a derivative to the other side.
-    const double               step   = small_step();
+    constexpr double           step   = 1e-6; // m or rad
     const std::optional<Above> before = highest(sections(along - step), y),
                                behind = highest(sections(along + step), y);
     if (before && behind)
@@ -109,12 +109,6 @@ namespace tread
   }
 
 
-  double PrismSurface::small_step() const
-  {
-    return 1e-6;
-  }
-
-
   WheelSurface::WheelSurface(const ProfileCurve &profile, std::shared_ptr<const WheelDeviation> deviation)
     : round(profile)
     , more(std::move(deviation))
@@ -151,11 +145,5 @@ namespace tread
         points.emplace_back(p.y, p.z - more->at(along, p.y).dz);
       }
     return {ProfileCurve(points)};
-  }
-
-
-  double WheelSurface::small_step() const
-  {
-    return 1e-6;
   }
 } // namespace tread

@@ -4,15 +4,14 @@
 #include <tread/base/input_error.h>
 #include <tread/half_space.h>
 #include <tread/output/progress.h>
+#include <tread/tools/answer_table.h>
 #include <tread/tools/batch_files.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
+#include <ostream>
 #include <stdexcept>
 
 namespace tread
@@ -81,15 +80,11 @@ namespace tread
 
     /// The rows as they are, each with its answer, by the grammar of the table.
     void write_answers(const std::string                          &cases,
-                       const std::string                          &output,
+                       std::ostream                               &file,
                        const TableGrammar                         &grammar,
                        const std::vector<tread_half_space_answer> &answers)
     {
       const std::vector<NumberedLine> lines = csv_lines(cases);
-      // Never a half-written table under its own name, but devices and pipes are written to as they are.
-      const bool is_file     = !std::filesystem::exists(output) || std::filesystem::is_regular_file(output);
-      const std::string part = is_file ? output + ".part" : output;
-      std::ofstream     file(part);
       // Our own columns have commas and points.
       const auto in_grammar = [&](std::string own) {
         for (char &c : own)
@@ -126,31 +121,13 @@ namespace tread
                         a.adhesion_share, a.iterations, a.area, a.approach, a.frictional_work, a.status);
           file << line << in_grammar(text) << '\n';
         }
-      file.close();
-      if (!file)
-        {
-          std::error_code ignored;
-          if (is_file)
-            std::filesystem::remove(part, ignored);
-          throw std::runtime_error("cannot write '" + output + "': is the disk full?");
-        }
-      if (is_file)
-        std::filesystem::rename(part, output);
     }
   } // namespace
 
 
   void write_batch(const std::string &cases, const std::string &output, const MPI_Comm comm)
   {
-    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
-      throw InputError("--batch uses all cores by itself; start it without mpirun");
-    if (output.empty())
-      throw InputError("--batch needs --output RESULTS.csv");
-    if (std::filesystem::is_directory(output))
-      throw InputError("--output '" + output + "' is a folder; --batch writes a table");
-    std::error_code none;
-    if (std::filesystem::equivalent(cases, output, none))
-      throw InputError("--batch reads '" + cases + "'; --output must be another file");
+    check_answer_table("--batch", cases, output, comm);
     if (std::filesystem::exists(cases) && !std::filesystem::is_directory(cases) &&
         !std::filesystem::is_regular_file(cases))
       throw InputError("--batch reads its table twice; '" + cases + "' is no file");
@@ -163,7 +140,7 @@ namespace tread
     std::vector<tread_half_space_answer> answers(problems.size());
     const std::size_t                    failed =
       tread_half_space_solve_all(problems.data(), problems.size(), 0, answers.data());
-    write_answers(cases, output, grammar, answers);
+    write_answer_table(output, [&](std::ostream &file) { write_answers(cases, file, grammar, answers); });
     progress.say(
       format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
     if (failed > 0)

@@ -5,15 +5,13 @@
 #include <tread/base/input_error.h>
 #include <tread/geometry/rail_slices.h>
 #include <tread/output/progress.h>
+#include <tread/tools/answer_table.h>
 #include <tread/tools/position_files.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -191,15 +189,7 @@ namespace tread
 
   void write_positions(const std::string &positions, const std::string &output, const MPI_Comm comm)
   {
-    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
-      throw InputError("--positions uses all cores by itself; start it without mpirun");
-    if (output.empty())
-      throw InputError("--positions needs --output RESULTS.csv");
-    if (std::filesystem::is_directory(output))
-      throw InputError("--output '" + output + "' is a folder; --positions writes a table");
-    std::error_code none;
-    if (std::filesystem::equivalent(positions, output, none))
-      throw InputError("--positions reads '" + positions + "'; --output must be another file");
+    check_answer_table("--positions", positions, output, comm);
     Progress                       progress(true);
     std::string                    not_read;
     const std::vector<PositionRow> rows = read_positions(positions, not_read);
@@ -237,18 +227,11 @@ namespace tread
     for (std::thread &thread : threads)
       thread.join();
 
-    const std::string part = output + ".part";
-    std::ofstream     file(part);
-    file << head;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      file << rows_of(k + 1, rows[k], answers[k]);
-    file.close();
-    if (!file)
-      {
-        std::filesystem::remove(part, none);
-        throw std::runtime_error("cannot write '" + output + "': is the disk full?");
-      }
-    std::filesystem::rename(part, output);
+    write_answer_table(output, [&](std::ostream &file) {
+      file << head;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        file << rows_of(k + 1, rows[k], answers[k]);
+    });
     progress.say(
       format("%zu positions in %.2f s. Results in %s", rows.size(), progress.seconds(), output.c_str()));
     const auto is_missing = [&](const auto &answer) {

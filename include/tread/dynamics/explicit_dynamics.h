@@ -319,12 +319,12 @@ namespace tread
                          const Loop  &loop) const;
 
     /// The same for a run that has loads. @param quanta what they are rounded to
-    template <typename Quanta, typename Loop>
-    void with_rounded_loads(const Quanta quanta,
-                            const Run   &run,
-                            const double factor,
-                            BodyLoads   &sums,
-                            const Loop  &loop) const;
+    template <typename Rounding, typename Loop>
+    void with_rounded_loads(const Rounding quanta,
+                            const Run     &run,
+                            const double   factor,
+                            BodyLoads     &sums,
+                            const Loop    &loop) const;
 
     bool has_body_loads(const Run &run) const
     {

@@ -67,15 +67,15 @@ namespace tread
   public:
     virtual ~Part() = default;
 
-    /// Nodes of this rank that have to move in every step.
-    virtual std::vector<unsigned int> nodes_of_every_step() const
-    {
-      return {};
-    }
     /// Nodes of this rank whose motion the part prescribes.
     virtual std::vector<unsigned int> carried_nodes() const
     {
       return {};
+    }
+    /// Nodes of this rank that have to move in every step.
+    virtual std::vector<unsigned int> nodes_of_every_step() const
+    {
+      return carried_nodes();
     }
 
     // A step, in this order.
@@ -161,7 +161,7 @@ namespace tread
     virtual void add_static_loads(NodalField &) const
     {
     }
-    /// Take the present positions as a state of rest.
+    /// Take the present positions as a state of rest. @pre state.damping_time is 0: they are x_damped
     virtual void set_at_rest(const State &)
     {
     }
@@ -213,12 +213,12 @@ namespace tread
     }
     void advance(Step &step, const double *numbers) final
     {
-      advance(step, from(numbers));
+      advance_with(step, from(numbers));
     }
 
   protected:
-    virtual Sums sums_of_rank(const State &state) const        = 0;
-    virtual void advance(Step &step, const Sums &of_all_ranks) = 0;
+    virtual Sums sums_of_rank(const State &state) const             = 0;
+    virtual void advance_with(Step &step, const Sums &of_all_ranks) = 0;
 
     static Sums from(const double *numbers)
     {

@@ -38,7 +38,7 @@ namespace tread
     void set_damping_time(const double beta); ///< positions stay
 
     /// Numbers on nodes that somebody adds to the model, by a name with its unit (temperature_K): they are
-    /// kept in checkpoints and drawn in pictures of the volume and of the surfaces.
+    /// kept in checkpoints.
     std::map<std::string, std::vector<double>> fields;
 
     NodalField     v;                 ///< m/s, half a step back

@@ -49,9 +49,6 @@ namespace tread
     std::vector<ProfileCurve> sections(double along) const override;
     std::string               body(double along, double y) const override;
 
-  protected:
-    double small_step() const override;
-
   private:
     /// Samples of a part, or of whole slices, over consecutive slices, with their splines along x.
     struct Strip

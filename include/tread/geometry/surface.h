@@ -48,10 +48,6 @@ namespace tread
 
     /// The body to which a place belongs, such as "nose" or "wing"; empty where all is one.
     virtual std::string body(double along, double y) const;
-
-  protected:
-    /// A step along the way over which the derivative is taken, in its unit.
-    virtual double small_step() const = 0;
   };
 
   /// Of a rail that has the same profile at every x.
@@ -64,9 +60,6 @@ namespace tread
     Extent                    extent() const override;
     bool                      is_constant() const override;
     std::vector<ProfileCurve> sections(double along) const override;
-
-  protected:
-    double small_step() const override;
 
   private:
     ProfileCurve profile;
@@ -108,9 +101,6 @@ namespace tread
     {
       return more ? more->at(angle, y) : WheelDeviation::Value{0., 0., 0.};
     }
-
-  protected:
-    double small_step() const override;
 
   private:
     ProfileCurve                          round;

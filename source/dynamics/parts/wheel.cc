@@ -78,7 +78,7 @@ namespace tread
   }
 
 
-  void WheelOnHub::advance(Step &step, const SumsOfWheel &sums)
+  void WheelOnHub::advance_with(Step &step, const SumsOfWheel &sums)
   {
     const double  time_step = step.state.time_step;
     const Vector3 before = hub.velocity(), axle = hub.axle();

@@ -21,10 +21,6 @@ namespace tread
     /// @param body whose support nodes it carries
     RailOnBase(const PartOf &part_of, RailBase &base, const unsigned int body);
 
-    std::vector<unsigned int> nodes_of_every_step() const override
-    {
-      return nodes;
-    }
     std::vector<unsigned int> carried_nodes() const override
     {
       return nodes;
@@ -49,7 +45,7 @@ namespace tread
 
   protected:
     SumsOfRailBase sums_of_rank(const State &state) const override;
-    void           advance(Step &step, const SumsOfRailBase &sums) override
+    void           advance_with(Step &step, const SumsOfRailBase &sums) override
     {
       base.advance(sums.force, step.state.time_step);
     }

@@ -66,7 +66,7 @@ namespace tread
     }
     void set_at_rest(const State &state) override
     {
-      supports.set_at_rest(state.positions().data());
+      supports.set_at_rest(state.x_damped.data());
     }
     std::vector<double> bend(State &state, const std::vector<MovingLoad> &loads) const override;
     std::vector<double> follow(State                                   &state,

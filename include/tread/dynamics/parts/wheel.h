@@ -28,10 +28,6 @@ namespace tread
                const unsigned int body,
                const double       nominal_angular_velocity);
 
-    std::vector<unsigned int> nodes_of_every_step() const override
-    {
-      return nodes;
-    }
     std::vector<unsigned int> carried_nodes() const override
     {
       return nodes;
@@ -105,7 +101,7 @@ namespace tread
 
   protected:
     SumsOfWheel sums_of_rank(const State &state) const override;
-    void        advance(Step &step, const SumsOfWheel &sums) override;
+    void        advance_with(Step &step, const SumsOfWheel &sums) override;
 
   private:
     double compensation() const
