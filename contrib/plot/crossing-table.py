@@ -16,14 +16,13 @@ The program does the work (tread --positions); elements of 0.2 mm are those of t
 from __future__ import annotations
 
 import argparse
-import csv
 import os
-import tempfile
 from collections.abc import Iterable, Mapping
 
-from tread import Error
+from tread import Error, positions
 from tread.commands import command_parser, run_command
-from tread.runs import PROGRAM, ROOT, execute, must_end_well
+from tread.positions import number, rows_of
+from tread.runs import PROGRAM, ROOT
 
 RAIL = os.path.join(ROOT, "contrib", "contact-data", "crossing_uk56E1.csv")
 GIVEN = os.path.join(ROOT, "contrib", "contact-data", "crossing_given.csv")
@@ -31,26 +30,7 @@ COLUMNS = ("s_mm", "y_ws_mm", "x_mm", "y_mm", "normal_force_N", "max_pressure_Pa
 SHEAR_MODULUS, POISSON = 82e9, 0.28  # of the figures compared with
 
 
-def rows_of(path: str) -> list[dict[str, str]]:
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as stream:
-            return list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    except UnicodeDecodeError as error:
-        raise Error(f"{path}: {error}") from None
-
-
-def number(row: Mapping[str, str], name: str, where: str) -> float | None:
-    """The entry of a column; None where there is none. @raises Error"""
-    text = (row.get(name) or "").strip()
-    if not text:
-        return None
-    try:
-        return float(text)
-    except ValueError:
-        raise Error(f"{where}: {name} is '{text}', which is no number") from None
-
-
-def solve(positions: Iterable[Mapping[str, str]], where: str, options: argparse.Namespace) -> list[list[dict[str, str]]]:
+def solve(given: Iterable[Mapping[str, str]], where: str, options: argparse.Namespace) -> list[list[dict[str, str]]]:
     """The patches of each position. @raises Error"""
     common = {"friction": options.friction, "angular_velocity_rad_per_s": options.angular_velocity, "speed_m_per_s": options.speed,
               "young_Pa": 2 * SHEAR_MODULUS * (1 + POISSON), "poisson": POISSON, "radius_mm": options.radius, "rail_y_mm": options.rail_y,
@@ -58,7 +38,7 @@ def solve(positions: Iterable[Mapping[str, str]], where: str, options: argparse.
               "wheel": os.path.abspath(options.wheel) if os.path.exists(options.wheel) else options.wheel}
     groups: dict[str, list[tuple[int, dict]]] = {"load_N": [], "height_mm": []}
     n_positions = 0
-    for place, row in enumerate(positions):
+    for place, row in enumerate(given):
         n_positions += 1
         at = f"{where}, row {place + 1}"
         load, depth = number(row, "load_N", at), number(row, "z_ws_mm", at)
@@ -70,31 +50,10 @@ def solve(positions: Iterable[Mapping[str, str]], where: str, options: argparse.
         groups[key].append((place, {**own, key: value, **common}))
     answers: list[list[dict[str, str]]] = [[] for _ in range(n_positions)]
     for rows in groups.values():
-        if not rows:
-            continue
-        with tempfile.TemporaryDirectory() as folder:
-            table, output = os.path.join(folder, "positions.csv"), os.path.join(folder, "patches.csv")
-            with open(table, "w", encoding="utf-8", newline="") as stream:
-                writer = csv.DictWriter(stream, list(rows[0][1]))
-                writer.writeheader()
-                writer.writerows(row for _, row in rows)
-            done = execute(["--positions", table, "--output", output], program=options.program)
-            if not os.path.exists(output):
-                must_end_well(done)
-                raise Error("the program wrote no table")
-            if done.returncode:  # What was solved is still of use; rows with nan tell which was not.
-                print("warning: " + (done.stderr.strip().splitlines() or ["some positions were not solved"])[-1])
-            for row in rows_of(output):
-                answers[rows[int(row["row"]) - 1][0]].append(row)
+        if rows:
+            for (place, _), patches in zip(rows, positions.solve([row for _, row in rows], options.program)):
+                answers[place] = patches
     return answers
-
-
-def write(path: str, answers: Iterable[Iterable[Mapping[str, str]]]) -> None:
-    with open(path, "w", encoding="utf-8", newline="") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, extrasaction="ignore", lineterminator="\n")
-        writer.writeheader()
-        for patches in answers:
-            writer.writerows(patches)
 
 
 def compare(options: argparse.Namespace) -> None:
@@ -131,7 +90,7 @@ def compare(options: argparse.Namespace) -> None:
         draw(options.picture, options.rail, of, answers)
 
 
-def draw(path: str, rail: str, positions: Mapping[tuple[str, str], list[dict[str, str]]], answers: list[list[dict[str, str]]]) -> None:
+def draw(path: str, rail: str, given: Mapping[tuple[str, str], list[dict[str, str]]], answers: list[list[dict[str, str]]]) -> None:
     from tread.plots import BLUE, GREEN, ORANGE, RED, save, subplots, use_style
 
     use_style()
@@ -145,7 +104,7 @@ def draw(path: str, rail: str, positions: Mapping[tuple[str, str], list[dict[str
             y = [float(point["y_mm"]) for point in points if point["body"] == body and float(point["z_mm"]) > -12.]
             if y:
                 above.plot(len(y) * [float(x)], y, color=colour, linewidth=0.8)
-    for (s, _), patches in zip(positions, answers):
+    for (s, _), patches in zip(given, answers):
         for patch in patches:
             size = 0.25 * float(patch["normal_force_N"])**0.5
             above.plot(float(s) + float(patch["x_mm"]), float(patch["y_mm"]) - 750., "o", color=RED, markersize=size, alpha=0.3)
@@ -153,9 +112,9 @@ def draw(path: str, rail: str, positions: Mapping[tuple[str, str], list[dict[str
               "patches, area as the force")
     for body, colour in (("nose", ORANGE), ("wing", RED)):
         shifts = [(float(y), sum(float(patch["normal_force_N"]) for patch in patches if patch["part"] == body))
-                  for (s, y), patches in zip(positions, answers) if s == "239"]
+                  for (s, y), patches in zip(given, answers) if s == "239"]
         beside.plot(*zip(*shifts), "-", color=colour, label=f"{body}, tread")
-        printed = [(float(row["y_ws_mm"]), float(row["normal_force_N"])) for (s, _), rows in positions.items() if s == "239" for row in rows
+        printed = [(float(row["y_ws_mm"]), float(row["normal_force_N"])) for (s, _), rows in given.items() if s == "239" for row in rows
                    if (float(row["y_mm"]) > 755) == (body == "wing")]
         beside.plot(*zip(*printed), "o", color=colour, fillstyle="none", label=f"{body}, CONTACT")
     beside.set(xlabel="lateral shift of the wheelset at 239 mm, mm", ylabel="normal force, N", title="The load goes over from the wing to the nose")
@@ -182,7 +141,7 @@ def main() -> None:
         raise Error("--positions and --output belong together")
     if arguments.positions:
         answers = solve(rows_of(arguments.positions), arguments.positions, arguments)
-        write(arguments.output, answers)
+        positions.write(arguments.output, COLUMNS, [row for patches in answers for row in patches])
         print(f"{len(answers)} positions, {sum(map(len, answers))} rows. Results in {arguments.output}")
     else:
         compare(arguments)

@@ -4,6 +4,8 @@
 #include <tread/geometry/rail_profile.h>
 #include <tread/geometry/wheel_tread.h>
 
+#include "natural_spline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -17,27 +19,6 @@ namespace tread
     /// Distance of the points that stand for profiles given by formulas, m. Their splines then lie within
     /// 1e-9 m of them, apart from 5e-8 m beside a step of the curvature.
     constexpr double spacing = 0.1e-3;
-
-    /// Second derivatives at the knots of the natural cubic spline through one coordinate.
-    void natural_spline(const std::vector<double> &s,
-                        const std::vector<Point>  &points,
-                        const unsigned int         d,
-                        std::vector<Point>        &bend)
-    {
-      const std::size_t   n = s.size();
-      std::vector<double> upper(n, 0.);
-      for (std::size_t i = 1; i + 1 < n; ++i)
-        {
-          const double before = s[i] - s[i - 1], behind = s[i + 1] - s[i];
-          const double right =
-            6. * ((points[i + 1][d] - points[i][d]) / behind - (points[i][d] - points[i - 1][d]) / before);
-          const double pivot = 2. * (before + behind) - before * upper[i - 1];
-          upper[i]           = behind / pivot;
-          bend[i][d]         = (right - before * bend[i - 1][d]) / pivot;
-        }
-      for (std::size_t i = n - 1; i-- > 1;)
-        bend[i][d] -= upper[i] * bend[i + 1][d];
-    }
 
     std::vector<Point> s1002_points(const double begin, const double end)
     {
@@ -102,8 +83,15 @@ namespace tread
     if (points.size() < 4)
       throw std::runtime_error("has less than four points");
     bend.resize(points.size());
+    std::vector<double> values(points.size());
     for (const unsigned int d : {0, 1})
-      natural_spline(s, points, d, bend);
+      {
+        for (std::size_t i = 0; i < points.size(); ++i)
+          values[i] = points[i][d];
+        const std::vector<double> of_coordinate = natural_spline(s, values);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          bend[i][d] = of_coordinate[i];
+      }
   }
 
 
@@ -124,14 +112,13 @@ namespace tread
     const std::size_t i =
       std::clamp<std::ptrdiff_t>(std::upper_bound(s.begin(), s.end(), place) - s.begin() - 1, 0,
                                  static_cast<std::ptrdiff_t>(s.size()) - 2);
-    const double h = s[i + 1] - s[i], b = (place - s[i]) / h, a = 1. - b;
-    double       value[2], derivative[2];
+    const double      h = s[i + 1] - s[i];
+    const SplinePiece piece(h, (place - s[i]) / h);
+    double            value[2], derivative[2];
     for (const unsigned int d : {0, 1})
       {
-        value[d] = a * points[i][d] + b * points[i + 1][d] +
-                   ((a * a * a - a) * bend[i][d] + (b * b * b - b) * bend[i + 1][d]) * h * h / 6.;
-        derivative[d] = (points[i + 1][d] - points[i][d]) / h +
-                        ((1. - 3. * a * a) * bend[i][d] + (3. * b * b - 1.) * bend[i + 1][d]) * h / 6.;
+        value[d]      = piece.value(points[i][d], points[i + 1][d], bend[i][d], bend[i + 1][d]);
+        derivative[d] = piece.slope(points[i][d], points[i + 1][d], bend[i][d], bend[i + 1][d]);
       }
     return {value[0], value[1], derivative[0], derivative[1]};
   }

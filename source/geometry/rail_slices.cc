@@ -3,6 +3,8 @@
 #include <tread/base/input_error.h>
 #include <tread/geometry/rail_slices.h>
 
+#include "natural_spline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,23 +42,16 @@ namespace tread
     {
       const std::size_t               n = x.size(), samples = places.front().size();
       std::vector<std::vector<Point>> bend(n, std::vector<Point>(samples));
-      std::vector<double>             upper(n, 0.);
-      for (std::size_t i = 1; i + 1 < n; ++i)
-        {
-          const double before = x[i] - x[i - 1], behind = x[i + 1] - x[i];
-          const double pivot = 2. * (before + behind) - before * upper[i - 1];
-          upper[i]           = behind / pivot;
-          for (std::size_t k = 0; k < samples; ++k)
-            for (unsigned int d = 0; d < 2; ++d)
-              bend[i][k][d] = (6. * ((places[i + 1][k][d] - places[i][k][d]) / behind -
-                                     (places[i][k][d] - places[i - 1][k][d]) / before) -
-                               before * bend[i - 1][k][d]) /
-                              pivot;
-        }
-      for (std::size_t i = n - 1; i-- > 1;)
-        for (std::size_t k = 0; k < samples; ++k)
-          for (unsigned int d = 0; d < 2; ++d)
-            bend[i][k][d] -= upper[i] * bend[i + 1][k][d];
+      std::vector<double>             values(n);
+      for (std::size_t k = 0; k < samples; ++k)
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            for (std::size_t i = 0; i < n; ++i)
+              values[i] = places[i][k][d];
+            const std::vector<double> of_sample = natural_spline(x, values);
+            for (std::size_t i = 0; i < n; ++i)
+              bend[i][k][d] = of_sample[i];
+          }
       return bend;
     }
   } // namespace

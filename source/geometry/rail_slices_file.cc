@@ -176,8 +176,7 @@ namespace tread
     std::string known;
     for (const Format &format : formats())
       {
-        if (file.size() > format.ending.size() &&
-            file.compare(file.size() - format.ending.size(), format.ending.size(), format.ending) == 0)
+        if (file.ends_with(format.ending))
           {
             RailSlices rail = format.read(file);
             set_upright(rail);
@@ -186,5 +185,21 @@ namespace tread
         known += (known.empty() ? "" : " or ") + format.ending;
       }
     throw InputError("'" + file + "': slices of a rail must be in a file that ends in " + known);
+  }
+
+
+  bool has_rail_slices(const std::string &file)
+  {
+    if (!file.ends_with(".csv"))
+      return file.ends_with(".slcs");
+    try
+      {
+        const std::vector<NumberedLine> lines = csv_lines(file);
+        return !lines.empty() && lines.front().text.find("x_mm") != std::string::npos;
+      }
+    catch (const TextError &error)
+      {
+        throw InputError("cannot read '" + file + "': " + error.what());
+      }
   }
 } // namespace tread

@@ -25,7 +25,8 @@ namespace tread
     /// A row of the table. Lengths in m, angles in rad.
     struct PositionRow
     {
-      std::string rail, wheel = "S1002";
+      std::string rail, wheel = "S1002", deviation; ///< of the wheel from round; empty: none
+      double      smoothing = 0.;                   ///< of a scan of it
       double      s = 0., shift = 0., yaw = 0., roll = 0., pitch = 0.;
       double      load = 0., height = 0.; ///< N; m over the radius, where no load is given
       double      radius = 0.46, back_distance = 1.36, back_position = -70e-3;
@@ -36,9 +37,9 @@ namespace tread
 
       std::string surfaces() const
       {
-        return format("%.17g %.17g %.17g %.17g %.17g ", radius, back_distance, back_position, rail_y,
-                      rail_z) +
-               rail + '\n' + wheel;
+        return format("%.17g %.17g %.17g %.17g %.17g %.17g ", radius, back_distance, back_position, rail_y,
+                      rail_z, smoothing) +
+               rail + '\n' + wheel + '\n' + deviation;
       }
     };
 
@@ -66,6 +67,7 @@ namespace tread
         {"flange_back_mm", &PositionRow::back_position, mm, false, -200., 0.},
         {"rail_y_mm", &PositionRow::rail_y, mm, false, -3000., 3000.},
         {"rail_z_mm", &PositionRow::rail_z, mm, false, -1000., 1000.},
+        {"wheel_deviation_smoothing_mm", &PositionRow::smoothing, mm, false, 0., 100.},
         {"friction", &PositionRow::friction, 1., false, 0., 10.},
         {"speed_m_per_s", &PositionRow::speed, 1., false, tiny, 1000.},
         {"angular_velocity_rad_per_s", &PositionRow::turning, 1., false, 0., 1e6},
@@ -77,20 +79,24 @@ namespace tread
       return list;
     }
 
+    bool is_word(const std::string &name)
+    {
+      return name == "rail" || name == "wheel" || name == "wheel_deviation";
+    }
+
     std::vector<PositionRow> read_positions(const std::string &file, std::string &not_read)
     {
       const CsvTable table(
         file,
         [&](const std::string &name) {
-          const bool known = name == "rail" || name == "wheel" ||
-                             std::any_of(number_columns().begin(), number_columns().end(),
+          const bool known =
+            is_word(name) || std::any_of(number_columns().begin(), number_columns().end(),
                                          [&](const NumberColumn &c) { return c.name == name; });
           if (!known)
             not_read += (not_read.empty() ? "" : ", ") + name;
           return known;
         },
-        "--positions: cannot read '" + file + "'",
-        [](const std::string &name) { return name == "rail" || name == "wheel"; });
+        "--positions: cannot read '" + file + "'", is_word);
       if (table.n_rows() == 0)
         throw InputError("'" + file + "' has no rows");
       if (table.has("load_N") == table.has("height_mm"))
@@ -108,17 +114,35 @@ namespace tread
               rows[row].*c.value = c.unit * value;
             }
       const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+      // Words that are the names of files beside the table are these files.
+      const auto beside = [&](const std::string &name, const std::size_t row) {
+        const std::string word = table.words(name)[row];
+        return std::filesystem::is_regular_file(folder / word) ? (folder / word).string() : word;
+      };
       for (std::size_t row = 0; row < rows.size(); ++row)
         {
           rows[row].rail = (folder / table.words("rail")[row]).string();
           if (table.has("wheel"))
-            {
-              rows[row].wheel = table.words("wheel")[row];
-              if (const auto beside = folder / rows[row].wheel; std::filesystem::is_regular_file(beside))
-                rows[row].wheel = beside.string();
-            }
+            rows[row].wheel = beside("wheel", row);
+          if (table.has("wheel_deviation"))
+            rows[row].deviation = beside("wheel_deviation", row);
         }
       return rows;
+    }
+
+    /// Slices, or the same profile at every x.
+    std::shared_ptr<const Surface> rail_surface(const std::string &file)
+    {
+      if (has_rail_slices(file))
+        return std::make_shared<SlicedRail>(read_rail_slices(file));
+      try
+        {
+          return std::make_shared<PrismSurface>(measured_rail_curve(file));
+        }
+      catch (const std::runtime_error &error)
+        {
+          throw InputError(error.what());
+        }
     }
 
     WheelOnRail surfaces_of(const PositionRow &row)
@@ -136,8 +160,12 @@ namespace tread
             throw InputError("wheel '" + row.wheel + "': " + error.what());
           }
       };
-      return WheelOnRail(WheelSurface(wheel()), std::make_shared<SlicedRail>(read_rail_slices(row.rail)),
-                         row.radius, gauge, WheelOnRail::RailOrigin{row.rail_y, row.rail_z});
+      const ProfileCurve                    round = wheel();
+      std::shared_ptr<const WheelDeviation> deviation;
+      if (!row.deviation.empty())
+        deviation = wheel_deviation(row.deviation, round, row.radius, row.smoothing);
+      return WheelOnRail(WheelSurface(round, deviation), rail_surface(row.rail), row.radius, gauge,
+                         WheelOnRail::RailOrigin{row.rail_y, row.rail_z});
     }
 
     WheelContact solve(const WheelOnRail &surfaces, const PositionRow &row)
@@ -199,8 +227,8 @@ namespace tread
     for (const PositionRow &row : rows)
       if (surfaces.find(row.surfaces()) == surfaces.end())
         {
-          surfaces.emplace(row.surfaces(), surfaces_of(row));
-          progress.say(surfaces.at(row.surfaces()).rail_surface().in_words());
+          const WheelOnRail &here = surfaces.emplace(row.surfaces(), surfaces_of(row)).first->second;
+          progress.say(here.rail_surface().in_words() + "; " + here.wheel_surface().in_words());
         }
 
     std::vector<std::optional<WheelContact>> answers(rows.size());

@@ -7,6 +7,7 @@
 #include <tread/geometry/height_map.h>
 #include <tread/geometry/measured_line.h>
 #include <tread/geometry/rail_slices.h>
+#include <tread/geometry/wheel_deviation.h>
 #include <tread/scene/scene.h>
 #include <tread/scene/wheelset_motion.h>
 #include <tread/tools/batch_files.h>
@@ -110,6 +111,18 @@ namespace tread::fuzz
             if (const auto height = rail.height(along, y))
               require_finite(height->z);
             rail.body(along, y);
+          }
+    }
+
+    void read_deviation(const std::string &file)
+    {
+      constexpr double       radius = 0.46, smoothing = 2e-3;
+      const ScannedDeviation scan(read_deviation_lines(file, wheel_curve("cylinder")), radius, smoothing);
+      for (const double angle : {-4., -0.02, 0., 0.5, 3.})
+        for (const double y : {-80e-3, -20e-3, 0., 7e-3})
+          {
+            const WheelDeviation::Value value = scan.at(angle, y);
+            require_finite(value.dz + value.by_angle + value.by_y);
           }
     }
 
@@ -268,19 +281,14 @@ namespace tread::fuzz
 
   const std::vector<Reader> &readers()
   {
-    static const std::vector<Reader> list{{"parameters", ".prm", read_parameters},
-                                          {"scene", ".prm", read_scene},
-                                          {"settings", ".txt", read_settings},
-                                          {"simpack", ".prr", read_profile},
-                                          {"miniprof", ".ban", read_profile},
-                                          {"two-columns", ".txt", read_profile},
-                                          {"defect", ".txt", read_defect},
-                                          {"map", ".csv", read_map},
-                                          {"slices", ".csv", read_slices},
-                                          {"guidance", ".csv", read_guidance},
-                                          {"supports", ".csv", read_supports},
-                                          {"batch", ".csv", read_batch},
-                                          {"archive", "", read_archive}};
+    static const std::vector<Reader> list{
+      {"parameters", ".prm", read_parameters}, {"scene", ".prm", read_scene},
+      {"settings", ".txt", read_settings},     {"simpack", ".prr", read_profile},
+      {"miniprof", ".ban", read_profile},      {"two-columns", ".txt", read_profile},
+      {"defect", ".txt", read_defect},         {"map", ".csv", read_map},
+      {"slices", ".csv", read_slices},         {"deviation", ".csv", read_deviation},
+      {"guidance", ".csv", read_guidance},     {"supports", ".csv", read_supports},
+      {"batch", ".csv", read_batch},           {"archive", "", read_archive}};
     return list;
   }
 

@@ -33,6 +33,10 @@ namespace tread
   /// @throws InputError, one line with file and place, for what is not understood
   RailSlices read_rail_slices(const std::string &file);
 
+  /// Whether a file has slices, and not one profile: a list of CONTACT, or a table with a column x_mm.
+  /// @throws InputError if it cannot be read
+  bool has_rail_slices(const std::string &file);
+
   /// A rail through slices. Each slice is a cubic spline over the length of its chords. Between two slices
   /// that are cut, each part that both have is sampled at equal shares of its length, between others the
   /// whole slice; along x cubic splines go through the samples of equal share, natural at the ends.

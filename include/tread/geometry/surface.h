@@ -3,6 +3,7 @@
 #define tread_geometry_surface_h
 
 #include <tread/geometry/profile_curve.h>
+#include <tread/geometry/wheel_deviation.h>
 
 #include <memory>
 #include <optional>
@@ -63,22 +64,6 @@ namespace tread
 
   private:
     ProfileCurve profile;
-  };
-
-  /// What a wheel has beyond its body of revolution: dz over the angle about the axle, 0 at the bottom of an
-  /// unturned wheel and growing towards x, and over y of the profile; positive dz is more radius.
-  class WheelDeviation
-  {
-  public:
-    virtual ~WheelDeviation() = default;
-
-    virtual std::string in_words() const = 0;
-
-    struct Value
-    {
-      double dz, by_angle, by_y; ///< m, m per rad, -
-    };
-    virtual Value at(double angle, double y) const = 0;
   };
 
   /// Of a wheel: a profile that is turned about the axle, with a deviation from it or without.
