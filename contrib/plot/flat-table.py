@@ -5,8 +5,8 @@
     flat-table.py --pitches IN.csv --output OUT.csv [--flat scanned] ...
     flat-table.py [--picture wheel-flat.png]
 
-IN.csv has a row for each turn: pitch_deg, by which the wheel is turned forward about its axle from where the angle 0 of its flat is at the
-bottom towards x, and load_N. OUT.csv has a row for each: pitch_deg, axle_height_mm over the nominal radius, positive up, normal_force_N of all patches
+IN.csv has a row for each turn: pitch_deg, by which the wheel is turned about its axle, negative where it rolls forward, from where the angle 0
+of its deviation is at the bottom, and load_N. OUT.csv has a row for each: pitch_deg, axle_height_mm over the nominal radius, positive up, normal_force_N of all patches
 and max_pressure_Pa. Without --pitches: the tables of doc/wheel-flat.md, given turns beside CONTACT's figures, and the picture.
 
 Two flats are there: "scanned", a worn S1002 of 490 mm with a measured flat on a rail of arcs, and "rounded", a cylinder of 450 mm with a flat of

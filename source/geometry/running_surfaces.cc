@@ -13,6 +13,29 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// Height of the axle over the radius where a wheel that is not round touches, m.
+    double lift_where_not_round(const RunningSurfaces &surfaces, const double center_x)
+    {
+      // A wheel is up to 20 mm from round; 0.14 m beside the axle it is as much above the rail.
+      constexpr int along = 700, across = 300;
+      double        lift = -1e300;
+      for (int j = -along; j <= along; ++j)
+        for (int i = -across; i <= across; ++i)
+          {
+            const double angle = 2e-4 * j / surfaces.radius, y = i / double(across) * surfaces.half_width;
+            const double r = surfaces.radius + (surfaces.tread_offset ? surfaces.tread_offset(y) : 0.) +
+                             surfaces.deviation(angle, y);
+            const double rail = surfaces.rail_top(y) +
+                                (surfaces.defect ? surfaces.defect(center_x + r * std::sin(angle), y) : 0.);
+            lift = std::max(lift, rail + r * std::cos(angle) - surfaces.radius);
+          }
+      return lift;
+    }
+  } // namespace
+
+
   FirstContact first_contact(const RunningSurfaces &surfaces, const double center_x)
   {
     // Steps of 10 um miss the top of a crown of 13 mm radius by 1e-9 m.
@@ -38,7 +61,9 @@ namespace tread
         }
     contact.lift = -least;
 
-    if (surfaces.defect)
+    if (surfaces.deviation)
+      contact.lift = lift_where_not_round(surfaces, center_x);
+    else if (surfaces.defect)
       {
         // Along the path the wheel rises by 1 mm in 30 mm.
         double highest = -1e300;

@@ -413,10 +413,10 @@ namespace tread
   } // namespace
 
 
-  std::shared_ptr<const WheelDeviation> wheel_deviation(const std::string  &text,
-                                                        const ProfileCurve &profile,
-                                                        const double        radius,
-                                                        const double        smoothing)
+  std::shared_ptr<const WheelDeviation> wheel_deviation(const std::string                   &text,
+                                                        const std::function<ProfileCurve()> &profile,
+                                                        const double                         radius,
+                                                        const double                         smoothing)
   {
     if (text.starts_with("flat:"))
       return flat(text, radius);

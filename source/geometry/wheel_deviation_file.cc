@@ -190,10 +190,10 @@ namespace tread
   } // namespace
 
 
-  DeviationLines read_deviation_lines(const std::string &file, const ProfileCurve &profile)
+  DeviationLines read_deviation_lines(const std::string &file, const std::function<ProfileCurve()> &profile)
   {
     if (file.ends_with(".slcw"))
-      return read_slices(file, profile);
+      return read_slices(file, profile());
     if (file.ends_with(".csv"))
       return read_table(file);
     throw InputError("'" + file +

@@ -80,21 +80,22 @@ namespace tread
       };
     }
 
-    /// Moves the points of the rim outwards by the tread's offset, fading to zero at the inner radius; null
-    /// without an offset.
-    std::function<dealii::Point<3>(const dealii::Point<3> &)> shape_tread(
-      const WheelAxis                     &axis,
-      const double                         radius,
-      const double                         inner_radius,
-      const std::function<double(double)> &offset)
+    /// Moves the points of the rim outwards by the tread's offset and what it is not round by, fading to zero
+    /// at the inner radius; null where there is neither.
+    template <typename Wheel>
+    std::function<dealii::Point<3>(const dealii::Point<3> &)> shape_tread(const WheelAxis &axis,
+                                                                          const Wheel     &wheel,
+                                                                          const double     inner_radius)
     {
-      if (!offset)
+      if (!wheel.tread_offset && !wheel.deviation)
         return nullptr;
-      return [axis, radius, inner_radius, offset](const dealii::Point<3> &p) {
+      return [axis, radius = wheel.radius, inner_radius, offset = wheel.tread_offset,
+              deviation = wheel.deviation](const dealii::Point<3> &p) {
         const double r = axis.radius(p);
         if (r <= inner_radius)
           return p;
-        const double           scale = offset(p[1]) * (r - inner_radius) / ((radius - inner_radius) * r);
+        const double more  = (offset ? offset(p[1]) : 0.) + (deviation ? deviation(axis.angle(p), p[1]) : 0.);
+        const double scale = more * (r - inner_radius) / ((radius - inner_radius) * r);
         const dealii::Point<3> foot(axis.center_x, p[1], axis.height);
         return foot + (1. + scale) * (p - foot);
       };
@@ -234,7 +235,7 @@ namespace tread
     body.name = "wheel sector";
     revolve(section, axis, angles, false, body);
     body.manifold         = axis.manifold();
-    body.to_space         = shape_tread(axis, sector.radius, inner_radius, sector.tread_offset);
+    body.to_space         = shape_tread(axis, sector, inner_radius);
     body.wanted_cell_size = cell_size_around(axis, sector.radius, zone);
     if (zone.path_stretch > 1.)
       body.path_stretch = stretch_around(axis, sector.radius, path);
@@ -371,7 +372,7 @@ namespace tread
     body.name = "full wheel";
     revolve(section, axis, angles, true, body);
     body.manifold         = axis.manifold();
-    body.to_space         = shape_tread(axis, wheel.radius, wheel.rim_inner_radius, wheel.tread_offset);
+    body.to_space         = shape_tread(axis, wheel, wheel.rim_inner_radius);
     body.wanted_cell_size = cell_size_around(axis, wheel.radius, zone);
     if (zone.path_stretch > 1.)
       body.path_stretch = stretch_around(axis, wheel.radius, path);

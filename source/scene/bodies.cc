@@ -126,6 +126,7 @@ namespace tread
           sector.center_x           = scene.path_begin(number);
           sector.lift               = scene.first_contact().lift;
           sector.tread_offset       = scene.surfaces().tread_offset;
+          sector.deviation          = scene.surfaces().deviation;
           sector.radius             = scene.wheel.radius;
           sector.thickness          = scene.wheel.sector_thickness;
           sector.width              = scene.wheel.sector_width;
@@ -147,6 +148,7 @@ namespace tread
       wheel.center_x           = scene.path_begin(number);
       wheel.lift               = scene.first_contact().lift;
       wheel.tread_offset       = scene.surfaces().tread_offset;
+      wheel.deviation          = scene.surfaces().deviation;
       wheel.radius             = scene.wheel.radius;
       wheel.rim_inner_radius   = scene.wheel.rim_inner_radius;
       wheel.rim_width          = scene.wheel.rim_width;

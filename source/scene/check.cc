@@ -459,6 +459,8 @@ namespace tread
     };
     if (shapes->defect)
       needs_inertia("'Defect/Shape' " + defect.shape);
+    if (!is_round())
+      needs_inertia("'Wheel/Deviation'");
     if (track.foundation != Foundation::rigid)
       needs_inertia("'Track/Foundation' " + name_of(track.foundation));
     const double largest_ratio = element_named(solid.element).largest_poisson_ratio;
@@ -556,7 +558,7 @@ namespace tread
   {
     // A smooth twin has the length of the defect, and the inertia of the run that it is for.
     const bool has_defect = shapes->defect || defect.length > 0.;
-    return general.quasi_static && !has_defect && track.foundation == Foundation::rigid;
+    return general.quasi_static && !has_defect && is_round() && track.foundation == Foundation::rigid;
   }
 
 

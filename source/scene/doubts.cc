@@ -180,6 +180,10 @@ namespace tread
         format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
                "(above %g m/s): are its shifts in mm and its times in s?",
                wheelset_motion->largest_lateral_speed(), largest_lateral_speed));
+    if (!is_round() && largest_deviation() < least_height)
+      list.push_back(
+        "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
+        "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");
     if (has_defect() && !defect.profile_file.empty() && defect.depth == 0. &&
         made_defect()->depth < least_height)
       list.push_back(

@@ -96,12 +96,14 @@ namespace tread
   }
 
 
-  FilesCompared compare_files(const std::vector<FileRead> &before,
-                              const std::vector<FileRead> &now,
-                              const std::string           &but)
+  FilesCompared compare_files(const std::vector<FileRead>    &before,
+                              const std::vector<FileRead>    &now,
+                              const std::vector<std::string> &but)
   {
     const auto counts = [&](const FileRead &file) {
-      return !file.is_scene() && (but.empty() || file.parameter.compare(0, but.size(), but) != 0);
+      return !file.is_scene() && std::none_of(but.begin(), but.end(), [&](const std::string &begin) {
+        return file.parameter.starts_with(begin);
+      });
     };
     const auto find = [](const std::vector<FileRead> &files, const std::string &parameter) {
       return std::find_if(files.begin(), files.end(),

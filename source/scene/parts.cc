@@ -150,7 +150,9 @@ namespace tread
     return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
       const RunningSurfaces &surfaces = scene.surfaces();
       const double           offset   = surfaces.tread_offset ? surfaces.tread_offset(p[1]) : 0.;
-      return surfaces.radius + offset - std::hypot(p[0] - begin, height - p[2]);
+      const double           more =
+        surfaces.deviation ? surfaces.deviation(std::atan2(p[0] - begin, height - p[2]), p[1]) : 0.;
+      return surfaces.radius + offset + more - std::hypot(p[0] - begin, height - p[2]);
     };
   }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <numbers>
 
 namespace tread
 {
@@ -20,20 +21,35 @@ namespace tread
       double      times, over;
     };
 
-    constexpr std::array<Unit, 28> units{{{"mm", 1e-3, 1.},        {"m", 1., 1.},
-                                          {"GPa", 1e9, 1.},        {"MPa", 1e6, 1.},
-                                          {"kg", 1., 1.},          {"kg m2", 1., 1.},
-                                          {"kg per m3", 1., 1.},   {"km per h", 1., 3.6},
-                                          {"m per s2", 1., 1.},    {"kN per m", 1e3, 1.},
-                                          {"MN per m", 1e6, 1.},   {"N s per m", 1., 1.},
-                                          {"kN s per m", 1e3, 1.}, {"1 per s", 1., 1.},
-                                          {"1 per m", 1., 1.},     {"m per s", 1., 1.},
-                                          {"mrad", 1e-3, 1.},      {"rad per s", 1., 1.},
-                                          {"minutes", 60., 1.},    {"us", 1., 1e6},
-                                          {"time steps", 1., 1.},  {"semi-axes", 1., 1.},
-                                          {"kN", 1e3, 1.},         {"t", 1e3, 1.},
-                                          {"kN m", 1e3, 1.},       {"MN m per rad", 1e6, 1.},
-                                          {"MN m2", 1e6, 1.},      {"kN m s per rad", 1e3, 1.}}};
+    constexpr std::array<Unit, 29> units{{{"mm", 1e-3, 1.},
+                                          {"m", 1., 1.},
+                                          {"GPa", 1e9, 1.},
+                                          {"MPa", 1e6, 1.},
+                                          {"kg", 1., 1.},
+                                          {"kg m2", 1., 1.},
+                                          {"kg per m3", 1., 1.},
+                                          {"km per h", 1., 3.6},
+                                          {"m per s2", 1., 1.},
+                                          {"kN per m", 1e3, 1.},
+                                          {"MN per m", 1e6, 1.},
+                                          {"N s per m", 1., 1.},
+                                          {"kN s per m", 1e3, 1.},
+                                          {"1 per s", 1., 1.},
+                                          {"1 per m", 1., 1.},
+                                          {"m per s", 1., 1.},
+                                          {"mrad", 1e-3, 1.},
+                                          {"deg", std::numbers::pi, 180.},
+                                          {"rad per s", 1., 1.},
+                                          {"minutes", 60., 1.},
+                                          {"us", 1., 1e6},
+                                          {"time steps", 1., 1.},
+                                          {"semi-axes", 1., 1.},
+                                          {"kN", 1e3, 1.},
+                                          {"t", 1e3, 1.},
+                                          {"kN m", 1e3, 1.},
+                                          {"MN m per rad", 1e6, 1.},
+                                          {"MN m2", 1e6, 1.},
+                                          {"kN m s per rad", 1e3, 1.}}};
 
     Unit unit_of(const std::string &name)
     {

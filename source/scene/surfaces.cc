@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/geometry/profile_names.h>
+#include <tread/geometry/wheel_deviation.h>
 #include <tread/geometry/wheel_tread.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/half_space.h>
@@ -43,7 +44,7 @@ namespace tread
     std::error_code cannot_tell;
     for (const auto &[name, file] :
          {std::pair("Wheel/Tread profile", wheel.tread_profile),
-          std::pair("Rail/Measured head", rail.measured_head),
+          std::pair("Wheel/Deviation", wheel.deviation), std::pair("Rail/Measured head", rail.measured_head),
           std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
           std::pair("Track/Support file", track.support_file)})
       if (const std::string path = located(file);
@@ -165,6 +166,24 @@ namespace tread
     catch (const std::runtime_error &error)
       {
         throw InputError("'Wheel/Tread profile': " + refused_tread(wheel.tread_profile, error.what()));
+      }
+    if (wheel.deviation.empty())
+      return;
+    const auto round = [&] {
+      return wheel_curve(located(wheel.tread_profile), wheel.profile_placement);
+    };
+    try
+      {
+        surfaces.deviation =
+          [more  = wheel_deviation(located(wheel.deviation), round, wheel.radius, wheel.deviation_smoothing),
+           pitch = wheel.deviation_pitch,
+           y_circle = wheel.lateral_position](const double angle, const double y) {
+            return more->at(angle - pitch, y - y_circle).dz;
+          };
+      }
+    catch (const std::runtime_error &error)
+      {
+        throw InputError(std::string("'Wheel/Deviation': ") + error.what());
       }
   }
 
@@ -323,11 +342,31 @@ namespace tread
 
   double Scene::fine_half_width() const
   {
-    // A load that doubles or triples makes the patch wider by its cube root.
+    if (mesh.fine_half_width > 0.)
+      return mesh.fine_half_width;
+    // A load that doubles or triples makes the patch wider by its cube root; a wheel that is not round
+    // touches beside it.
     constexpr double room_for_dynamic_load = 1.35;
-    return mesh.fine_half_width > 0.
-             ? mesh.fine_half_width
-             : (general.quasi_static ? 1. : room_for_dynamic_load) * needed_half_width();
+    const double     of_round = (general.quasi_static ? 1. : room_for_dynamic_load) * needed_half_width();
+    if (is_round())
+      return of_round;
+    constexpr double of_body = 0.75; // of its half width, beside which there must be room for coarser cells
+    const double     widest  = of_body * std::min(rail.half_width(), wheel.half_width()) - std::abs(path_y());
+    return std::max(of_round, std::min(of_round + reach_of(largest_deviation()).end, widest));
+  }
+
+
+  double Scene::largest_deviation() const
+  {
+    if (is_round())
+      return 0.;
+    constexpr double step = 0.5e-3; // m
+    const double     a = hertz(*this, static_load()).semi_axis_x, half_width = surfaces().half_width;
+    double           largest = 0.;
+    for (double way = -a; way <= motion.meshed_distance() + a; way += step)
+      for (double y = -half_width; y <= half_width; y += step)
+        largest = std::max(largest, std::abs(surfaces().deviation(way / wheel.radius, y)));
+    return largest;
   }
 
 

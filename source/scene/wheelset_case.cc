@@ -117,6 +117,10 @@ namespace tread
       wheel.lateral_position == 0.,
       "'Wheel/Lateral position (mm)' is for an upright wheel; in a track 'Wheelset/Lateral shift (mm)' takes "
       "its place");
+    require(
+      wheel.deviation.empty(),
+      "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread --positions solves wheels "
+      "that are not round, and an upright wheel may have one");
     require(defect.shape == "none", "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
     require(further_wheels.distances.empty(),
             "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position");

@@ -178,6 +178,8 @@ namespace tread
   {
     if (scene.has_defect())
       return "no comparison with steady rolling: there is a defect on the rail";
+    if (!scene.is_round())
+      return "no comparison with steady rolling: the wheel is not round";
     if (!(answer.force[2] > 0.))
       return "";
     if (!scene.contact.friction_pressures.empty() && !scene.friction_law()->is_constant())
@@ -578,7 +580,7 @@ namespace tread
             !varies.empty())
           note = "the half-space beside is in steady rolling, but " + varies;
       }
-    else if (completed || scene.has_defect())
+    else if (completed || !scene.rolls_smoothly())
       note = compare_with_steady_rolling(summary, answer, reference_patch);
     if (!note.empty())
       summary.set("note", note);
@@ -609,7 +611,7 @@ namespace tread
         warnings.push_back(warning);
     if (completed)
       add_doubts(warnings);
-    if (completed && !scene.has_defect() && !rolled.long_enough())
+    if (completed && scene.rolls_smoothly() && !rolled.long_enough())
       warnings.push_back(
         format("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
                rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
@@ -641,7 +643,7 @@ namespace tread
         if (scene.has_impacts())
           std::printf("\n%s%s", impacts.lines(scene.static_load()).c_str(), stresses.c_str());
         // Where nothing is steady, the figures of one instant say little.
-        if (!scene.has_defect())
+        if (scene.rolls_smoothly())
           std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
                       scene.is_positioned() ? "vertical" : "normal", 1e-3 * normal, 100. * normal_ripple,
                       traction, by_patch.c_str(), summary.table().c_str());

@@ -65,31 +65,36 @@ namespace tread
         }
     }
 
-    /// A twin differs from its run by the defect alone. @returns a warning where that is not so, or not sure;
-    /// else ""
+    /// A twin differs from its run by the defect, or by what the wheel is not round by, alone. @returns a
+    /// warning where that is not so, or not sure; else ""
     std::string compare_parameters(const std::string &run, const std::string &twin)
     {
       const std::vector<Scene::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
                                           of_twin = Scene::parameters_in(twin + "/parameters.prm");
+      bool has_cause                              = false;
       for (std::size_t i = 0; i < of_run.size(); ++i)
         {
           const std::string &path = of_run[i].path;
-          if (path == "Defect/Shape")
-            {
-              require(of_twin[i].value == "none",
-                      "no smooth twin: '" + path + "' is '" + of_twin[i].value + "' in " + twin);
-              require(of_run[i].value != "none",
-                      "nothing to find the effect of: '" + path + "' is 'none' in " + run);
-            }
-          const bool may_be_unlike =
-            path.compare(0, 7, "Defect/") == 0 || path.compare(0, 7, "Output/") == 0 || path == "Scene/Title";
+          // What makes a rail, or a wheel, unsmooth, and its value where it does not.
+          for (const auto &[cause, smooth] :
+               {std::pair("Defect/Shape", "none"), std::pair("Wheel/Deviation", "")})
+            if (path == cause)
+              {
+                require(of_twin[i].value == smooth,
+                        "no smooth twin: '" + path + "' is '" + of_twin[i].value + "' in " + twin);
+                has_cause |= of_run[i].value != smooth;
+              }
+          const bool may_be_unlike = path.starts_with("Defect/") || path.starts_with("Output/") ||
+                                     path.starts_with("Wheel/Deviation") || path == "Scene/Title";
           if (!may_be_unlike && !same(of_run[i].value, of_twin[i].value))
             throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
                              " and '" + of_twin[i].value + "' in " + twin);
         }
-      const FilesCompared files =
-        compare_files(files_in_comments(text_of_file(run + "/parameters.prm")),
-                      files_in_comments(text_of_file(twin + "/parameters.prm")), "Defect/");
+      require(has_cause,
+              "nothing to find the effect of: 'Defect/Shape' is none and 'Wheel/Deviation' empty in " + run);
+      const FilesCompared files = compare_files(files_in_comments(text_of_file(run + "/parameters.prm")),
+                                                files_in_comments(text_of_file(twin + "/parameters.prm")),
+                                                {"Defect/", "Wheel/Deviation"});
       require(files.unlike.empty(), "no smooth twin: " + files.unlike);
       if (!files.unknown.empty())
         return "whether " + run + " and " + twin + " have read the same file of '" + files.unknown +

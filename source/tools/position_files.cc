@@ -163,7 +163,8 @@ namespace tread
       const ProfileCurve                    round = wheel();
       std::shared_ptr<const WheelDeviation> deviation;
       if (!row.deviation.empty())
-        deviation = wheel_deviation(row.deviation, round, row.radius, row.smoothing);
+        deviation = wheel_deviation(
+          row.deviation, [&] { return round; }, row.radius, row.smoothing);
       return WheelOnRail(WheelSurface(round, deviation), rail_surface(row.rail), row.radius, gauge,
                          WheelOnRail::RailOrigin{row.rail_y, row.rail_z});
     }

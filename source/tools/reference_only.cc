@@ -280,6 +280,8 @@ namespace tread
       progress.say("WARNING: " + warning);
     if (scene.made_defect())
       progress.say("the defect is left out: half-space theory rolls over a smooth rail");
+    if (!scene.is_round())
+      progress.say("the wheel is taken as round: tread --positions solves wheels that are not");
     progress.say(summary.table());
     if (!no_transient.empty())
       progress.say("no transient.csv, for a solver that knows one friction coefficient and like bodies: " +

@@ -15,6 +15,11 @@ using namespace tread;
 
 namespace
 {
+  ProfileCurve cylinder()
+  {
+    return wheel_curve("cylinder");
+  }
+
   constexpr double radius = 0.46, pi = std::numbers::pi, degree = pi / 180.;
 
   /// @param dz in m of the angle in rad and of y in m
@@ -111,7 +116,7 @@ namespace
     const WheelContact round = under_load(pair({}), 0.);
     // An eccentric wheel is a round one whose middle lies beside its axle.
     constexpr double e = 0.5e-3, crest = 30. * degree;
-    const auto eccentric = pair(wheel_deviation("waves: 1=0.5@30", wheel_curve("cylinder"), radius, 0.));
+    const auto       eccentric = pair(wheel_deviation("waves: 1=0.5@30", cylinder, radius, 0.));
     for (const double pitch : {-30. * degree, 60. * degree, 150. * degree})
       {
         const WheelContact here = under_load(eccentric, pitch);
@@ -124,8 +129,8 @@ namespace
                        1e3 * e * std::sin(pitch + crest), 5e-3);
       }
     // At the bottom of a long flat the curvature along x is 1/R - depth/2 (2 pi/length)^2: a bigger wheel.
-    const auto flat = pair(
-      wheel_deviation("flat: length_mm=400 depth_mm=1.2 angle_deg=-2", wheel_curve("cylinder"), radius, 0.));
+    const auto flat =
+      pair(wheel_deviation("flat: length_mm=400 depth_mm=1.2 angle_deg=-2", cylinder, radius, 0.));
     const WheelContact here = under_load(flat, 2. * degree);
     check.absolute("flat: where it touches, mm", 1e3 * here.patches.at(0).region.reference[0], 0., 0.02);
     const WheelContact bigger =
@@ -188,8 +193,7 @@ namespace
   void files(tests::Check &check)
   {
     const tests::TemporaryFolder folder;
-    const ProfileCurve           cylinder = wheel_curve("cylinder");
-    const std::string            head     = "angle_deg,y-20,y-10,y+0,y+10,y+20\n";
+    const std::string            head = "angle_deg,y-20,y-10,y+0,y+10,y+20\n";
     std::string                  wide = head, tall = "angle_rad;y_mm;dz_mm\n";
     for (int i = -4; i <= 4; ++i)
       {

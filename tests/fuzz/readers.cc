@@ -117,7 +117,8 @@ namespace tread::fuzz
     void read_deviation(const std::string &file)
     {
       constexpr double       radius = 0.46, smoothing = 2e-3;
-      const ScannedDeviation scan(read_deviation_lines(file, wheel_curve("cylinder")), radius, smoothing);
+      const ScannedDeviation scan(read_deviation_lines(file, [] { return wheel_curve("cylinder"); }), radius,
+                                  smoothing);
       for (const double angle : {-4., -0.02, 0., 0.5, 3.})
         for (const double y : {-80e-3, -20e-3, 0., 7e-3})
           {

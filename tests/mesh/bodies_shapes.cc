@@ -293,6 +293,39 @@ namespace
       check.below(std::string(name) + ": lowest point, nm", 1e9 * lowest, 1e-3);
   }
 
+  void check_flat(tests::Check &check)
+  {
+    WheelSector sector;
+    sector.center_x     = 0.3;
+    sector.lift         = 1e-3;
+    sector.arc_begin    = -0.05;
+    sector.arc_end      = 0.15;
+    sector.tread_offset = [](const double y) {
+      return -y / 20.;
+    };
+    // Ahead of the lowest point and deeper at one side.
+    sector.deviation = [](const double angle, const double y) {
+      return -1e-3 * (1. + y / 0.1) * std::exp(-std::pow((angle - 0.1) / 0.03, 2.));
+    };
+    FineZone zone;
+    zone.finest_cell_size = 4e-3;
+    zone.x_begin          = -0.01;
+    zone.x_end            = 0.1;
+    const Body body       = make_wheel_sector(sector, zone);
+    Mesh       mesh;
+    refine(body, mesh);
+    measure(body, mesh, zone.finest_cell_size, [](const Point<3> &) { return true; });
+    check.below("sector with a flat: nodes off the tread, nm",
+                1e9 * off_surface(mesh, Boundary::contact,
+                                  [&](const Point<3> &p) {
+                                    const double up    = sector.radius + sector.lift - p[2],
+                                                 angle = std::atan2(p[0] - sector.center_x, up);
+                                    return std::hypot(p[0] - sector.center_x, up) - sector.radius -
+                                           sector.tread_offset(p[1]) - sector.deviation(angle, p[1]);
+                                  }),
+                1e-3);
+  }
+
   void check_wheel(tests::Check &check, const double finest, const double coarsest, const double zone_center)
   {
     FullWheel wheel;
@@ -359,6 +392,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_sector(check, 0.63e-3, false);
   check_sector(check, 1e-3, true);
   lap();
+  check_flat(check);
   check_wheel(check, 0.63e-3, 0.041, 0.04);
   check_wheel(check, 1e-3, 0.021, 0.);
   check_wheel(check, 1e-3, 0.041, pi * 0.46); // half a turn away, where the angle jumps

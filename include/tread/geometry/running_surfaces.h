@@ -14,8 +14,10 @@ namespace tread
     double                                radius     = 0.46; ///< of the wheel at y = 0
     double                                half_width = 0.03; ///< contact is looked for in |y| up to this
     std::function<double(double)>         tread_offset;      ///< radius at y over the radius; null: 0
-    std::function<double(double)>         rail_top;          ///< height z(y) of the smooth rail, inclined
-    std::function<double(double, double)> defect;            ///< height z(x, y) over it; null: none
+    std::function<double(double, double)> deviation; ///< more radius at the angle from the bottom, positive
+                                                     ///< towards +x, and at y; null: the wheel is round
+    std::function<double(double)>         rail_top;  ///< height z(y) of the smooth rail, inclined
+    std::function<double(double, double)> defect;    ///< height z(x, y) over it; null: none
 
     /// How far apart the smooth surfaces are at y below the axle, when the axle is at the height `radius`:
     /// negative where they overlap.
@@ -30,7 +32,8 @@ namespace tread
     double lateral_radius; ///< of the gap, fitted over 5 mm at both sides (m); infinite: none or concave
   };
 
-  /// @param center_x where the wheel stands; a defect there lets it down or lifts it, but leaves y.
+  /// @param center_x where the wheel stands; a defect there, or what the wheel is not round by, lets it down
+  /// or lifts it, but leaves y.
   FirstContact first_contact(const RunningSurfaces &surfaces, const double center_x);
 
   /// Lateral radius of the gap over `half` at both sides of y, by least squares of its second differences, m;

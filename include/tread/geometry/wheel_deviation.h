@@ -4,6 +4,7 @@
 
 #include <tread/geometry/profile_curve.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -92,16 +93,17 @@ namespace tread
 
   /// Lines of a table (.csv) or of CONTACT's list of slices (.slcw), of which the profile is taken.
   /// @throws InputError, one line with file and place
-  DeviationLines read_deviation_lines(const std::string &file, const ProfileCurve &profile);
+  DeviationLines read_deviation_lines(const std::string &file, const std::function<ProfileCurve()> &profile);
 
   /// From its text: a file, or "flat: length_mm=L depth_mm=D [across_radius_mm=R] [angle_deg=A]", or
   /// "waves: ORDER=AMPLITUDE_MM@CREST_DEG ...".
-  /// @param profile of the round wheel, @param radius where z = 0 in it, @param smoothing of scans (m)
+  /// @param profile of the round wheel, asked for only where slices need it, @param radius where z = 0 in it,
+  /// @param smoothing of scans (m)
   /// @throws InputError, one line
-  std::shared_ptr<const WheelDeviation> wheel_deviation(const std::string  &text,
-                                                        const ProfileCurve &profile,
-                                                        const double        radius,
-                                                        const double        smoothing);
+  std::shared_ptr<const WheelDeviation> wheel_deviation(const std::string                   &text,
+                                                        const std::function<ProfileCurve()> &profile,
+                                                        const double                         radius,
+                                                        const double                         smoothing);
 } // namespace tread
 
 #endif

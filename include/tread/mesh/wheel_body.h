@@ -31,6 +31,9 @@ namespace tread
     /// Radius of the tread at y minus running radius (m); zero at y = 0; null: a cylinder. The shift fades
     /// linearly to zero at the inner face.
     std::function<double(double)> tread_offset;
+    /// The same of a wheel that is not round, over the angle from the lowest point, positive towards +x, and
+    /// y. Mass properties leave it out: a flat is some grammes.
+    std::function<double(double, double)> deviation;
   };
 
   /// A whole wheel of revolution: rim, straight web and hub, all symmetric to y = 0. Lengths in m.
@@ -52,7 +55,8 @@ namespace tread
       0.02; ///< tread faces up to this far beyond the ends of the fine zone are in reach of the rail
 
     /// As in WheelSector, fading to zero at the inner radius of the rim.
-    std::function<double(double)> tread_offset;
+    std::function<double(double)>         tread_offset;
+    std::function<double(double, double)> deviation;
   };
 
   /// Sector as coarse cells whose arc on the running circle is 2^k finest_cell_size. Chart: the reference

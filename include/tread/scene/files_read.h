@@ -57,16 +57,16 @@ namespace tread
                                   const std::string &title);
 
   /// In what a run's files differ from those of another one, in words; empty: in nothing that both know.
-  /// @param sections whose files may be unlike
+  /// @param but beginnings of parameters whose files may be unlike
   struct FilesCompared
   {
     std::string unlike; ///< "'Rail/Measured head' ..."; empty: none
     std::string
       unknown; ///< a parameter that has a file on one side alone, whose content is not known on the other
   };
-  FilesCompared compare_files(const std::vector<FileRead> &before,
-                              const std::vector<FileRead> &now,
-                              const std::string           &but = "");
+  FilesCompared compare_files(const std::vector<FileRead>    &before,
+                              const std::vector<FileRead>    &now,
+                              const std::vector<std::string> &but = {});
 } // namespace tread
 
 #endif

@@ -238,10 +238,24 @@ namespace tread
     /// The same along the path, of a defect from a file: the largest root of the mean square over a patch's
     /// half length.
     double detail_along() const;
-    /// Whether forces vary along the path by the nature of the scene: a defect, or discrete supports.
+    /// Whether the wheel is a body of revolution.
+    bool is_round() const
+    {
+      return !surfaces().deviation;
+    }
+    /// The largest deviation from round, inwards or outwards, that comes to the rail on the way that is
+    /// meshed (m).
+    double largest_deviation() const;
+    /// Whether rolling may become steady: a round wheel on a rail without a defect.
+    bool rolls_smoothly() const
+    {
+      return !has_defect() && is_round();
+    }
+    /// Whether forces vary along the path by the nature of the scene: a defect, a wheel that is not round, or
+    /// discrete supports.
     bool has_impacts() const
     {
-      return has_defect() || track.has_supports();
+      return !rolls_smoothly() || track.has_supports();
     }
     /// Height above the rail's profile, in the rail's own axes: measured head and defect. Null: none. @see
     /// RailTop

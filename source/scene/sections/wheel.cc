@@ -83,6 +83,22 @@ namespace tread
     section.add("Lateral position (mm)", lateral_position,
                 "y of the running circle relative to the middle of the rail; the flange lies at y < 0.",
                 Double(-30., 30.));
+    section.add(
+      "Deviation", deviation,
+      "What the wheel has beyond round: a scan (.csv with angle_deg or angle_rad, y_mm, dz_mm, or a column "
+      "for "
+      "each place y; .slcw of CONTACT), 'flat: length_mm=L depth_mm=D across_radius_mm=R angle_deg=A', or "
+      "'waves: ORDER=AMPLITUDE_MM@CREST_DEG ...'. Empty: the wheel is round.",
+      Anything());
+    section.add("Deviation smoothing (mm)", deviation_smoothing,
+                "Of a scan: of waves of this length, along and across the tread, half is left. 0: none.",
+                Double(0., 100.));
+    section.add(
+      "Deviation pitch (deg)", deviation_pitch,
+      "Turn of the deviation about the axle at the start, negative forward. At 0 its angle 0 is at "
+      "the bottom; a place at the angle A on the wheel comes to the rail when the wheel has rolled by "
+      "its radius times A plus this pitch.",
+      Double(-360., 360.));
     material.declare(section);
   }
 

@@ -29,6 +29,8 @@ namespace tread
     std::string      tread_profile = "cylinder"; ///< name or file
     ProfilePlacement profile_placement;          ///< of that file
     double           lateral_position = 0.;      ///< of the running circle over the rail's middle
+    std::string      deviation;                  ///< from round, see wheel_deviation(); empty: none
+    double           deviation_smoothing = 0., deviation_pitch = 0.;
     MaterialSection  material;
 
     bool is_full() const
