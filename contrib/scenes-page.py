@@ -44,6 +44,8 @@ GROUPS = (
      ("measured-contact-force.png", "The contact force at the squat of tutorial/measured.prm, beside the smooth twin")),
     ("Curves: wheelsets in any position", "curves/*.prm", ("kinematics.md", "curve.md"),
      ("two-patches.png", "curves/two-patches.prm: tread and gauge corner at once")),
+    ("Wheels that are not round", "flat/*.prm", ("wheel-flat.md",),
+     ("wheel-flat-force.png", "flat/scanned-flat.prm at several speeds, beside a mass on a Hertz spring on a beam")),
     ("Half-spaces: Kalker's case and its relatives", "verification/*.prm", ("verification.md", "track.md"),
      ("half-space-axis.png", "verification/half-space-0.33-mu0.30.prm: pressure, shear stress and micro-slip along the patch, beside Hertz and CONTACT")),
     ("Thesis, section 3.1: smooth rolling", "thesis/3.1-*.prm", ("verification.md",), None, "thesis/3.1-common.inc"),

@@ -17,76 +17,19 @@ elements of 0.4 and 0.2 mm are those of the figures compared with, 0 takes its o
 from __future__ import annotations
 
 import argparse
-import math
 import os
-import tempfile
-from collections.abc import Sequence
 
 from tread import Error, positions
 from tread.commands import command_parser, run_command
+from tread.flats import FLATS, SCAN, Options, solve
 from tread.positions import number, rows_of
 from tread.runs import PROGRAM, ROOT
 
-PROFILES = os.path.join(ROOT, "prm", "flat")
 GIVEN = os.path.join(ROOT, "contrib", "contact-data", "flat_given.csv")
 COLUMNS = ("pitch_deg", "axle_height_mm", "normal_force_N", "max_pressure_Pa")
-SHEAR_MODULUS, POISSON = 82e9, 0.28  # of the figures compared with
-SPEED = 2.  # m/s
 
 
-def scanned(options: argparse.Namespace, _: str) -> tuple[dict[str, object], float]:
-    """The columns of a position but for turn and load, and the nominal radius in mm."""
-    wheel, radius = os.path.join(PROFILES, "worn-S1002.csv"), 490.
-    # The program's radius is that where the profile has y = 0, which is worn.
-    worn = min(rows_of(wheel), key=lambda row: abs(float(row["y_mm"])))
-    return {"rail": os.path.join(PROFILES, "rail-of-arcs.csv"), "wheel": wheel, "wheel_deviation": os.path.abspath(options.deviation),
-            "wheel_deviation_smoothing_mm": options.smoothing, "radius_mm": radius - float(worn["z_mm"]), "rail_y_mm": 757.4396}, radius
-
-
-def rounded(_: argparse.Namespace, folder: str) -> tuple[dict[str, object], float]:
-    """By the formula of CONTACT's example, which samples it as slices that its splines pass beside."""
-    radius, across, half_length, half_depth, half_width = 450., 300., 0.111312, 0.45, 30.20927  # mm, rad
-    steps, places = 25, 65
-    slices = []
-    for i in range(-steps - 3, steps + 4):
-        angle = half_length * i / steps
-        name = f"{i}.txt"
-        slices.append(f"{angle:.6f} '{name}'")
-        deep = half_depth * (1. + math.cos(math.pi * angle / half_length)) if abs(i) < steps else 0.
-        with open(os.path.join(folder, name), "w", encoding="ascii") as stream:
-            for k in range(-places, places + 1):
-                y = half_width * k / places
-                stream.write(f"{y:.6f} {-max(0., deep - y * y / (2. * across)):.6f}\n")
-    flat, crown = os.path.join(folder, "flat.slcw"), os.path.join(folder, "crown.txt")
-    with open(flat, "w", encoding="ascii") as stream:
-        stream.write(f"0 1\n{len(slices)}\n0 0 0\n2\n" + "\n".join(slices) + "\n")
-    with open(crown, "w", encoding="ascii") as stream:
-        for k in range(-160, 161):
-            angle = 0.25 * k / across
-            stream.write(f"{across * math.sin(angle):.6f} {-across * (1. - math.cos(angle)):.6f}\n")
-    return {"rail": crown, "wheel": "cylinder", "wheel_deviation": flat, "wheel_deviation_smoothing_mm": 0., "radius_mm": radius, "rail_y_mm": 750.}, radius
-
-
-FLATS = {"scanned": (scanned, 0.4), "rounded": (rounded, 0.2)}  # each with the edge of its elements, mm
-
-
-def solve(flat: str, turns: Sequence[tuple[float, float]], options: argparse.Namespace) -> list[dict[str, float]]:
-    """Of each turn in degrees and load in N. @raises Error"""
-    make, usual = FLATS[flat]
-    element = usual if options.element is None else options.element
-    with tempfile.TemporaryDirectory() as folder:
-        common, radius = make(options, folder)
-        common |= {"s_mm": 0., "y_ws_mm": 0., "friction": options.friction, "speed_m_per_s": SPEED,
-                   "angular_velocity_rad_per_s": 1e3 * SPEED / radius, "young_Pa": 2 * SHEAR_MODULUS * (1 + POISSON), "poisson": POISSON,
-                   "element_x_mm": element, "element_y_mm": element}
-        answers = positions.solve([{**common, "pitch_rad": math.radians(pitch), "load_N": load} for pitch, load in turns], options.program)
-    return [{"pitch_deg": pitch, "axle_height_mm": float(patches[0]["height_mm"]) + float(common["radius_mm"]) - radius,  # type: ignore[arg-type]
-             "normal_force_N": sum(float(patch["normal_force_N"]) for patch in patches),
-             "max_pressure_Pa": max(float(patch["max_pressure_Pa"]) for patch in patches), "patches": float(len(patches))}
-            for (pitch, _), patches in zip(turns, answers)]
-
-
-def compare(options: argparse.Namespace) -> None:
+def compare(options: Options, picture: str | None) -> None:
     answers = {}
     for flat in FLATS:
         given = [row for row in rows_of(GIVEN) if row["flat"] == flat]
@@ -97,11 +40,11 @@ def compare(options: argparse.Namespace) -> None:
             pressure, printed = 1e-6 * own["max_pressure_Pa"], float(row["max_pressure_MPa"])
             print(f"| {row['pitch_deg']} | {height:.4f} | {wanted:.4f} | {1e3 * (height - wanted):+.1f} | {pressure:.1f} | {printed:.1f} | "
                   f"{100 * (pressure / printed - 1):+.2f} % |")
-    if options.picture:
-        draw(options.picture, options)
+    if picture:
+        draw(picture, options)
 
 
-def draw(path: str, options: argparse.Namespace) -> None:
+def draw(path: str, options: Options) -> None:
     import numpy as np
     from tread.plots import BLUE, RED, save, subplots, use_style
 
@@ -135,7 +78,7 @@ def main() -> None:
     parser.add_argument("--output", metavar="OUT.csv")
     parser.add_argument("--picture", metavar="PNG", help="of the scanned flat")
     parser.add_argument("--flat", choices=FLATS, default="scanned")
-    parser.add_argument("--deviation", default=os.path.join(PROFILES, "scan.csv"), help="what the wheel has beyond round, instead of the scan")
+    parser.add_argument("--deviation", default=SCAN, help="what the wheel has beyond round, instead of the scan")
     parser.add_argument("--smoothing", type=float, default=0., help="of that, mm (0)")
     parser.add_argument("--friction", type=float, default=0.3, help="coefficient (0.3)")
     parser.add_argument("--element", type=float, help="edge of the elements, mm; 0: the program's own")
@@ -143,8 +86,9 @@ def main() -> None:
     arguments = parser.parse_args()
     if bool(arguments.pitches) != bool(arguments.output):
         raise Error("--pitches and --output belong together")
+    options = Options(arguments.deviation, arguments.smoothing, arguments.friction, arguments.element, arguments.program)
     if not arguments.pitches:
-        compare(arguments)
+        compare(options, arguments.picture)
         return
     turns = []
     for place, row in enumerate(rows_of(arguments.pitches)):
@@ -155,7 +99,7 @@ def main() -> None:
         turns.append((pitch, load))
     if not turns:
         raise Error(f"{arguments.pitches} has no rows")
-    positions.write(arguments.output, COLUMNS, solve(arguments.flat, turns, arguments))
+    positions.write(arguments.output, COLUMNS, solve(arguments.flat, turns, options))
     print(f"{len(turns)} turns. Results in {arguments.output}")
 
 

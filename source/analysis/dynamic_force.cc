@@ -17,7 +17,7 @@ namespace tread
     /// then apart by 1 mm, much less than a patch.
     constexpr double same_speed = 1e-3;
     /// Of an interval: a section that is shorter by rounding alone still has its last interval.
-    constexpr double       round_off      = 1e-6;
+    constexpr double       of_intervals   = 1e-6;
     constexpr unsigned int n_oscillations = 5; ///< kept of a spectrum
 
     /// When the rows of a history belong: the middle of their intervals.
@@ -98,10 +98,11 @@ namespace tread
                1e3 * of_twin.position(smooth_twin, of_twin.middle.back()), run.name.c_str(), 1e3 * at(begin),
                1e3 * at(end)));
     // Equally spaced from a row of the run on.
-    begin               = *std::partition_point(after, before - 1,
-                                                [&](const double time) { return time < of_twin.middle.front(); });
-    end                 = std::min(end, of_twin.middle.back());
-    const std::size_t n = static_cast<std::size_t>(std::max(0., end - begin) / of_run.length + round_off) + 1;
+    begin = *std::partition_point(after, before - 1,
+                                  [&](const double time) { return time < of_twin.middle.front(); });
+    end   = std::min(end, of_twin.middle.back());
+    const std::size_t n =
+      static_cast<std::size_t>(std::max(0., end - begin) / of_run.length + of_intervals) + 1;
     if (n < least_rows)
       throw too_short(n);
 

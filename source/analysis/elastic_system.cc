@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/exceptions.h>
 
+#include "petsc_error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,11 +24,6 @@ namespace tread
 
     /// Cells that are differentiated together: enough to fill the vector lanes, few enough for the cache.
     constexpr unsigned int cells_at_once = 1024;
-
-    void check(const PetscErrorCode error)
-    {
-      AssertThrow(error == 0, dealii::LACExceptions::ExcPETScError(error));
-    }
 
     using CellMatrix = std::array<std::array<double, 24>, 24>;
 
@@ -400,8 +397,8 @@ namespace tread
                         for (const Term &column : forms[j])
                           block[place(row) * rows.size() + place(column)] +=
                             row.weight * column.weight * matrices[k][i][j];
-                  check(MatSetValues(matrix, rows.size(), rows.data(), rows.size(), rows.data(), block.data(),
-                                     ADD_VALUES));
+                  check_petsc(MatSetValues(matrix, rows.size(), rows.data(), rows.size(), rows.data(),
+                                           block.data(), ADD_VALUES));
                 }
             }
         }
@@ -416,8 +413,8 @@ namespace tread
       if (matrix)
         for (const Term &row : form)
           for (const Term &column : form)
-            check(MatSetValue(matrix, row.unknown, column.unknown, factor * row.weight * column.weight,
-                              ADD_VALUES));
+            check_petsc(MatSetValue(matrix, row.unknown, column.unknown, factor * row.weight * column.weight,
+                                    ADD_VALUES));
     };
     for (const Link &link : links)
       {
@@ -443,18 +440,18 @@ namespace tread
           if (const PetscInt k = unknowns[i][d]; k != none)
             {
               if (mass)
-                check(MatSetValue(mass, k, k, node_masses[i], ADD_VALUES));
+                check_petsc(MatSetValue(mass, k, k, node_masses[i], ADD_VALUES));
               if (damping && node_damping[i] > 0.)
-                check(MatSetValue(damping, k, k, node_damping[i] * node_masses[i], ADD_VALUES));
+                check_petsc(MatSetValue(damping, k, k, node_damping[i] * node_masses[i], ADD_VALUES));
             }
     if (!mass || dealii::Utilities::MPI::this_mpi_process(mesh.comm) != 0)
       return;
     const auto add = [&](const long long row, const long long column, const double value) {
       if (row == none || column == none)
         return;
-      check(MatSetValue(mass, row, column, value, ADD_VALUES));
+      check_petsc(MatSetValue(mass, row, column, value, ADD_VALUES));
       if (row != column)
-        check(MatSetValue(mass, column, row, value, ADD_VALUES));
+        check_petsc(MatSetValue(mass, column, row, value, ADD_VALUES));
     };
     if (has_hub)
       {
@@ -475,31 +472,31 @@ namespace tread
   {
     const auto of_type = [&](const MatType type) {
       Mat matrix;
-      check(MatCreate(mesh.comm, &matrix));
-      check(MatSetSizes(matrix, n_own, n_own, n_global, n_global));
-      check(MatSetType(matrix, type));
+      check_petsc(MatCreate(mesh.comm, &matrix));
+      check_petsc(MatSetSizes(matrix, n_own, n_own, n_global, n_global));
+      check_petsc(MatSetType(matrix, type));
       return matrix;
     };
     const auto finish = [&](Mat matrix) {
       // Each row has a place on the diagonal.
       PetscInt begin, end;
-      check(MatGetOwnershipRange(matrix, &begin, &end));
+      check_petsc(MatGetOwnershipRange(matrix, &begin, &end));
       for (PetscInt i = begin; i < end; ++i)
-        check(MatSetValue(matrix, i, i, 0., ADD_VALUES));
+        check_petsc(MatSetValue(matrix, i, i, 0., ADD_VALUES));
       fill(matrix);
-      check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-      check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+      check_petsc(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+      check_petsc(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
     };
     Mat places = of_type(MATPREALLOCATOR);
-    check(MatSetUp(places));
+    check_petsc(MatSetUp(places));
     finish(places);
     Mat matrix = of_type(MATAIJ);
-    check(MatPreallocatorPreallocate(places, PETSC_TRUE, matrix));
-    check(MatDestroy(&places));
-    check(MatSetOption(matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
+    check_petsc(MatPreallocatorPreallocate(places, PETSC_TRUE, matrix));
+    check_petsc(MatDestroy(&places));
+    check_petsc(MatSetOption(matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
     finish(matrix);
-    check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+    check_petsc(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+    check_petsc(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
     return matrix;
   }
 
@@ -523,8 +520,8 @@ namespace tread
   Vec ElasticSystem::new_vector() const
   {
     Vec vector;
-    check(MatCreateVecs(K, &vector, nullptr));
-    check(VecSet(vector, 0.));
+    check_petsc(MatCreateVecs(K, &vector, nullptr));
+    check_petsc(VecSet(vector, 0.));
     return vector;
   }
 
@@ -536,9 +533,9 @@ namespace tread
     for (const auto &[node, share] : place)
       expand(node, 2, share, form);
     for (const Term &term : form)
-      check(VecSetValue(vector, term.unknown, term.weight, ADD_VALUES));
-    check(VecAssemblyBegin(vector));
-    check(VecAssemblyEnd(vector));
+      check_petsc(VecSetValue(vector, term.unknown, term.weight, ADD_VALUES));
+    check_petsc(VecAssemblyBegin(vector));
+    check_petsc(VecAssemblyEnd(vector));
     return vector;
   }
 
@@ -556,9 +553,9 @@ namespace tread
         if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
           for (const Link *link : group.second)
             for (const Term &term : link->form)
-              check(VecSetValue(vector, term.unknown, term.weight / group.second.size(), ADD_VALUES));
-        check(VecAssemblyBegin(vector));
-        check(VecAssemblyEnd(vector));
+              check_petsc(VecSetValue(vector, term.unknown, term.weight / group.second.size(), ADD_VALUES));
+        check_petsc(VecAssemblyBegin(vector));
+        check_petsc(VecAssemblyEnd(vector));
         vectors.push_back(vector);
       }
     return vectors;
@@ -568,9 +565,9 @@ namespace tread
   NodalField ElasticSystem::displacements(const Vec vector, RigidParts &parts) const
   {
     PetscInt begin, end;
-    check(VecGetOwnershipRange(vector, &begin, &end));
+    check_petsc(VecGetOwnershipRange(vector, &begin, &end));
     const PetscScalar *values;
-    check(VecGetArrayRead(vector, &values));
+    check_petsc(VecGetArrayRead(vector, &values));
     const auto own = [&](const long long k) {
       return k >= begin && k < end ? values[k - begin] : 0.;
     };
@@ -585,7 +582,7 @@ namespace tread
       if (mesh.shared_nodes.is_owned(i))
         for (unsigned int d = 0; d < 3; ++d)
           u[i][d] = own(unknowns[i][d]);
-    check(VecRestoreArrayRead(vector, &values));
+    check_petsc(VecRestoreArrayRead(vector, &values));
     mesh.shared_nodes.sum(u.data());
     for (unsigned int i = 0; i < u.size(); ++i)
       if (carried[i])

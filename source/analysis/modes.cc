@@ -8,6 +8,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include "petsc_error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -35,15 +37,10 @@ namespace tread
     /// Vectors of the Krylov space of the force that enter the reduced equations.
     constexpr unsigned int n_krylov = 3;
 
-    void check(const PetscErrorCode error)
-    {
-      AssertThrow(error == 0, dealii::LACExceptions::ExcPETScError(error));
-    }
-
     double dot(const Vec a, const Vec b)
     {
       PetscScalar value;
-      check(VecDot(a, b, &value));
+      check_petsc(VecDot(a, b, &value));
       return value;
     }
   } // namespace
@@ -52,37 +49,37 @@ namespace tread
   Modes::Modes(const ElasticSystem &system, const double up_to)
     : system(system)
   {
-    check(MatDuplicate(system.stiffness(), MAT_COPY_VALUES, &shifted));
-    check(MatAXPY(shifted, shift * shift, system.mass(), DIFFERENT_NONZERO_PATTERN));
-    check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatSetOption(shifted, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
-    check(MatSetOption(shifted, MAT_SPD, PETSC_TRUE));
+    check_petsc(MatDuplicate(system.stiffness(), MAT_COPY_VALUES, &shifted));
+    check_petsc(MatAXPY(shifted, shift * shift, system.mass(), DIFFERENT_NONZERO_PATTERN));
+    check_petsc(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
+    check_petsc(MatSetOption(shifted, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+    check_petsc(MatSetOption(shifted, MAT_SPD, PETSC_TRUE));
 
-    check(EPSCreate(system.mesh.comm, &solver));
-    check(EPSSetOperators(solver, shifted, system.mass()));
-    check(EPSSetProblemType(solver, EPS_GHEP));
-    check(EPSSetType(solver, EPSKRYLOVSCHUR));
-    check(EPSSetTarget(solver, 0.));
-    check(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
-    check(EPSSetTolerances(solver, tolerance, max_iterations));
+    check_petsc(EPSCreate(system.mesh.comm, &solver));
+    check_petsc(EPSSetOperators(solver, shifted, system.mass()));
+    check_petsc(EPSSetProblemType(solver, EPS_GHEP));
+    check_petsc(EPSSetType(solver, EPSKRYLOVSCHUR));
+    check_petsc(EPSSetTarget(solver, 0.));
+    check_petsc(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
+    check_petsc(EPSSetTolerances(solver, tolerance, max_iterations));
     ST  transformation;
     KSP linear;
     PC  factors;
-    check(EPSGetST(solver, &transformation));
-    check(STSetType(transformation, STSINVERT));
-    check(STGetKSP(transformation, &linear));
-    check(KSPSetType(linear, KSPPREONLY));
-    check(KSPGetPC(linear, &factors));
-    check(PCSetType(factors, PCCHOLESKY));
-    check(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS));
+    check_petsc(EPSGetST(solver, &transformation));
+    check_petsc(STSetType(transformation, STSINVERT));
+    check_petsc(STGetKSP(transformation, &linear));
+    check_petsc(KSPSetType(linear, KSPPREONLY));
+    check_petsc(KSPGetPC(linear, &factors));
+    check_petsc(PCSetType(factors, PCCHOLESKY));
+    check_petsc(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS));
 
     const double       highest = std::pow(2. * dealii::numbers::PI * up_to, 2);
     const unsigned int n       = number_below(highest);
     if (n == 0)
       {
         // The reduced equations need the factors all the same.
-        check(EPSSetDimensions(solver, 1, PETSC_DEFAULT, PETSC_DEFAULT));
-        check(EPSSetUp(solver));
+        check_petsc(EPSSetDimensions(solver, 1, PETSC_DEFAULT, PETSC_DEFAULT));
+        check_petsc(EPSSetUp(solver));
         return;
       }
     // One starting vector finds one of several modes that are equal to the last digit, unless rounding brings
@@ -95,7 +92,7 @@ namespace tread
         if (n_found == n)
           {
             for (std::size_t k = n; k < vectors.size(); ++k)
-              check(VecDestroy(&vectors[k]));
+              check_petsc(VecDestroy(&vectors[k]));
             vectors.resize(n);
             eigenvalues.resize(n);
             return;
@@ -118,20 +115,20 @@ namespace tread
   unsigned int Modes::number_below(const double omega_squared) const
   {
     Mat matrix, factor;
-    check(MatDuplicate(system.stiffness(), MAT_COPY_VALUES, &matrix));
-    check(MatAXPY(matrix, -omega_squared, system.mass(), DIFFERENT_NONZERO_PATTERN));
-    check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
-    check(MatMumpsSetIcntl(factor, 13, 1)); // no ScaLAPACK for the last block: it does not count pivots
-    check(MatMumpsSetIcntl(factor, 24, 1)); // without it PETSc trusts no inertia
+    check_petsc(MatDuplicate(system.stiffness(), MAT_COPY_VALUES, &matrix));
+    check_petsc(MatAXPY(matrix, -omega_squared, system.mass(), DIFFERENT_NONZERO_PATTERN));
+    check_petsc(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+    check_petsc(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+    check_petsc(MatMumpsSetIcntl(factor, 13, 1)); // no ScaLAPACK for the last block: it does not count pivots
+    check_petsc(MatMumpsSetIcntl(factor, 24, 1)); // without it PETSc trusts no inertia
     MatFactorInfo information;
-    check(MatFactorInfoInitialize(&information));
-    check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &information));
-    check(MatCholeskyFactorNumeric(factor, matrix, &information));
+    check_petsc(MatFactorInfoInitialize(&information));
+    check_petsc(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &information));
+    check_petsc(MatCholeskyFactorNumeric(factor, matrix, &information));
     PetscInt negative, zero, positive;
-    check(MatGetInertia(factor, &negative, &zero, &positive));
-    check(MatDestroy(&factor));
-    check(MatDestroy(&matrix));
+    check_petsc(MatGetInertia(factor, &negative, &zero, &positive));
+    check_petsc(MatDestroy(&factor));
+    check_petsc(MatDestroy(&matrix));
     return negative;
   }
 
@@ -139,20 +136,20 @@ namespace tread
   void Modes::solve(const unsigned int n)
   {
     for (Vec &vector : vectors)
-      check(VecDestroy(&vector));
+      check_petsc(VecDestroy(&vector));
     vectors.clear();
     eigenvalues.clear();
-    check(EPSSetDimensions(solver, std::min<std::uint64_t>(n, system.n_unknowns()), PETSC_DEFAULT,
-                           PETSC_DEFAULT));
-    check(EPSSolve(solver));
+    check_petsc(EPSSetDimensions(solver, std::min<std::uint64_t>(n, system.n_unknowns()), PETSC_DEFAULT,
+                                 PETSC_DEFAULT));
+    check_petsc(EPSSolve(solver));
     PetscInt n_converged;
-    check(EPSGetConverged(solver, &n_converged));
+    check_petsc(EPSGetConverged(solver, &n_converged));
     std::vector<std::pair<double, Vec>> found;
     for (PetscInt k = 0; k < n_converged; ++k)
       {
         Vec         vector = system.new_vector();
         PetscScalar value;
-        check(EPSGetEigenpair(solver, k, &value, nullptr, vector, nullptr));
+        check_petsc(EPSGetEigenpair(solver, k, &value, nullptr, vector, nullptr));
         found.emplace_back(value - shift * shift, vector);
       }
     std::sort(found.begin(), found.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
@@ -160,14 +157,14 @@ namespace tread
     for (const auto &found_mode : found)
       {
         Vec vector = found_mode.second;
-        check(MatMult(system.mass(), vector, product));
-        check(VecScale(vector, 1. / std::sqrt(dot(vector, product))));
+        check_petsc(MatMult(system.mass(), vector, product));
+        check_petsc(VecScale(vector, 1. / std::sqrt(dot(vector, product))));
         // Rayleigh's quotient: its error is of second order in that of the vector.
-        check(MatMult(system.stiffness(), vector, product));
+        check_petsc(MatMult(system.stiffness(), vector, product));
         eigenvalues.push_back(dot(vector, product));
         vectors.push_back(vector);
       }
-    check(VecDestroy(&product));
+    check_petsc(VecDestroy(&product));
   }
 
 
@@ -180,9 +177,9 @@ namespace tread
   double Modes::damping_share(const unsigned int mode) const
   {
     Vec product = system.new_vector();
-    check(MatMult(system.damping(), vectors[mode], product));
+    check_petsc(MatMult(system.damping(), vectors[mode], product));
     const double damping = dot(vectors[mode], product);
-    check(VecDestroy(&product));
+    check_petsc(VecDestroy(&product));
     return eigenvalues[mode] > 0. ? damping / (2. * std::sqrt(eigenvalues[mode])) : 0.;
   }
 
@@ -194,13 +191,13 @@ namespace tread
     std::vector<PetscScalar> products(size());
     for (unsigned int k = 0; k < size(); ++k)
       {
-        check(MatMult(system.mass(), vectors[k], product));
-        check(VecMDot(product, size(), vectors.data(), products.data()));
+        check_petsc(MatMult(system.mass(), vectors[k], product));
+        check_petsc(VecMDot(product, size(), vectors.data(), products.data()));
         products[k] -= 1.;
         for (const double value : products)
           largest = std::max(largest, std::abs(value));
       }
-    check(VecDestroy(&product));
+    check_petsc(VecDestroy(&product));
     return largest;
   }
 
@@ -236,17 +233,17 @@ namespace tread
             double norm = 0.;
             for (const double value : w)
               norm += value * value;
-            check(VecSet(combined, 0.));
+            check_petsc(VecSet(combined, 0.));
             for (unsigned int k = first; k < end; ++k)
-              check(VecAXPY(combined, w[k - first], vectors[k]));
+              check_petsc(VecAXPY(combined, w[k - first], vectors[k]));
             for (unsigned int k = first; k < end; ++k)
-              check(VecAXPY(vectors[k], -2. * w[k - first] / norm, combined));
+              check_petsc(VecAXPY(vectors[k], -2. * w[k - first] / norm, combined));
             u[0] = -size_of_u;
           }
         if (u[0] < 0.)
-          check(VecScale(vectors[first], -1.));
+          check_petsc(VecScale(vectors[first], -1.));
       }
-    check(VecDestroy(&combined));
+    check_petsc(VecDestroy(&combined));
   }
 
 
@@ -254,24 +251,24 @@ namespace tread
   {
     Vec        product = system.new_vector();
     const auto size    = [&]() {
-      check(MatMult(system.mass(), vector, product));
+      check_petsc(MatMult(system.mass(), vector, product));
       return std::sqrt(std::max(0., dot(vector, product)));
     };
     const double             before = size();
     std::vector<PetscScalar> shares(basis.size());
     for (unsigned int pass = 0; pass < 2 && !basis.empty(); ++pass)
       {
-        check(MatMult(system.mass(), vector, product));
-        check(VecMDot(product, basis.size(), basis.data(), shares.data()));
+        check_petsc(MatMult(system.mass(), vector, product));
+        check_petsc(VecMDot(product, basis.size(), basis.data(), shares.data()));
         for (PetscScalar &share : shares)
           share = -share;
-        check(VecMAXPY(vector, basis.size(), shares.data(), const_cast<Vec *>(basis.data())));
+        check_petsc(VecMAXPY(vector, basis.size(), shares.data(), const_cast<Vec *>(basis.data())));
       }
     const double after   = size();
     const bool   remains = after > rounding_share * before && after > 0.;
     if (remains)
-      check(VecScale(vector, 1. / after));
-    check(VecDestroy(&product));
+      check_petsc(VecScale(vector, 1. / after));
+    check_petsc(VecDestroy(&product));
     return remains;
   }
 
@@ -281,60 +278,60 @@ namespace tread
   {
     ST  transformation;
     KSP linear;
-    check(EPSGetST(solver, &transformation));
-    check(STGetKSP(transformation, &linear));
+    check_petsc(EPSGetST(solver, &transformation));
+    check_petsc(STGetKSP(transformation, &linear));
     Vec              force = system.force_on(place), product = system.new_vector();
     std::vector<Vec> loads = system.damper_forces(), basis = vectors;
     const auto       add = [&](Vec load) {
       Vec answer = system.new_vector();
-      check(KSPSolve(linear, load, answer));
+      check_petsc(KSPSolve(linear, load, answer));
       if (normalise_against(basis, answer))
         basis.push_back(answer);
       else
-        check(VecDestroy(&answer));
+        check_petsc(VecDestroy(&answer));
     };
     for (Vec &load : loads)
       {
         add(load);
-        check(VecDestroy(&load));
+        check_petsc(VecDestroy(&load));
       }
     Vec krylov = system.new_vector();
-    check(VecCopy(force, product));
+    check_petsc(VecCopy(force, product));
     for (unsigned int k = 0; k < n_krylov; ++k)
       {
         add(product);
-        check(KSPSolve(linear, product, krylov));
-        check(MatMult(system.mass(), krylov, product));
+        check_petsc(KSPSolve(linear, product, krylov));
+        check_petsc(MatMult(system.mass(), krylov, product));
         PetscReal size;
-        check(VecNorm(product, NORM_2, &size));
-        check(VecScale(product, 1. / size));
+        check_petsc(VecNorm(product, NORM_2, &size));
+        check_petsc(VecScale(product, 1. / size));
       }
-    check(VecDestroy(&krylov));
+    check_petsc(VecDestroy(&krylov));
 
     const unsigned int         n = basis.size();
     dealii::FullMatrix<double> stiffness(n, n), damping(n, n);
     std::vector<PetscScalar>   products(n), forces(n);
-    check(VecMDot(force, n, basis.data(), forces.data()));
+    check_petsc(VecMDot(force, n, basis.data(), forces.data()));
     for (unsigned int j = 0; j < n; ++j)
       {
-        check(MatMult(system.damping(), basis[j], product));
-        check(VecMDot(product, n, basis.data(), products.data()));
+        check_petsc(MatMult(system.damping(), basis[j], product));
+        check_petsc(VecMDot(product, n, basis.data(), products.data()));
         for (unsigned int i = 0; i < n; ++i)
           damping(i, j) = products[i];
         if (j < vectors.size())
           stiffness(j, j) = eigenvalues[j];
         else
           {
-            check(MatMult(system.stiffness(), basis[j], product));
-            check(VecMDot(product, n, basis.data(), products.data()));
+            check_petsc(MatMult(system.stiffness(), basis[j], product));
+            check_petsc(VecMDot(product, n, basis.data(), products.data()));
             for (unsigned int i = 0; i < n; ++i)
               stiffness(i, j) = stiffness(j, i) = products[i];
           }
       }
     for (std::size_t k = vectors.size(); k < n; ++k)
-      check(VecDestroy(&basis[k]));
-    check(VecDestroy(&product));
-    check(VecDestroy(&force));
+      check_petsc(VecDestroy(&basis[k]));
+    check_petsc(VecDestroy(&product));
+    check_petsc(VecDestroy(&force));
 
     // Each rank takes every n_ranks-th frequency.
     using Complex              = std::complex<double>;

@@ -5,6 +5,8 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/manifold_lib.h>
 
+#include "even_lines.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -155,20 +157,6 @@ namespace tread
           }
     }
 
-    /// n + 1 evenly spaced values.
-    std::vector<double> even_lines(const double begin, const double end, const unsigned int n)
-    {
-      std::vector<double> lines(n + 1);
-      for (unsigned int i = 0; i <= n; ++i)
-        lines[i] = begin + (end - begin) * i / n;
-      return lines;
-    }
-
-    unsigned int rows_of(const double length, const double size)
-    {
-      return std::max(1u, static_cast<unsigned int>(std::lround(length / size)));
-    }
-
     /// Integrals over y in |y| <= width/2 of (outer^n - inner^n)/n with outer = radius + offset(y) ; the
     /// shift of the tread does not move the inner face. Also the same times y. Exact for a cylinder.
     struct RadialIntegral
@@ -295,7 +283,7 @@ namespace tread
 
       Section           &section = made.section;
       const unsigned int n_half  = (rim_y.size() - 1) / 2; // rows of the rim on one side of y = 0
-      const unsigned int n_web   = std::min(n_half - 1, rows_of(half_web, size));
+      const unsigned int n_web   = std::min(n_half - 1, rows_of(half_web, size, 1));
 
       // Where the lines of the rim arrive at its inner radius: the n_web lines next to y = 0 on each side
       // enter the web.
@@ -319,17 +307,18 @@ namespace tread
       const std::vector<double> web_y = even_lines(-half_web, half_web, 2 * n_web);
       const std::vector<double> web_r =
         even_lines(wheel.rim_inner_radius, wheel.hub_outer_radius,
-                   rows_of(wheel.rim_inner_radius - wheel.hub_outer_radius, size));
+                   rows_of(wheel.rim_inner_radius - wheel.hub_outer_radius, size, 1));
       for (unsigned int k = 0; k + 1 < web_r.size(); ++k)
         section.add_row(web_y, web_r[k], web_y, web_r[k + 1]);
 
-      const unsigned int  n_side = rows_of(half_hub - half_web, size);
+      const unsigned int  n_side = rows_of(half_hub - half_web, size, 1);
       std::vector<double> hub_y  = even_lines(-half_hub, -half_web, n_side);
       hub_y.insert(hub_y.end(), web_y.begin() + 1, web_y.end());
       const std::vector<double> other_side = even_lines(half_web, half_hub, n_side);
       hub_y.insert(hub_y.end(), other_side.begin() + 1, other_side.end());
-      const std::vector<double> hub_r = even_lines(wheel.hub_outer_radius, wheel.bore_radius,
-                                                   rows_of(wheel.hub_outer_radius - wheel.bore_radius, size));
+      const std::vector<double> hub_r =
+        even_lines(wheel.hub_outer_radius, wheel.bore_radius,
+                   rows_of(wheel.hub_outer_radius - wheel.bore_radius, size, 1));
       for (unsigned int k = 0; k + 1 < hub_r.size(); ++k)
         section.add_row(hub_y, hub_r[k], hub_y, hub_r[k + 1]);
       made.tread_row = depth[1];

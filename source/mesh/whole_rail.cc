@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/mesh/whole_rail.h>
 
+#include "even_lines.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -139,21 +141,8 @@ namespace tread
 
       std::map<std::pair<long, long>, unsigned int> numbers;
     };
-
-    /// n + 1 evenly spaced values.
-    std::vector<double> even_lines(const double begin, const double end, const unsigned int n)
-    {
-      std::vector<double> lines(n + 1);
-      for (unsigned int i = 0; i <= n; ++i)
-        lines[i] = begin + (end - begin) * i / n;
-      return lines;
-    }
-
-    unsigned int rows_of(const double length, const double size)
-    {
-      return std::max(2u, static_cast<unsigned int>(std::lround(length / size)));
-    }
   } // namespace
+
 
   Body make_whole_rail(const RailProfile &profile, const WholeRail &rail, const FineZones &zones)
   {
@@ -181,11 +170,11 @@ namespace tread
 
     ChartSection section;
     const auto   depths = [&](const double from, const double to) {
-      return even_lines(from, to, rows_of(to - from, wide));
+      return even_lines(from, to, rows_of(to - from, wide, 2));
     };
     const std::vector<double> web_s(head_s.begin() + middle - n_web, head_s.begin() + middle + n_web + 1);
     const std::vector<double> foot_depths = depths(chart.web_depth, chart.base_depth);
-    const unsigned int        n_flange    = rows_of(chart.half_foot - chart.half_web, wide);
+    const unsigned int        n_flange    = rows_of(chart.half_foot - chart.half_web, wide, 2);
     section.add_grid(head_s, coarse_lines(0., chart.head_depth, 0., size));
     section.add_grid(web_s, depths(chart.head_depth, chart.web_depth));
     section.add_grid(web_s, foot_depths);

@@ -91,7 +91,8 @@ namespace tread
                              " and '" + of_twin[i].value + "' in " + twin);
         }
       require(has_cause,
-              "nothing to find the effect of: 'Defect/Shape' is none and 'Wheel/Deviation' empty in " + run);
+              "nothing to find the effect of: 'Defect/Shape' is 'none' and 'Wheel/Deviation' is empty in " +
+                run);
       const FilesCompared files = compare_files(files_in_comments(text_of_file(run + "/parameters.prm")),
                                                 files_in_comments(text_of_file(twin + "/parameters.prm")),
                                                 {"Defect/", "Wheel/Deviation"});

@@ -39,7 +39,7 @@ with tempfile.TemporaryDirectory() as folder:
         done = start("flat-table.py", "--flat", flat, "--pitches", table, "--output", path("out.csv"))
         if not check.that(f"{flat} flat: the script ends well: {done.stderr.strip()}", done.returncode == 0):
             continue
-        for row, answer in zip(given, rows_of(path("out.csv")), strict=True):
+        for row, answer in zip(given, rows_of(path("out.csv"))):
             name = f"{flat} flat, turned by {answer['pitch_deg']} degrees"
             check.absolute(f"{name}: the turn that was given", float(answer["pitch_deg"]), float(row["pitch_deg"]), 0.)
             check.absolute(f"{name}: height of the axle, um", 1e3 * float(answer["axle_height_mm"]), -1e3 * float(row["z_ws_mm"]), 2.)
