@@ -212,13 +212,20 @@ namespace tread
       static_cast<reference::Friction &>(c) = rolling.friction_along
                                                 ? rolling.friction_along(region.reference[0] + straight.ahead)
                                                 : reference::Friction(rolling);
-      c.speed                               = V;
-      c.longitudinal                        = patch.creepage;
-      c.lateral                             = patch.lateral_creepage;
-      c.spin                                = patch.spin;
-      c.wheel                               = rolling.wheel;
-      c.rail                                = rolling.rail;
-      c.order                               = rolling.order;
+      if (rolling.factor_across)
+        c.place_factor = [&, c_ = std::cos(region.angle), s_ = std::sin(region.angle)](const double x,
+                                                                                       const double s) {
+          const PatchSurfaces::RailPlace place = heights.rail(x, s);
+          return rolling.factor_across(
+            region.reference[1] + s * c_ - place.height * s_ - surfaces.rail_origin_y(), place.angle);
+        };
+      c.speed        = V;
+      c.longitudinal = patch.creepage;
+      c.lateral      = patch.lateral_creepage;
+      c.spin         = patch.spin;
+      c.wheel        = rolling.wheel;
+      c.rail         = rolling.rail;
+      c.order        = rolling.order;
       if (rolling.slip_follows_surface)
         c.more_slip = [&heights, at_origin, by_x = turning[0] / V, by_s = dot(turning, heights.along()) / V](
                         const double, const double s) -> std::array<double, 2> {

@@ -51,7 +51,8 @@ namespace tread::reference
       for (std::size_t e = 0; e < r.pressure.size(); ++e)
         {
           const double shear = std::hypot(r.shear_x[e], r.shear_y[e]),
-                       limit = c.friction_bound(r.pressure[e]);
+                       limit =
+                         c.friction_bound(r.grid.x(e % r.grid.n_x), r.grid.y(e / r.grid.n_x), r.pressure[e]);
           if (shear > limit)
             {
               r.shear_x[e] *= limit / shear;

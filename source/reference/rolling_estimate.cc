@@ -30,8 +30,8 @@ namespace tread::reference
         , slip_to_shear(0.5 * combine(c.wheel, c.rail).hertz_modulus() / c.speed)
         , bound(r.pressure)
       {
-        for (double &b : bound)
-          b = c.friction_bound(b);
+        for (std::size_t e = 0; e < bound.size(); ++e)
+          bound[e] = c.friction_bound(grid.x(e % grid.n_x), grid.y(e / grid.n_x), bound[e]);
       }
 
       Measures measures() const
@@ -283,7 +283,9 @@ namespace tread::reference
     for (std::size_t e = 0; e < fine.pressure.size(); ++e)
       {
         const double shear = std::hypot(fine.shear_x[e], fine.shear_y[e]),
-                     limit = rolling_case.friction_bound(fine.pressure[e]);
+                     limit =
+                       rolling_case.friction_bound(fine.grid().x(e % fine.grid().n_x),
+                                                   fine.grid().y(e / fine.grid().n_x), fine.pressure[e]);
         if (shear > limit)
           {
             fine.shear_x[e] *= limit / shear;

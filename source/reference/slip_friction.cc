@@ -79,12 +79,13 @@ namespace tread::reference
                                          const Friction            &friction,
                                          const double               speed)
   {
-    if (friction.pressure_factor)
+    if (!friction.slip_friction)
       {
         problem.friction_share.clear();
         constexpr double least = 1e-4; // the solver divides by the bound
-        for (const double p : pressure)
-          problem.friction_share.push_back(std::max(least, friction.pressure_factor(p)));
+        for (std::size_t e = 0; e < pressure.size(); ++e)
+          problem.friction_share.push_back(std::max(
+            least, friction.friction_factor(grid.x(e % grid.n_x), grid.y(e / grid.n_x), pressure[e])));
         return solve_tangential(grid, pair, pressure, problem);
       }
     constexpr double       tolerance  = 1e-5;
@@ -145,9 +146,10 @@ namespace tread::reference
   {
     require(std::isfinite(friction.friction) && friction.friction >= 0., "friction", friction.friction,
             "a number >= 0");
-    require(friction.is_coulomb() || pair.coupling == 0., "slip_friction or pressure_factor with coupling",
-            pair.coupling, "that of like bodies, 0");
-    require(!friction.pressure_factor || !friction.slip_friction, "pressure_factor", 1.,
-            "none with slip_friction");
+    require(friction.is_coulomb() || pair.coupling == 0.,
+            "slip_friction, pressure_factor or place_factor with coupling", pair.coupling,
+            "that of like bodies, 0");
+    require(!friction.slip_friction || (!friction.pressure_factor && !friction.place_factor),
+            "pressure_factor or place_factor", 1., "none with slip_friction");
   }
 } // namespace tread::reference

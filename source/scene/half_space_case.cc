@@ -28,6 +28,10 @@ namespace tread
     c.spin                          = scene.motion.spin;
     const RunningSurfaces &surfaces = scene.surfaces();
     const double           y_middle = scene.first_contact().y;
+    if (scene.contact.varies_across())
+      c.place_factor = [&scene, y_middle](const double, const double y) {
+        return scene.factor_across(Vector3{0., y_middle + y, 0., 0.});
+      };
     if (!scene.rail.is_block() || surfaces.tread_offset)
       c.gap = [curvature_x = c.curvature_x, surfaces, y_middle,
                closed      = surfaces.gap(y_middle)](const double x, const double y) {
@@ -87,11 +91,16 @@ namespace tread
       text_of(c.traction_coefficient);
     if (c.slip_friction && reference::combine(c.wheel, c.rail).coupling != 0.)
       throw InputError(law + " with unlike materials of wheel and rail has no half-space answer");
-    if (c.pressure_factor && reference::combine(c.wheel, c.rail).coupling != 0.)
-      throw InputError("'Contact/Friction pressures (MPa)' with unlike materials of wheel and rail has no "
-                       "half-space answer");
-    if (c.pressure_factor && c.slip_friction)
-      throw InputError("'Contact/Friction pressures (MPa)' with " + law + " has no half-space answer");
+    const std::string places = "'Contact/Friction across (mm)' or 'Friction inclinations (deg)'";
+    for (const auto &[is_given, name] :
+         {std::pair(bool(c.pressure_factor), std::string("'Contact/Friction pressures (MPa)'")),
+          std::pair(bool(c.place_factor), places)})
+      {
+        if (is_given && reference::combine(c.wheel, c.rail).coupling != 0.)
+          throw InputError(name + " with unlike materials of wheel and rail has no half-space answer");
+        if (is_given && c.slip_friction)
+          throw InputError(name + " with " + law + " has no half-space answer");
+      }
     if (c.prescribe_force && c.traction_coefficient != 0. && std::abs(c.traction_coefficient) >= c.friction)
       throw InputError(traction + " is not below the friction coefficient in size, which is " +
                        text_of(c.friction) +
@@ -110,10 +119,10 @@ namespace tread
       }
     catch (const std::exception &error)
       {
-        if (c.prescribe_force && c.pressure_factor)
+        if (c.prescribe_force && (c.pressure_factor || c.place_factor))
           throw InputError(traction +
-                           " is beyond what 'Contact/Friction pressure factors' carry, or too near to "
-                           "it: lower it (" +
+                           " is beyond what the factors of section 'Contact' on the friction "
+                           "coefficient leave, or too near to it: lower it (" +
                            error.what() + ")");
         if (c.prescribe_force && c.slip_friction)
           throw InputError(traction + " is beyond what " + law +

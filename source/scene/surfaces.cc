@@ -404,6 +404,27 @@ namespace tread
   }
 
 
+  double Scene::factor_across(const Vector3 &place) const
+  {
+    constexpr double step = 50e-6; // m
+    if (!is_positioned())
+      {
+        const auto &top = surfaces().rail_top;
+        return contact.factor_across(place[1],
+                                     std::atan2(top(place[1] + step) - top(place[1] - step), 2. * step));
+      }
+    const PlacedWheel       &wheel = placed_wheel();
+    const WheelPatch        &patch = wheel.patches()[wheel.nearest_patch(place)];
+    const PlacedWheel::Place in_plane =
+      wheel.place_in_rail(dealii::Point<3>(place[0], place[1], place[2]), patch);
+    const double c = std::cos(patch.region.angle), s = std::sin(patch.region.angle);
+    const auto  &rail = wheel.surfaces.rail();
+    const double y    = std::clamp(patch.region.reference[1] + in_plane.beside * c + in_plane.below * s,
+                                   rail.begin(), rail.end());
+    return contact.factor_across(y - wheel.surfaces.rail_origin_y(), std::atan(rail.slope(y)));
+  }
+
+
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
     if (is_positioned())

@@ -135,12 +135,20 @@ namespace tread
     check_other_wheel();
     const WheelRolling rolling = wheel_rolling(*this, path_begin());
     require(
-      rolling.is_coulomb() || reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
-      "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)' empty where 'Wheelset' has "
-      "a position and wheel and rail are of unlike materials: half-space theory has no answer");
-    require(!rolling.slip_friction || !rolling.pressure_factor,
-            "'Contact/Friction law' must be Coulomb with 'Friction pressures (MPa)' where 'Wheelset' has a "
-            "position: half-space theory has no answer for both");
+      (rolling.is_coulomb() && !contact.varies_across()) ||
+        reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
+      "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)', 'Friction across (mm)' and "
+      "'Friction inclinations (deg)' empty where 'Wheelset' has a position and wheel and rail are of "
+      "unlike materials: half-space theory has no answer");
+    require(
+      !rolling.slip_friction || (!rolling.pressure_factor && !contact.varies_across()),
+      "'Contact/Friction law' must be Coulomb with 'Friction pressures (MPa)', 'Friction across (mm)' or "
+      "'Friction inclinations (deg)' where 'Wheelset' has a position: half-space theory has no answer for "
+      "both");
+    require(
+      !contact.varies_across() || !wheelset.both_wheels,
+      "'Contact/Friction across (mm)' and 'Friction inclinations (deg)' are for one rail: 'Wheelset/Both "
+      "wheels' must be false");
   }
 
 
@@ -234,6 +242,10 @@ namespace tread
         reference::Friction friction;
         set_friction(friction, scene, x + ahead);
         return friction;
+      };
+    if (scene.contact.varies_across())
+      rolling.factor_across = [contact = scene.contact](const double y, const double inclination) {
+        return contact.factor_across(y, inclination);
       };
     rolling.speed                = scene.motion.speed;
     rolling.angular_velocity     = given_angular_velocity(scene);

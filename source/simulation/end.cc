@@ -149,8 +149,8 @@ namespace tread
                                scene.contact.friction_factor(scene.path_end()) * patch.normal_force;
     // Where friction falls with slip, a force belongs to several creepages; where it depends on the pressure,
     // forces do not tell how near to sliding a patch is.
-    const bool by_creepage =
-      all_slips || !scene.friction_law()->is_constant() || !scene.contact.friction_pressures.empty();
+    const bool by_creepage = all_slips || !scene.friction_law()->is_constant() ||
+                             !scene.contact.friction_pressures.empty() || scene.contact.varies_across();
     reference::RollingCase c = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
     c.prescribe_force        = !by_creepage;
     c.creepage               = -answer.creepage;
@@ -182,9 +182,10 @@ namespace tread
       return "no comparison with steady rolling: the wheel is not round";
     if (!(answer.force[2] > 0.))
       return "";
-    if (!scene.contact.friction_pressures.empty() && !scene.friction_law()->is_constant())
-      return "no comparison with steady rolling: half-space theory has no answer for 'Contact/Friction "
-             "pressures (MPa)' with 'Contact/Friction law' " +
+    if ((!scene.contact.friction_pressures.empty() || scene.contact.varies_across()) &&
+        !scene.friction_law()->is_constant())
+      return "no comparison with steady rolling: half-space theory has no answer for factors on the friction "
+             "coefficient by pressure or across the rail with 'Contact/Friction law' " +
              scene.contact.friction_law;
     if (const std::string varies = friction_varies_at_end(answer.force[2]); !varies.empty())
       return "no comparison with steady rolling: " + varies;

@@ -90,9 +90,12 @@ namespace tread
         dynamics.add<RailOnBase>(*rail_base, rail_body);
       }
     dynamics.attach_contact(contact);
-    if (!scene.contact.friction_places.empty())
-      contact.vary_friction(
-        [this](const Vector3 place) { return this->scene.contact.friction_factor(place[0]); });
+    if (!scene.contact.friction_places.empty() || scene.contact.varies_across())
+      contact.vary_friction([this](const Vector3 place) {
+        const Scene &of = this->scene;
+        return of.contact.friction_factor(place[0]) *
+               (of.contact.varies_across() ? of.factor_across(place) : 1.);
+      });
     if (!scene.contact.friction_pressures.empty())
       contact.vary_friction_with_pressure(
         [this](const double pressure) { return this->scene.contact.pressure_factor(pressure); });

@@ -96,7 +96,7 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     double              worst   = 0.;
     for (std::size_t e = 0; e < rolling.pressure.size(); ++e)
       worst = std::max(worst, std::hypot(rolling.shear_x[e], rolling.shear_y[e]) -
-                                c.friction_bound(rolling.pressure[e]));
+                                c.friction_bound(0., 0., rolling.pressure[e]));
     check.absolute("falls with pressure, rolling: shear beyond the bound", worst / rolling.hertz_pressure, 0.,
                    1e-9);
     c.pressure_factor = [p_2 = 0.6 * rolling.hertz_pressure](const double p) {
@@ -108,6 +108,32 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                    0.33 * std::pow(0.36, 1.5), 0.05);
     check.that("falls with pressure, rolling: less traction than 0.2584",
                -rolling.traction_coefficient < 0.25 && -rolling.traction_coefficient > 0.15);
+  }
+
+  // Friction that is another one at each side: what slides carries the mean, and the same everywhere is another
+  // coefficient. Along the way only the factor of the own place counts.
+  {
+    RollingCase c  = locomotive(0.05, 0.33);
+    c.place_factor = [](const double, const double y) {
+      return y > 0. ? 1. : 0.4;
+    };
+    check.relative("less on one side, sliding", -solve_rolling(c).traction_coefficient, 0.7 * 0.33, 5e-3);
+    c.place_factor = [](const double x, const double y) {
+      return x > 0. && y > 0. ? 1. : 0.;
+    };
+    check.relative("friction on a quarter of the patch, sliding", -solve_rolling(c).traction_coefficient,
+                   0.25 * 0.33, 2e-2);
+    RollingCase half = locomotive(0.0016, 0.33), same = locomotive(0.0016, 0.165);
+    half.place_factor = [](const double, const double) {
+      return 0.5;
+    };
+    check.relative("half of it everywhere, rolling", solve_rolling(half).traction_coefficient,
+                   solve_rolling(same).traction_coefficient, 1e-6);
+    half.pressure_factor = [](const double) {
+      return 2.;
+    };
+    check.relative("factors of place and pressure multiply", solve_rolling(half).traction_coefficient,
+                   solve_rolling(locomotive(0.0016, 0.33)).traction_coefficient, 1e-6);
   }
 
   // Square elements of 0.29 mm beside 0.289 x 0.63 mm there, and printed with four digits.

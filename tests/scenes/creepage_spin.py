@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Imposed lateral creepage and spin, and falling friction: forces beside the half-space's, mirrored, on ranks, and energy."""
 
+import math
 import os
 import sys
 import tempfile
@@ -54,6 +55,24 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("falling friction: chatter", falls["slip_chatter_share"], 0.05)
     on_three = run(program, SCENE, path("falls on 3"), falling, 3)
     check.relative("falling friction on 3 ranks", share(on_three, "longitudinal"), share(falls, "longitudinal"), 1e-8)
+
+    # Friction that is another one at each side of the patch, by place and by the inclination of the crown (R 300 mm: 3 mm are 0.573 degrees): beside the
+    # half-space with the same. Mirrored, the lateral force changes its sign.
+    across = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=15", "Motion/Creepage=0.0012", "Motion/Lateral creepage=0",
+              "Motion/Spin (1 per m)=0.3"]
+    by_place = [*across, "Contact/Friction across (mm)=-3, 3", "Contact/Friction across factors=1, 0.2"]
+    fe = run(program, SCENE, path("across"), by_place)
+    wanted = run(program, SCENE, path("across, half-space"), by_place, more=["--reference-only"])
+    plain = run(program, SCENE, path("across, plain"), across, more=["--reference-only"])
+    check.that("less friction on one side changes the traction by a tenth", share(wanted, "longitudinal") < 0.9 * share(plain, "longitudinal"))
+    check.relative("less friction on one side: traction coefficient", share(fe, "longitudinal"), share(wanted, "longitudinal"), 0.01)
+    check.absolute("less friction on one side: lateral force over load", share(fe, "lateral"), share(wanted, "lateral"), 0.003)
+    check.relative("less friction on one side: frictional power, W", fe["frictional_power_W"], wanted["frictional_power_W"], 0.03)  # found: 2.2 %
+    angle = math.degrees(math.asin(3. / 300.))
+    inclined = run(program, SCENE, path("across, inclined"), [
+        *across, f"Contact/Friction inclinations (deg)={-angle}, {angle}", "Contact/Friction inclination factors=0.2, 1"])
+    for direction in ("longitudinal", "lateral"):
+        check.absolute(f"the same by inclination: {direction} force over load", share(inclined, direction), share(fe, direction), 1e-4)
 
     # As shipped, without a memory that is given: the steep laws whose slip would oscillate by itself take one; 16 % of the traction were lost.
     steep = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9", "Output/Write volume=false", "Contact/Friction coefficient=0.4", "Motion/Creepage=0.004",

@@ -47,7 +47,7 @@ with tempfile.TemporaryDirectory() as folder:
     for key in ("normal_force_N", "max_pressure_Pa"):
         check.relative(f"waves of no height: {key}", nothing[key], round_wheel[key], 1e-8)
     check.that("which is told", any("no part of 'Wheel/Deviation' comes to the rail" in line for line in nothing["warnings"])
-               and not round_wheel["warnings"])
+               and not any("Deviation" in line for line in round_wheel["warnings"]))
 
     # At the bottom of a long flat the wheel has another radius.
     depth, length = 0.9e-3, 0.2

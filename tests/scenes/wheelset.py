@@ -48,6 +48,27 @@ with tempfile.TemporaryDirectory() as folder:
         check.absolute(f"{name}: lateral creepage, 1e-3", 1e3 * patch["lateral_creepage"], 1e3 * given["lateral_creepage"], 0.01)
         check.relative(f"{name}: spin, 1/m", patch["spin_per_m"], given["spin_per_m"], 2e-3)
 
+    # A lubricated gauge corner, by the inclination of the surface (CONTACT's variant of the benchmark: 0.2 from 20 degrees on, 0.3 up to 10): planar, with a
+    # patch distance of 6 mm. The same by y of places that have these inclinations.
+    corner = {"Wheelset/Lateral shift (mm)": 5.5, "Wheelset/Yaw (mrad)": 13.2, "Wheelset/Roll (mrad)": -0.4777,
+              "Motion/Angular velocity (rad per s)": 4.3318864, "Wheelset/Patch distance (mm)": 6}
+    slippery = {**corner, "Contact/Friction inclinations (deg)": "10, 20", "Contact/Friction inclination factors": f"1, {2 / 3:.15g}"}
+    answer, plain = solve("right", slippery, program)["patches"][0], solve("right", corner, program)["patches"][0]
+    check.relative("friction by inclination: normal force, N", answer["normal_force_N"], 9907., 2e-3)
+    check.relative("friction by inclination: longitudinal force, N", abs(answer["longitudinal_force_N"]), 608.6, 0.015)
+    check.relative("friction by inclination: lateral force, N", abs(answer["lateral_force_N"]), 1963., 0.015)
+    check.that("as much everywhere carries a tenth more", abs(plain["lateral_force_N"]) > 1.1 * abs(answer["lateral_force_N"]))
+    points = np.loadtxt(os.path.join(ROOT, "prm", "curves", HEAD))
+    on_corner = points[(points[:, 0] > -38.) & (points[:, 0] < -20.)]
+    falls = np.degrees(np.arctan(-np.gradient(on_corner[:, 1], on_corner[:, 0])))
+    angles = np.linspace(20., 10., 21)
+    places = np.interp(-angles, -falls, on_corner[:, 0])
+    listed = lambda values: ", ".join(f"{value:.6g}" for value in values)
+    by_place = solve("right", {**corner, "Contact/Friction across (mm)": listed(places),
+                               "Contact/Friction across factors": listed(np.linspace(2 / 3, 1., 21))}, program)["patches"][0]
+    for key in ("longitudinal_force_N", "lateral_force_N"):
+        check.relative(f"friction by place, from {places[0]:.1f} to {places[-1]:.1f} mm: {key}", by_place[key], answer[key], 0.003)
+
     # Both wheels of a wheelset in the middle, and in mirrored positions.
     for shift in (0, 6):
         settings, _ = position("right", shift)

@@ -47,6 +47,10 @@ namespace tread
     /// above.
     std::function<reference::Friction(double x)> friction_along;
 
+    /// Where it changes across the rail: a factor on it by y in the rail's profile (m) and the inclination of
+    /// its surface in the track, dz/dy = tan(inclination) (rad).
+    std::function<double(double y, double inclination)> factor_across;
+
     reference::Elastic wheel, rail;
     double             speed         = 1.; ///< of the wheelset along the track, m/s
     double             lateral_speed = 0.; ///< of the wheelset over the track, to the own side, m/s
@@ -83,9 +87,9 @@ namespace tread
 
     reference::PlanarResult solution;
 
-    double wheel_radius = 0., rail_radius = 0.; ///< of the profiles at the reference point (m)
-    std::string body; ///< of the rail on which it lies, where it has several
-    double turn = 0.; ///< of the rail's normal from one edge of the patch to the other (rad)
+    double      wheel_radius = 0., rail_radius = 0.; ///< of the profiles at the reference point (m)
+    std::string body;                                ///< of the rail on which it lies, where it has several
+    double      turn = 0.; ///< of the rail's normal from one edge of the patch to the other (rad)
     /// How far both surfaces give way here under the pressure of the other patches, each a point force on
     /// half-spaces that is felt along their distance (m). The solution leaves it out.
     double sink_by_others = 0.;

@@ -29,14 +29,24 @@ namespace tread::reference
     /// Factor of `friction` at a pressure [Pa]; empty: 1. Not with slip_friction.
     std::function<double(double)> pressure_factor;
 
+    /// Factor of `friction` at a place of the patch, x and y of the grid [m]; empty: 1. Not with
+    /// slip_friction.
+    std::function<double(double x, double y)> place_factor;
+
+    /// Whether the coefficient is the same everywhere and at any time.
     bool is_coulomb() const
     {
-      return !slip_friction && !pressure_factor;
+      return !slip_friction && !pressure_factor && !place_factor;
     }
-    /// Largest shear stress that friction carries at a pressure [Pa], without slip.
-    double friction_bound(const double pressure) const
+    /// Of `friction` at a place and a pressure [m, Pa], without slip.
+    double friction_factor(const double x, const double y, const double pressure) const
     {
-      return friction * (pressure_factor ? pressure_factor(pressure) : 1.) * pressure;
+      return (pressure_factor ? pressure_factor(pressure) : 1.) * (place_factor ? place_factor(x, y) : 1.);
+    }
+    /// Largest shear stress that friction carries there [Pa], without slip.
+    double friction_bound(const double x, const double y, const double pressure) const
+    {
+      return friction * friction_factor(x, y, pressure) * pressure;
     }
   };
 } // namespace tread::reference

@@ -168,6 +168,10 @@ namespace tread
     /// Where the defect lies and how deep, one line; empty: there is none.
     std::string defect_in_words() const;
 
+    /// Of the friction coefficient across the rail, at a place of its surface in the reference configuration.
+    /// @pre contact.varies_across()
+    double factor_across(const Vector3 &place) const;
+
     /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;
 

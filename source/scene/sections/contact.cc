@@ -2,6 +2,7 @@
 #include <tread/scene/sections/contact.h>
 
 #include <algorithm>
+#include <numbers>
 #include <string>
 
 namespace tread
@@ -33,6 +34,23 @@ namespace tread
                 Double(0., 1e6), 10000);
     section.add("Friction pressure factors", pressure_factors,
                 "Factors on the friction coefficient at these pressures, one for each.", Double(0., 100.),
+                10000);
+    section.add(
+      "Friction across (mm)", across_places,
+      "Where across the rail the friction coefficient is multiplied by 'Friction across factors': y from "
+      "the middle of the rail's top, the gauge side at y < 0; ascending, separated by commas; linear in "
+      "between, constant beyond. As for a lubricated gauge corner.",
+      Double(-200., 200.), 10000);
+    section.add("Friction across factors", across_factors,
+                "Factors on the friction coefficient at these places, one for each.", Double(0., 100.),
+                10000);
+    section.add(
+      "Friction inclinations (deg)", inclinations,
+      "The same by the inclination of the rail's surface in the track, positive where it falls to the "
+      "gauge side: 0 on the top, 60 to 80 on the gauge face.",
+      Double(-90., 90.), 10000);
+    section.add("Friction inclination factors", inclination_factors,
+                "Factors on the friction coefficient at these inclinations, one for each.", Double(0., 100.),
                 10000);
     section.add(
       "Tolerance", tolerance,
@@ -74,6 +92,13 @@ namespace tread
   }
 
 
+  double ContactSection::factor_across(const double y, const double inclination) const
+  {
+    return interpolated(across_places, across_factors, y) *
+           interpolated(inclinations, inclination_factors, inclination);
+  }
+
+
   bool ContactSection::friction_varies(const double from, const double to) const
   {
     const double first  = friction_factor(from);
@@ -100,5 +125,9 @@ namespace tread
     check_table(friction_places, "Friction places (mm)", 1e-3, friction_factors, "Friction factors", "place");
     check_table(friction_pressures, "Friction pressures (MPa)", 1e6, pressure_factors,
                 "Friction pressure factors", "pressure");
+    check_table(across_places, "Friction across (mm)", 1e-3, across_factors, "Friction across factors",
+                "place");
+    check_table(inclinations, "Friction inclinations (deg)", std::numbers::pi / 180., inclination_factors,
+                "Friction inclination factors", "inclination");
   }
 } // namespace tread

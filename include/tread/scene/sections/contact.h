@@ -16,12 +16,21 @@ namespace tread
     unsigned int        max_sweeps           = 200;
     std::vector<double> friction_places, friction_factors;    ///< along the rail, m and -
     std::vector<double> friction_pressures, pressure_factors; ///< Pa and -
+    std::vector<double> across_places, across_factors;        ///< y of the rail, m and -
+    std::vector<double> inclinations, inclination_factors;    ///< of the rail's surface, rad and -
 
     /// Of the friction coefficient at x (m), linear between the places.
     double friction_factor(const double x) const;
     /// Of the friction coefficient at a pressure (Pa), linear between those given; 1 where none is given.
     double pressure_factor(const double pressure) const;
-    /// Whether that factor changes between two places (m).
+    /// The same across the rail, by y of the rail and by the inclination of its surface, positive where it
+    /// falls to the gauge side (m, rad).
+    double factor_across(const double y, const double inclination) const;
+    bool   varies_across() const
+    {
+      return !across_places.empty() || !inclinations.empty();
+    }
+    /// Whether friction_factor() changes between two places (m).
     bool friction_varies(const double from, const double to) const;
 
     /// @throws InputError
