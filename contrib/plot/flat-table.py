@@ -4,10 +4,12 @@
 
     flat-table.py --pitches IN.csv --output OUT.csv [--flat scanned] ...
     flat-table.py [--picture wheel-flat.png]
+    flat-table.py --cells 1 0.5
 
 IN.csv has a row for each turn: pitch_deg, by which the wheel is turned about its axle, negative where it rolls forward, from where the angle 0
 of its deviation is at the bottom, and load_N. OUT.csv has a row for each: pitch_deg, axle_height_mm over the nominal radius, positive up, normal_force_N of all patches
-and max_pressure_Pa. Without --pitches: the tables of doc/wheel-flat.md, given turns beside CONTACT's figures, and the picture.
+and max_pressure_Pa. Without --pitches: the tables of doc/wheel-flat.md, given turns beside CONTACT's figures, and the picture. With --cells: the largest pressure at three turns of the
+scanned flat by finite elements of these sizes in mm, beside the half-space.
 
 Two flats are there: "scanned", a worn S1002 of 490 mm with a measured flat on a rail of arcs, and "rounded", a cylinder of 450 mm with a flat of
 100 mm by a formula on a crown of 300 mm. --deviation FILE puts another one on the wheel of the first. The program does the work (tread --positions);
@@ -18,12 +20,14 @@ from __future__ import annotations
 
 import argparse
 import os
+import tempfile
+from collections.abc import Sequence
 
 from tread import Error, positions
 from tread.commands import command_parser, run_command
-from tread.flats import FLATS, SCAN, Options, solve
+from tread.flats import FLATS, POISSON, SCAN, SHEAR_MODULUS, Options, solve
 from tread.positions import number, rows_of
-from tread.runs import PROGRAM, ROOT
+from tread.runs import PROGRAM, ROOT, run
 
 GIVEN = os.path.join(ROOT, "contrib", "contact-data", "flat_given.csv")
 COLUMNS = ("pitch_deg", "axle_height_mm", "normal_force_N", "max_pressure_Pa")
@@ -42,6 +46,26 @@ def compare(options: Options, picture: str | None) -> None:
                   f"{100 * (pressure / printed - 1):+.2f} % |")
     if picture:
         draw(picture, options)
+
+
+def by_finite_elements(cells: Sequence[float], options: Options) -> None:
+    standing = {"Rail/Shape": "head", "Rail/Begin (mm)": "automatic", "Rail/Length (mm)": 0, "Rail/Ends": "symmetric", "Track/Foundation": "rigid",
+                "Vehicle/Wheel load (kN)": 125, "Motion/Speed (km per h)": 7.2, "Motion/Rolled distance (mm)": 0.1, "Motion/Start (mm)": "automatic",
+                "Mesh/Fine half width (mm)": 20, "Mesh/Path cell (mm)": 0, "Mesh/Fine from (mm)": 0, "Mesh/Fine to (mm)": 0, "Time stepping/Levels": 1,
+                "Output/Write volume": False}
+    steel = {"Young's modulus (GPa)": 2e-9 * SHEAR_MODULUS * (1 + POISSON), "Poisson's ratio": POISSON}
+    settings = {**standing, **{f"{body}/{name}": value for body in ("Wheel", "Rail") for name, value in steel.items()}}
+    turns = (-29., -37., -45.)
+    half_space = solve("scanned", [(turn, 125e3) for turn in turns], options)
+    print("| turn, degrees | half-space, MPa | " + " | ".join(f"cells of {cell:g} mm" for cell in cells) + " |\n|" + (2 + len(cells)) * "---|")
+    for turn, answer in zip(turns, half_space):
+        line = f"| {turn:g} | {1e-6 * answer['max_pressure_Pa']:.0f} |"
+        for cell in cells:
+            with tempfile.TemporaryDirectory() as folder:
+                summary = run("flat/scanned-flat.prm", {**settings, "Mesh/Finest cell (mm)": cell, "Wheel/Deviation pitch (deg)": turn},
+                              output=os.path.join(folder, "run"), program=options.program).summary
+            line += f" {1e-6 * summary['max_pressure_Pa']:.0f} ({100 * (summary['max_pressure_Pa'] / answer['max_pressure_Pa'] - 1):+.1f} %) |"
+        print(line)
 
 
 def draw(path: str, options: Options) -> None:
@@ -77,6 +101,7 @@ def main() -> None:
     parser.add_argument("--pitches", metavar="IN.csv")
     parser.add_argument("--output", metavar="OUT.csv")
     parser.add_argument("--picture", metavar="PNG", help="of the scanned flat")
+    parser.add_argument("--cells", type=float, nargs="+", metavar="MM", help="finite elements of these sizes")
     parser.add_argument("--flat", choices=FLATS, default="scanned")
     parser.add_argument("--deviation", default=SCAN, help="what the wheel has beyond round, instead of the scan")
     parser.add_argument("--smoothing", type=float, default=0., help="of that, mm (0)")
@@ -87,6 +112,9 @@ def main() -> None:
     if bool(arguments.pitches) != bool(arguments.output):
         raise Error("--pitches and --output belong together")
     options = Options(arguments.deviation, arguments.smoothing, arguments.friction, arguments.element, arguments.program)
+    if arguments.cells:
+        by_finite_elements(arguments.cells, options)
+        return
     if not arguments.pitches:
         compare(options, arguments.picture)
         return

@@ -23,7 +23,9 @@ PATH = os.path.join(os.path.dirname(os.path.realpath(__file__)), "parameters.sch
 # Texts of another form, which the program takes apart itself: a JSON pattern of each.
 NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*"
 TRIPLE = f"{NUMBER},{NUMBER},{NUMBER.replace('[-+]', '[+]')}"
-FORMS = {"x,y,depth in mm, depth above 0, entries separated by semicolons": f"^({TRIPLE}(;{TRIPLE})*;?)?\\s*$"}
+ZONE = f"{NUMBER}(:{NUMBER}){{4}}"
+FORMS = {"x,y,depth in mm, depth above 0, entries separated by semicolons": f"^({TRIPLE}(;{TRIPLE})*;?)?\\s*$",
+         "begin:end:depth:yield stress:tangent modulus, in mm, MPa and GPa": f"^({ZONE}(,{ZONE})*,?)?\\s*$"}
 IMPOSSIBLE = "@"  # a value that only parameters with any text take
 
 
