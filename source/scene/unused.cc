@@ -223,6 +223,11 @@ namespace tread
                       text_in_mm(path_begin(last_wheel())) + " to " + text_in_mm(meshed_end()) +
                       " mm: the friction factor is " + text_of(contact.friction_factor(path_begin())) +
                       " on all of it");
+    if (const auto &places = contact.across_places; !places.empty() && !is_positioned())
+      if (const PatchExtent &patch = patch_extent(); places.front() > patch.end || places.back() < patch.begin)
+        lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
+                        text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +
+                        " mm: the factor is the same on all of it");
     if (const auto &pressures = contact.friction_pressures;
         !pressures.empty() && (pressures.front() > largest_pressure || pressures.back() < least_pressure))
       lines.push_back("'Contact/Friction pressures (MPa)', from " + text_of(1e-6 * pressures.front()) +

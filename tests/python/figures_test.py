@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import comparison, contact_cases, creep_table, differences, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
+from tread import comparison, contact_cases, creep_table, differences, flat_force, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
@@ -48,6 +48,50 @@ def write_table(path, table):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w", encoding="utf-8") as stream:
         stream.write(",".join(table) + "\n" + "".join(",".join(map(str, row)) + "\n" for row in zip(*table.values())))
+
+
+class FlatForce(unittest.TestCase):
+    """The simple model of a wheel with a flat, in limits that have closed forms."""
+
+    LOAD, MASS, STIFFNESS = 1e5, 900., 1e11
+
+    def rolled(self, track, height, speed, way):
+        return flat_force.roll(track, height, speed, way, self.LOAD, self.MASS, self.STIFFNESS, 0., 5e-6)
+
+    def test_a_mass_on_its_spring(self):
+        # On a track that does not yield, over a support, after a step of 1 um: the linearised spring's cosine.
+        rigid = flat_force.Track(young=1e16, spans=4, pad_stiffness=1e14, ballast_stiffness=1e14, pad_damping=0., ballast_damping=0.)
+        step = 1e-6
+        places, forces = self.rolled(rigid, lambda way: step if way > 0. else 0., 0.5, 5e-3)
+        stiffness = 1.5 * self.STIFFNESS**(2 / 3) * self.LOAD**(1 / 3)
+        expected = self.LOAD + stiffness * step * np.cos(math.sqrt(stiffness / self.MASS) * places / 0.5)
+        np.testing.assert_allclose(forces, expected, atol=0.03 * stiffness * step)
+
+    def test_a_smooth_wheel_keeps_its_load(self):
+        places, forces = self.rolled(flat_force.Track(spans=16), lambda way: 0., 10., 0.1)
+        self.assertAlmostEqual(places[-1], 0.1, delta=2e-4)
+        np.testing.assert_allclose(forces, self.LOAD, rtol=0.02)
+
+    def test_the_beam(self):
+        # Cubics are exact between nodes; a cantilever's tip deflects by bending and shear.
+        beam = flat_force.Beam(flat_force.Track(spans=2, elements=4))
+        own, shape = beam.shape(0.4)
+        x = np.repeat(beam.size * np.arange(beam.n), 2)
+        cubic = np.where(np.arange(2 * beam.n) % 2 == 0, x**3, 3. * x**2)
+        self.assertAlmostEqual(shape @ cubic[own], 0.4**3, delta=1e-12)
+        track = flat_force.Track(spans=2, elements=4, pad_stiffness=0., ballast_stiffness=1.)
+        beam = flat_force.Beam(track)
+        free = slice(2, 2 * beam.n)
+        force = np.zeros(2 * beam.n - 2)
+        force[-2] = 1e3
+        tip = np.linalg.solve(beam.stiffness[free, free], force)[-2]
+        length, bending = 1.2, track.young * track.second_moment
+        shear = track.shear_factor * track.area * track.young / (2. * (1. + track.poisson))
+        self.assertAlmostEqual(tip / (1e3 * (length**3 / (3. * bending) + length / shear)), 1., delta=1e-6)
+        # The mass of the rail, by a rigid motion, and of the sleeper.
+        rigid = np.where(np.arange(2 * beam.n) % 2 == 0, 1., 0.)
+        self.assertAlmostEqual(rigid @ beam.mass[:2 * beam.n, :2 * beam.n] @ rigid, 7800. * 76.70e-4 * 1.2, delta=1e-6)
+        self.assertEqual(beam.mass[-1, -1], 200.)
 
 
 class InFolder(unittest.TestCase):

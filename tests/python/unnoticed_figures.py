@@ -248,6 +248,7 @@ KNOWN: list[tuple[str, str]] = [
     (r"half_space\.solve(_patch)?", "the library's answers: compared by tests/scenes/unchecked.py and batch.py"),
     (r"creep_table\..*", "rows of contrib/contact-data/creep_table.csv and random input: compared with the library's answers by tests/scenes/batch.py"),
     (r"manchester\..*", "rolled and solved by tests/scenes/wheelset.py and wheelset_rolling.py"),
+    (r"(flats|positions)\..*", "answers of the program for whole tables: compared by tests/scenes/positions.py beside CONTACT's"),
     (r"arcs\.joints.*", "joints of arcs, of which the radii are compared"),
     (r"measured_runs\.(dry_run|contact_measures|run_scene.*|in_turn.*turn.*)", "costs and figures of whole programs, for tables of doc/; compared in figures_test.py where a stand-in has them"),
     (r"pictures\.(crossing|impact|mesh|patch)\..*", "what pictures show: pictures_test.py reads it off drawn axes, in a test that takes too long to be watched"),

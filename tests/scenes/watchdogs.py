@@ -30,6 +30,9 @@ with tempfile.TemporaryDirectory() as folder:
         said = [line for line in result.stdout.splitlines() if line.startswith("WARNING")]
         with open(os.path.join(path(name), "summary.json"), encoding="utf-8") as stream:
             kept = json.load(stream)["warnings"]
+        # All are shorter than steady rolling takes.
+        short = [line for line in kept if "patch lengths rolled" in line]
+        kept = [line for line in kept if line not in short]
         if not check.that(f"{name}: it ends, and says so", result.returncode == 0 and len(kept) == (1 if words else 0)
                           and all(word in kept[0] and any(word in line for line in said) for word in words)):
             print(result.returncode, result.stderr, *kept, sep="\n")
