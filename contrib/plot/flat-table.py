@@ -111,6 +111,8 @@ def main() -> None:
     arguments = parser.parse_args()
     if bool(arguments.pitches) != bool(arguments.output):
         raise Error("--pitches and --output belong together")
+    if arguments.flat == "rounded" and (arguments.deviation != SCAN or arguments.smoothing > 0.):
+        raise Error("--deviation and --smoothing are of the scanned flat")
     options = Options(arguments.deviation, arguments.smoothing, arguments.friction, arguments.element, arguments.program)
     if arguments.cells:
         by_finite_elements(arguments.cells, options)

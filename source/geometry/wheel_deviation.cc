@@ -190,24 +190,39 @@ namespace tread
         angles.pop_back();
         scan.dz.pop_back();
       }
-    if (smoothing > 0.)
-      for (std::vector<double> &line : scan.dz)
-        line = smoothed_values(scan.y, line, smoothing);
-    if (is_closed)
+    // Lines beyond the seam or the ends, so many that neither the spline nor its smoothing knows of them: the
+    // scan again, or the round wheel.
+    std::vector<double> distances;
+    for (std::size_t i = 1; i < angles.size(); ++i)
+      distances.push_back(angles[i] - angles[i - 1]);
+    constexpr double  smoothed_beyond = 3.; // lengths of smoothing
+    const double      usual           = median(distances);
+    const std::size_t n               = angles.size(),
+                      more            = overlap + std::ceil(smoothed_beyond * smoothing / (radius * usual));
+    if (is_closed || smoothing > 0.)
       {
-        const std::size_t n = angles.size(), more = std::min(overlap, n);
-        const auto        old_angles = angles;
-        const auto        old_lines  = scan.dz;
-        for (std::size_t k = 0; k < more; ++k)
-          {
-            angles.push_back(old_angles[k] + 2. * pi);
-            scan.dz.push_back(old_lines[k]);
-            angles.insert(angles.begin(), old_angles[n - 1 - k] - 2. * pi);
-            scan.dz.insert(scan.dz.begin(), old_lines[n - 1 - k]);
-          }
+        const DeviationLines old = scan;
+        const auto add = [&](const bool in_front, const double angle, const std::vector<double> &line) {
+          angles.insert(in_front ? angles.begin() : angles.end(), angle);
+          scan.dz.insert(in_front ? scan.dz.begin() : scan.dz.end(), line);
+        };
+        const std::vector<double> round(scan.y.size(), 0.);
+        for (std::size_t k = 0; k < (is_closed ? std::min(more, n) : more); ++k)
+          if (is_closed)
+            {
+              add(false, old.angles[k] + 2. * pi, old.dz[k]);
+              add(true, old.angles[n - 1 - k] - 2. * pi, old.dz[n - 1 - k]);
+            }
+          else if (angles.back() - angles.front() + 2. * usual < 2. * pi)
+            {
+              add(false, angles.back() + usual, round);
+              add(true, angles.front() - usual, round);
+            }
       }
     if (smoothing > 0.)
       {
+        for (std::vector<double> &line : scan.dz)
+          line = smoothed_values(scan.y, line, smoothing);
         std::vector<double> along;
         for (const double angle : angles)
           along.push_back(radius * angle);
@@ -361,6 +376,12 @@ namespace tread
       return *value;
     }
 
+    void check_slope(const std::string &text, const double slope)
+    {
+      require(slope <= steepest, "'" + text + "' is as steep as " + text_of(slope) +
+                                   " along the tread; a wheel has up to " + text_of(steepest));
+    }
+
     std::shared_ptr<const WheelDeviation> flat(const std::string &text, const double radius)
     {
       struct Setting
@@ -389,11 +410,12 @@ namespace tread
       const auto in_m = [&](const std::string &name) {
         return 1e-3 * known.at(name).value;
       };
+      check_slope(text, pi * in_m("depth_mm") / in_m("length_mm"));
       return std::make_shared<RoundedFlat>(in_m("length_mm"), in_m("depth_mm"), in_m("across_radius_mm"),
                                            degree * known.at("angle_deg").value, radius);
     }
 
-    std::shared_ptr<const WheelDeviation> waves(const std::string &text)
+    std::shared_ptr<const WheelDeviation> waves(const std::string &text, const double radius)
     {
       std::vector<OutOfRound::Wave> list;
       for (const auto &[name, words] : settings(text))
@@ -407,6 +429,8 @@ namespace tread
                                            : degree * number_of(text, "the crest in degrees",
                                                                 words.substr(at + 1), -360., 360.)});
         }
+      for (const OutOfRound::Wave &wave : list)
+        check_slope(text, wave.order * wave.amplitude / radius);
       require(!list.empty(), "'" + text + "': no wave; each is ORDER=AMPLITUDE_MM@CREST_DEG");
       return std::make_shared<OutOfRound>(list);
     }
@@ -421,7 +445,7 @@ namespace tread
     if (text.starts_with("flat:"))
       return flat(text, radius);
     if (text.starts_with("waves:"))
-      return waves(text);
+      return waves(text, radius);
     return std::make_shared<ScannedDeviation>(read_deviation_lines(text, profile), radius, smoothing);
   }
 } // namespace tread

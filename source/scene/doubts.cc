@@ -202,51 +202,62 @@ namespace tread
 
   double Scene::detail_along() const
   {
-    const Defect *made = made_defect();
-    if (!made || (defect.shape != "profile" && defect.shape != "map"))
+    const Defect *made    = made_defect();
+    const bool    is_file = made && (defect.shape == "profile" || defect.shape == "map");
+    if (!is_file && is_round())
       return 0.;
     constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
-    const double           a = hertz(*this, static_load()).semi_axis_x;
-    std::vector<double>    begins(made->repeated_at);
-    begins.push_back(made->begin);
-    double largest = 0.;
-    for (const double begin : begins)
+    const double           a       = hertz(*this, static_load()).semi_axis_x;
+    double                 largest = 0.;
+    const auto             look = [&](const double cell, const double from, const double to, const bool alike,
+                          const std::function<double(double, double)> &height) {
+      if (!(to > from))
+        return;
+      const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
+      for (unsigned int line = 0; line < n_across; ++line)
+        {
+          const double y =
+            patch_extent().begin + (patch_extent().end - patch_extent().begin) * (line + 0.5) / n_across;
+          // Where the nodes lie is not known: the way between them begins with the defect.
+          std::vector<double> squares(n, 0.);
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              double of_node[4];
+              for (unsigned int i = 0; i < 4; ++i)
+                of_node[i] = height(from + (k + i - 1. + 0.5) * cell, y);
+              for (unsigned int j = 1; j < n_between; ++j)
+                {
+                  const double s        = double(j) / n_between;
+                  const double of_nodes = cubic_between(of_node, s);
+                  const double off      = height(from + (k + s + 0.5) * cell, y) - of_nodes;
+                  squares[k] += off * off / (n_between - 1.);
+                }
+            }
+          double sum = 0.;
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              sum += squares[k] - (k >= window ? squares[k - window] : 0.);
+              largest = std::max(largest, std::sqrt(std::max(0., sum) / std::min(n, window)));
+            }
+          if (alike)
+            break;
+        }
+    };
+    if (is_file)
       {
-        const double cell = cell_along(begin, begin + made->length),
-                     from = std::max(begin - 2. * cell, path_begin(last_wheel()) - a),
-                     to   = std::min(begin + made->length + 2. * cell, meshed_end() + a);
-        if (!(to > from))
-          continue;
-        const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
-        for (unsigned int line = 0; line < n_across; ++line)
+        std::vector<double> begins(made->repeated_at);
+        begins.push_back(made->begin);
+        for (const double begin : begins)
           {
-            const double y =
-              patch_extent().begin + (patch_extent().end - patch_extent().begin) * (line + 0.5) / n_across;
-            // Where the nodes lie is not known: the way between them begins with the defect.
-            std::vector<double> squares(n, 0.);
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                double of_node[4];
-                for (unsigned int i = 0; i < 4; ++i)
-                  of_node[i] = made->height(from + (k + i - 1. + 0.5) * cell, y);
-                for (unsigned int j = 1; j < n_between; ++j)
-                  {
-                    const double s        = double(j) / n_between;
-                    const double of_nodes = cubic_between(of_node, s);
-                    const double off      = made->height(from + (k + s + 0.5) * cell, y) - of_nodes;
-                    squares[k] += off * off / (n_between - 1.);
-                  }
-              }
-            double sum = 0.;
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                sum += squares[k] - (k >= window ? squares[k - window] : 0.);
-                largest = std::max(largest, std::sqrt(std::max(0., sum) / std::min(n, window)));
-              }
-            if (std::isinf(made->width))
-              break; // all lines are alike
+            const double cell = cell_along(begin, begin + made->length);
+            look(cell, std::max(begin - 2. * cell, path_begin(last_wheel()) - a),
+                 std::min(begin + made->length + 2. * cell, meshed_end() + a), std::isinf(made->width),
+                 [&](const double x, const double y) { return made->height(x, y); });
           }
       }
+    if (!is_round())
+      look(cell_along(path_begin(), meshed_end()), -a, motion.meshed_distance() + a, false,
+           [&](const double way, const double y) { return surfaces().deviation(way / wheel.radius, y); });
     return largest;
   }
 
@@ -258,8 +269,9 @@ namespace tread
     const double     detail = detail_along(), load = static_load();
     if (!(detail > 0. && load > 0.))
       return "";
-    const Defect                &made     = *made_defect();
-    const double                 cell     = cell_along(made.begin, made.begin + made.length);
+    const Defect *made = made_defect();
+    const double  cell = made && is_round() ? cell_along(made->begin, made->begin + made->length)
+                                            : cell_along(path_begin(), meshed_end());
     const reference::RollingCase touching = half_space_case(*this, load, 0.);
     const double                 modulus  = reference::combine(touching.wheel, touching.rail).hertz_modulus(),
                  share                    = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
@@ -267,11 +279,13 @@ namespace tread
     if (!(share > large))
       return "";
     return format(
-      "'Defect/Profile file' has detail along the rail of %.2g um within a cell of %.3g mm, noise or "
+      "%s has detail along the rail of %.2g um within a cell of %.3g mm, noise or "
       "a step, which a pressure of %.0f %% of Hertz's presses flat (above %g %%): pressure and stress "
-      "depend on the cells; smooth the file, give 'Defect/Ramp (mm)' where it begins with a step, or use "
-      "smaller cells",
-      1e6 * detail, 1e3 * cell, 100. * share, 100. * large);
+      "depend on the cells; %s, or use smaller cells",
+      is_round() ? "'Defect/Profile file'" : "'Wheel/Deviation'", 1e6 * detail, 1e3 * cell, 100. * share,
+      100. * large,
+      is_round() ? "smooth the file, give 'Defect/Ramp (mm)' where it begins with a step"
+                 : "give 'Wheel/Deviation smoothing (mm)'");
   }
 
 

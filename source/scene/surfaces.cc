@@ -71,7 +71,7 @@ namespace tread
   {
     const auto made = make_path();
     made->defect    = defect.make(located(defect.profile_file));
-    shape_wheel(made->surfaces);
+    shape_wheel(*made);
     shape_rail(*made);
     made->contact = tread::first_contact(made->surfaces, made->path_begin);
     shapes        = made;
@@ -138,10 +138,12 @@ namespace tread
 
   std::string Scene::defect_in_words() const
   {
-    const Defect *made = made_defect();
+    const Defect     *made     = made_defect();
+    const std::string wheel_is = is_round() ? "" : "the wheel is not round: " + shapes->deviation;
     if (!made)
-      return "";
-    return format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * made->begin,
+      return wheel_is;
+    return (is_round() ? "" : wheel_is + "; ") +
+           format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * made->begin,
                   1e3 * (made->begin + made->length), 1e3 * made->depth,
                   made->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : "") +
            (made->repeated_at.empty()
@@ -151,9 +153,10 @@ namespace tread
   }
 
 
-  void Scene::shape_wheel(RunningSurfaces &surfaces) const
+  void Scene::shape_wheel(Shapes &made) const
   {
-    surfaces.radius = wheel.radius;
+    RunningSurfaces &surfaces = made.surfaces;
+    surfaces.radius           = wheel.radius;
     try
       {
         if (const auto offset =
@@ -169,17 +172,24 @@ namespace tread
       }
     if (wheel.deviation.empty())
       return;
+    require(!wheel.deviation.ends_with(".slcw") ||
+              (!wheel.profile_placement.is_mirrored && wheel.profile_placement.shift == 0.),
+            "'Wheel/Deviation' " + wheel.deviation +
+              " has sections in the axes of the wheel: 'Tread profile mirrored' and 'Tread profile shift "
+              "(mm)', which "
+              "move the profile alone, must be false and 0");
     const auto round = [&] {
       return wheel_curve(located(wheel.tread_profile), wheel.profile_placement);
     };
     try
       {
-        surfaces.deviation =
-          [more  = wheel_deviation(located(wheel.deviation), round, wheel.radius, wheel.deviation_smoothing),
-           pitch = wheel.deviation_pitch,
-           y_circle = wheel.lateral_position](const double angle, const double y) {
-            return more->at(angle - pitch, y - y_circle).dz;
-          };
+        const auto more =
+          wheel_deviation(located(wheel.deviation), round, wheel.radius, wheel.deviation_smoothing);
+        made.deviation     = more->in_words();
+        surfaces.deviation = [more, pitch = wheel.deviation_pitch,
+                              y_circle = wheel.lateral_position](const double angle, const double y) {
+          return more->at(angle - pitch, y - y_circle).dz;
+        };
       }
     catch (const std::runtime_error &error)
       {

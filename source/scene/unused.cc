@@ -66,11 +66,8 @@ namespace tread
        "Shape",
        !wheel.is_full() || is_positioned(),
        "sector"},
-      {"Wheel",
-       {"Deviation smoothing (mm)", "Deviation pitch (deg)"},
-       "Deviation",
-       !wheel.deviation.empty(),
-       "a file or a rule"},
+      {"Wheel", {"Deviation pitch (deg)"}, "Deviation", !wheel.deviation.empty(), "a file or a rule"},
+      {"Wheel", {"Deviation smoothing (mm)"}, "Deviation", wheel.has_scan(), "a file"},
       {"Wheelset", {}, "Lateral shift (mm)", is_positioned(), "a number"},
       {"Guidance", {"File"}, "Kind", guidance.kind == Guidance::file, "file"},
       {"Guidance",
@@ -224,7 +221,8 @@ namespace tread
                       " mm: the friction factor is " + text_of(contact.friction_factor(path_begin())) +
                       " on all of it");
     if (const auto &places = contact.across_places; !places.empty() && !is_positioned())
-      if (const PatchExtent &patch = patch_extent(); places.front() > patch.end || places.back() < patch.begin)
+      if (const PatchExtent &patch = patch_extent();
+          places.front() > patch.end || places.back() < patch.begin)
         lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
                         text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +
                         " mm: the factor is the same on all of it");

@@ -246,6 +246,8 @@ namespace tread
     std::vector<std::string> warnings = scene.unused_parameters();
     for (const std::vector<std::string> &more : {scene.implausible_values(), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
+    if (!scene.is_round())
+      warnings.push_back("the wheel is taken as round: tread --positions solves wheels that are not");
     profiles.summarise(summary);
     summary.set("warnings", warnings);
     summary.set("wall_s", progress.seconds());
@@ -282,8 +284,6 @@ namespace tread
       progress.say("WARNING: " + warning);
     if (scene.made_defect())
       progress.say("the defect is left out: half-space theory rolls over a smooth rail");
-    if (!scene.is_round())
-      progress.say("the wheel is taken as round: tread --positions solves wheels that are not");
     progress.say(summary.table());
     if (!no_transient.empty())
       progress.say("no transient.csv, for a solver that knows one friction coefficient and like bodies: " +

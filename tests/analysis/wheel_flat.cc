@@ -88,6 +88,23 @@ namespace
                    0.05);
     check.absolute("of waves four times as long all but 0.4 %, um", 1e6 * wavy(long_wave).at(0., 0.).dz,
                    10. / (1. + 1. / 256.), 0.05);
+    // The same at the seam of a scan as on its other side, and where a scan ends as of one that goes on.
+    const auto around_from = [&](const double begin) {
+      const auto wrapped = [](const double angle, const double y) {
+        return bump(std::remainder(angle, 2. * pi), y);
+      };
+      return ScannedDeviation(lines(begin, begin + 2. * pi * 1439. / 1440., 1439, wrapped), radius, 60e-3);
+    };
+    const ScannedDeviation seam = around_from(0.), whole = around_from(-pi),
+                           part(lines(-0.105, 0.105, 48, bump), radius, 60e-3);
+    for (const double angle : {-0.104, -0.02, 0., 0.03, 0.103})
+      {
+        check.absolute("smoothed over a seam on the flat, um", 1e6 * seam.at(angle, 5e-3).dz,
+                       1e6 * whole.at(angle, 5e-3).dz, 0.1);
+        check.absolute("smoothed at the end of a scan, um", 1e6 * part.at(angle, 5e-3).dz,
+                       1e6 * whole.at(angle, 5e-3).dz, 2.);
+      }
+    check.below("smoothing leaves no step beyond a scan, um", 1e6 * part.at(0.35, 5e-3).dz, 1.);
   }
 
   WheelOnRail pair(const std::shared_ptr<const WheelDeviation> &deviation, const double of_radius = radius)
@@ -259,6 +276,8 @@ namespace
     refused("flat: length_mm=50 depth_mm=1 depth_mm=2", "twice");
     refused("flat: length_mm=50 depth_m=1", "not known");
     refused("flat: length_mm=50 depth_mm=-1", "allowed");
+    refused("waves: 1000=1", "steep");
+    refused("flat: length_mm=2 depth_mm=1", "steep");
     refused("waves: 2.5=0.1", "whole number");
     refused("waves:", "no wave");
   }

@@ -165,7 +165,7 @@ namespace tread
     /// in a table over its lateral shift
     std::vector<std::string> implausible_values(const bool stands_in_track = false) const;
 
-    /// Where the defect lies and how deep, one line; empty: there is none.
+    /// Where the defect lies and how deep, and what the wheel is not round by, one line; empty: neither.
     std::string defect_in_words() const;
 
     /// Of the friction coefficient across the rail, at a place of its surface in the reference configuration.
@@ -343,7 +343,8 @@ namespace tread
       double                                path_begin, path_end, rail_begin; ///< x, m
       RunningSurfaces                       surfaces;
       std::function<double(double, double)> rail_height;
-      std::shared_ptr<const Defect>         defect; ///< null: none
+      std::string                           deviation; ///< of the wheel from round, in words
+      std::shared_ptr<const Defect>         defect;    ///< null: none
       FirstContact                          contact;
       PatchExtent                           patch;
       std::vector<Island>                   islands; ///< of that patch
@@ -406,7 +407,7 @@ namespace tread
     std::shared_ptr<Shapes> make_path() const;
     /// @throws InputError
     void make_shapes();
-    void shape_wheel(RunningSurfaces &surfaces) const;
+    void shape_wheel(Shapes &made) const;
     void shape_rail(Shapes &made) const;
     /// @param islands of the patch, found with it
     PatchExtent patch_under_load(std::vector<Island> &islands) const;

@@ -39,6 +39,11 @@ namespace tread
     }
     /// Whether the tread is a file's.
     bool has_measured_profile() const;
+    /// Whether the deviation is a file's.
+    bool has_scan() const
+    {
+      return !deviation.empty() && !deviation.starts_with("flat:") && !deviation.starts_with("waves:");
+    }
     /// Of what is meshed, across.
     double half_width() const
     {
