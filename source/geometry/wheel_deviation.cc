@@ -192,33 +192,37 @@ namespace tread
       }
     // Lines beyond the seam or the ends, so many that neither the spline nor its smoothing knows of them: the
     // scan again, or the round wheel.
-    std::vector<double> distances;
-    for (std::size_t i = 1; i < angles.size(); ++i)
-      distances.push_back(angles[i] - angles[i - 1]);
-    constexpr double  smoothed_beyond = 3.; // lengths of smoothing
-    const double      usual           = median(distances);
-    const std::size_t n               = angles.size(),
-                      more            = overlap + std::ceil(smoothed_beyond * smoothing / (radius * usual));
-    if (is_closed || smoothing > 0.)
+    constexpr double beyond = 3.; // lengths of smoothing
+    const double     reach  = beyond * smoothing / radius;
+    DeviationLines   front{"", {}, {}, {}}, back(front);
+    const auto       add = [](DeviationLines &to, const double angle, const std::vector<double> &line) {
+      to.angles.push_back(angle);
+      to.dz.push_back(line);
+    };
+    if (is_closed)
       {
-        const DeviationLines old = scan;
-        const auto add = [&](const bool in_front, const double angle, const std::vector<double> &line) {
-          angles.insert(in_front ? angles.begin() : angles.end(), angle);
-          scan.dz.insert(in_front ? scan.dz.begin() : scan.dz.end(), line);
-        };
+        const std::size_t n = angles.size();
+        for (std::size_t k = 0; k < n && (k < overlap || angles[k] - angles.front() < reach); ++k)
+          add(back, angles[k] + 2. * pi, scan.dz[k]);
+        for (std::size_t k = n; k-- > 0 && (n - k <= overlap || angles.back() - angles[k] < reach);)
+          add(front, angles[k] - 2. * pi, scan.dz[k]);
+      }
+    else if (smoothing > 0.)
+      {
+        constexpr unsigned int    lines_of_length = 10;
+        const double              step            = smoothing / (lines_of_length * radius);
         const std::vector<double> round(scan.y.size(), 0.);
-        for (std::size_t k = 0; k < (is_closed ? std::min(more, n) : more); ++k)
-          if (is_closed)
+        for (unsigned int k = 1; k <= beyond * lines_of_length; ++k)
+          if (angles.back() - angles.front() + 2. * k * step < 2. * pi)
             {
-              add(false, old.angles[k] + 2. * pi, old.dz[k]);
-              add(true, old.angles[n - 1 - k] - 2. * pi, old.dz[n - 1 - k]);
-            }
-          else if (angles.back() - angles.front() + 2. * usual < 2. * pi)
-            {
-              add(false, angles.back() + usual, round);
-              add(true, angles.front() - usual, round);
+              add(back, angles.back() + k * step, round);
+              add(front, angles.front() - k * step, round);
             }
       }
+    angles.insert(angles.begin(), front.angles.rbegin(), front.angles.rend());
+    scan.dz.insert(scan.dz.begin(), front.dz.rbegin(), front.dz.rend());
+    angles.insert(angles.end(), back.angles.begin(), back.angles.end());
+    scan.dz.insert(scan.dz.end(), back.dz.begin(), back.dz.end());
     if (smoothing > 0.)
       {
         for (std::vector<double> &line : scan.dz)
