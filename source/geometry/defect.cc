@@ -114,11 +114,12 @@ namespace tread
         deepest            = std::max(deepest, datum == LineDatum::fitted ? std::abs(depth) : depth);
       }
     if (!(deepest > 0.))
-      throw std::runtime_error(datum == LineDatum::fitted
-                                 ? "the profile is straight"
-                                 : "the profile lies above the line between its ends, and a defect of 'Shape' profile lies "
-                                 "below it: if its depth is counted downwards, change the sign of z; a raised "
-                                 "weld is given by 'Shape' map");
+      throw std::runtime_error(
+        datum == LineDatum::fitted
+          ? "the profile is straight"
+          : "the profile lies above the line between its ends, and a defect of 'Shape' profile lies "
+            "below it: if its depth is counted downwards, change the sign of z; a raised "
+            "weld is given by 'Shape' map");
 
     Defect defect;
     defect.length = length;

@@ -2,6 +2,8 @@
 #include <tread/base/format.h>
 #include <tread/geometry/profile_faults.h>
 
+#include "median.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,15 +70,6 @@ namespace tread
       for (std::size_t i = 2; i + 2 < p.size(); ++i)
         result[i] = distance_from_cubic(p[i], {&p[i - 2], &p[i - 1], &p[i + 1], &p[i + 2]});
       return result;
-    }
-
-    double median(std::vector<double> values)
-    {
-      if (values.empty())
-        return 0.;
-      const auto middle = values.begin() + values.size() / 2;
-      std::nth_element(values.begin(), middle, values.end());
-      return *middle;
     }
   } // namespace
 

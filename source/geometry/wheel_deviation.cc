@@ -5,6 +5,7 @@
 #include <tread/geometry/smoothing_spline.h>
 #include <tread/geometry/wheel_deviation.h>
 
+#include "median.h"
 #include "natural_spline.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ namespace tread
     constexpr double missing = 5.;
 
     /// No wheel in service is so far from round, m, nor so steep along or across its tread.
-    constexpr double deepest = 20e-3, steepest = 0.3;
+    constexpr double deepest_deviation = 20e-3, steepest = 0.3;
 
     /// Lines by which a scan that goes round overlaps itself, so that its spline knows of no seam.
     constexpr std::size_t overlap = 8;
@@ -34,12 +35,6 @@ namespace tread
     double wrapped(const double angle)
     {
       return std::remainder(angle, 2. * pi);
-    }
-
-    double median(std::vector<double> values)
-    {
-      std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-      return values[values.size() / 2];
     }
 
     double in_degrees(const double angle)
@@ -125,7 +120,7 @@ namespace tread
             const auto   place = [&] {
               return format(" at %g degrees, y = %g mm", in_degrees(angles[i]), 1e3 * scan.y[j]);
             };
-            if (!(std::abs(dz) <= deepest))
+            if (!(std::abs(dz) <= deepest_deviation))
               fail("the deviation is " + text_in_mm(dz) + " mm" + place() + "; a wheel has up to 20");
             const auto slope = [&](const double before, const double way) {
               return std::abs(dz - before) > no_step ? std::abs(dz - before) / way : 0.;

@@ -14,7 +14,7 @@ namespace tread
 {
   namespace
   {
-    constexpr double mm = 1e-3;
+    constexpr double millimetre = 1e-3;
 
     /// The unit of a column of angles, by its name; 0: it has none.
     double unit_of_angle(const std::string &name)
@@ -53,9 +53,9 @@ namespace tread
       for (const std::string &name : table.names())
         if (const std::optional<double> y = place_in(name))
           {
-            scan.y.push_back(mm * *y);
+            scan.y.push_back(millimetre * *y);
             for (std::size_t i = 0; i < scan.dz.size(); ++i)
-              scan.dz[i].push_back(mm * table.column(name)[i]);
+              scan.dz[i].push_back(millimetre * table.column(name)[i]);
           }
       return scan;
     }
@@ -76,14 +76,14 @@ namespace tread
             }
           const std::size_t j = scan.dz.back().size();
           if (scan.dz.size() == 1)
-            scan.y.push_back(mm * y[row]);
+            scan.y.push_back(millimetre * y[row]);
           else
-            require(j < scan.y.size() && std::abs(scan.y[j] - mm * y[row]) < 1e-9,
+            require(j < scan.y.size() && std::abs(scan.y[j] - millimetre * y[row]) < 1e-9,
                     "'" + table.file + "', row " + std::to_string(row + 1) + ": y_mm is " + text_of(y[row]) +
-                      (j < scan.y.size() ? " where the first line has " + text_of(scan.y[j] / mm)
+                      (j < scan.y.size() ? " where the first line has " + text_of(scan.y[j] / millimetre)
                                          : " beyond the last place of the first line") +
                       "; all lines of a scan must have the same places across");
-          scan.dz.back().push_back(mm * dz[row]);
+          scan.dz.back().push_back(millimetre * dz[row]);
         }
       for (std::size_t i = 0; i < scan.dz.size(); ++i)
         require(scan.dz[i].size() == scan.y.size(),
@@ -93,7 +93,7 @@ namespace tread
       return scan;
     }
 
-    DeviationLines read_table(const std::string &file)
+    DeviationLines read_scan_table(const std::string &file)
     {
       const CsvTable table(
         file,
@@ -121,7 +121,7 @@ namespace tread
     }
 
     /// Sections whose z points down, as CONTACT has them; each is the round wheel with what it has more.
-    DeviationLines read_slices(const std::string &file, const ProfileCurve &profile)
+    DeviationLines read_wheel_slices(const std::string &file, const ProfileCurve &profile)
     {
       const SliceList      list = read_slice_list(file);
       const CurveFromAbove round(profile);
@@ -193,9 +193,9 @@ namespace tread
   DeviationLines read_deviation_lines(const std::string &file, const std::function<ProfileCurve()> &profile)
   {
     if (file.ends_with(".slcw"))
-      return read_slices(file, profile());
+      return read_wheel_slices(file, profile());
     if (file.ends_with(".csv"))
-      return read_table(file);
+      return read_scan_table(file);
     throw InputError("'" + file +
                      "': the deviation of a wheel is a file that ends in .csv or .slcw, "
                      "\"flat: length_mm=... depth_mm=...\" or \"waves: ORDER=AMPLITUDE_MM@CREST_DEG "
