@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/base/median.h>
 #include <tread/geometry/measured_line.h>
 
 // clang-format off
@@ -45,13 +46,12 @@ namespace tread
       std::vector<double> spacing;
       for (std::size_t i = 1; i < samples.size(); ++i)
         spacing.push_back(samples[i].y - samples[i - 1].y);
-      std::vector<double> sorted = spacing;
-      std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+      const double usual = median(spacing);
       for (std::size_t i = 0; i < spacing.size(); ++i)
-        if (spacing[i] > 5. * sorted[sorted.size() / 2])
+        if (spacing[i] > 5. * usual)
           fail(file, samples[i + 1].line,
-               "gap of " + text_in_mm(spacing[i]) + " mm where points are usually " +
-                 text_in_mm(sorted[sorted.size() / 2]) + " mm apart");
+               "gap of " + text_in_mm(spacing[i]) + " mm where points are usually " + text_in_mm(usual) +
+                 " mm apart");
     }
 
     /// The samples around x = 0 in which x runs on, in increasing order.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/base/median.h>
 #include <tread/geometry/profile_faults.h>
-
-#include "median.h"
 
 #include <algorithm>
 #include <array>

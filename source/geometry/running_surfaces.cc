@@ -25,8 +25,7 @@ namespace tread
         for (int i = -across; i <= across; ++i)
           {
             const double angle = 2e-4 * j / surfaces.radius, y = i / double(across) * surfaces.half_width;
-            const double r = surfaces.radius + (surfaces.tread_offset ? surfaces.tread_offset(y) : 0.) +
-                             surfaces.deviation(angle, y);
+            const double r    = surfaces.wheel_radius(angle, y);
             const double rail = surfaces.rail_top(y) +
                                 (surfaces.defect ? surfaces.defect(center_x + r * std::sin(angle), y) : 0.);
             lift = std::max(lift, rail + r * std::cos(angle) - surfaces.radius);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/base/input_error.h>
+#include <tread/base/median.h>
 #include <tread/base/text_file.h>
 #include <tread/geometry/smoothing_spline.h>
 #include <tread/geometry/wheel_deviation.h>
 
-#include "median.h"
 #include "natural_spline.h"
 
 #include <algorithm>
@@ -185,6 +185,7 @@ namespace tread
         angles.pop_back();
         scan.dz.pop_back();
       }
+    n_lines = angles.size();
     // Lines beyond the seam or the ends, so many that neither the spline nor its smoothing knows of them: the
     // scan again, or the round wheel.
     constexpr double beyond = 3.; // lengths of smoothing
@@ -247,8 +248,8 @@ namespace tread
         low  = std::min(low, *std::min_element(line.begin(), line.end()));
         high = std::max(high, *std::max_element(line.begin(), line.end()));
       }
-    return format("a scan of %zu lines of '%s', radius %+.4g to %+.4g mm", scan.angles.size(),
-                  scan.file.c_str(), 1e3 * low, 1e3 * high) +
+    return format("a scan of %zu lines of '%s', radius %+.4g to %+.4g mm", n_lines, scan.file.c_str(),
+                  1e3 * low, 1e3 * high) +
            (smoothing > 0. ? ", smoothed over " + text_in_mm(smoothing) + " mm" : "");
   }
 

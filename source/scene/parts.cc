@@ -148,11 +148,8 @@ namespace tread
         return scene.depth_in_rail(p);
       };
     return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
-      const RunningSurfaces &surfaces = scene.surfaces();
-      const double           offset   = surfaces.tread_offset ? surfaces.tread_offset(p[1]) : 0.;
-      const double           more =
-        surfaces.deviation ? surfaces.deviation(std::atan2(p[0] - begin, height - p[2]), p[1]) : 0.;
-      return surfaces.radius + offset + more - std::hypot(p[0] - begin, height - p[2]);
+      const double ahead = p[0] - begin, down = height - p[2];
+      return scene.surfaces().wheel_radius(std::atan2(ahead, down), p[1]) - std::hypot(ahead, down);
     };
   }
 

@@ -73,9 +73,10 @@ namespace tread
     made->defect    = defect.make(located(defect.profile_file));
     shape_wheel(*made);
     shape_rail(*made);
-    made->contact = tread::first_contact(made->surfaces, made->path_begin);
-    shapes        = made;
-    made->patch   = patch_under_load(made->islands);
+    made->contact           = tread::first_contact(made->surfaces, made->path_begin);
+    shapes                  = made;
+    made->patch             = patch_under_load(made->islands);
+    made->largest_deviation = deviation_on_the_way();
   }
 
 
@@ -366,13 +367,14 @@ namespace tread
   }
 
 
-  double Scene::largest_deviation() const
+  double Scene::deviation_on_the_way() const
   {
     if (is_round())
       return 0.;
-    constexpr double step = 0.5e-3; // m
-    const double     a = hertz(*this, static_load()).semi_axis_x, half_width = surfaces().half_width;
-    double           largest = 0.;
+    constexpr double step   = 0.5e-3; // m
+    const double     a      = static_load() > 0. ? hertz(*this, static_load()).semi_axis_x : 0.,
+                 half_width = surfaces().half_width;
+    double largest          = 0.;
     for (double way = -a; way <= motion.meshed_distance() + a; way += step)
       for (double y = -half_width; y <= half_width; y += step)
         largest = std::max(largest, std::abs(surfaces().deviation(way / wheel.radius, y)));

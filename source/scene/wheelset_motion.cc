@@ -2,6 +2,7 @@
 #include <tread/base/csv_table.h>
 #include <tread/base/format.h>
 #include <tread/base/input_error.h>
+#include <tread/base/median.h>
 #include <tread/scene/wheelset_motion.h>
 
 // clang-format off
@@ -76,14 +77,12 @@ namespace tread
     std::vector<double> steps;
     for (std::size_t row = 1; row < time.size(); ++row)
       steps.push_back(time[row] - time[row - 1]);
-    std::vector<double> sorted = steps;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double     usual       = median(steps);
     constexpr double largest_gap = 20.; // times the median
     for (std::size_t k = 0; k < steps.size(); ++k)
-      if (steps[k] > largest_gap * sorted[sorted.size() / 2])
+      if (steps[k] > largest_gap * usual)
         throw InputError(parameter + "'" + file + "', row " + std::to_string(k + 2) + ": a gap of " +
-                         text_of(steps[k]) + " s after rows " + text_of(sorted[sorted.size() / 2]) +
-                         " s apart");
+                         text_of(steps[k]) + " s after rows " + text_of(usual) + " s apart");
     last       = time.back();
     bool moves = false;
     for (const Column &column : columns)

@@ -19,6 +19,12 @@ namespace tread
     std::function<double(double)>         rail_top;  ///< height z(y) of the smooth rail, inclined
     std::function<double(double, double)> defect;    ///< height z(x, y) over it; null: none
 
+    /// Of the wheel at the angle from the bottom and at y.
+    double wheel_radius(const double angle, const double y) const
+    {
+      return radius + (tread_offset ? tread_offset(y) : 0.) + (deviation ? deviation(angle, y) : 0.);
+    }
+
     /// How far apart the smooth surfaces are at y below the axle, when the axle is at the height `radius`:
     /// negative where they overlap.
     double gap(const double y) const;

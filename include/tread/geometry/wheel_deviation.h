@@ -53,7 +53,8 @@ namespace tread
     Value       at(double angle, double y) const override;
 
   private:
-    DeviationLines                   scan; ///< where it goes round, some of its lines twice
+    DeviationLines                   scan;    ///< with lines beyond its seam or its ends
+    std::size_t                      n_lines; ///< of its own
     double                           smoothing;
     std::vector<std::vector<double>> by_yy, by_aa, by_aayy;
   };

@@ -249,7 +249,10 @@ namespace tread
     }
     /// The largest deviation from round, inwards or outwards, that comes to the rail on the way that is
     /// meshed (m).
-    double largest_deviation() const;
+    double largest_deviation() const
+    {
+      return shapes->largest_deviation;
+    }
     /// Whether rolling may become steady: a round wheel on a rail without a defect.
     bool rolls_smoothly() const
     {
@@ -344,7 +347,8 @@ namespace tread
       RunningSurfaces                       surfaces;
       std::function<double(double, double)> rail_height;
       std::string                           deviation; ///< of the wheel from round, in words
-      std::shared_ptr<const Defect>         defect;    ///< null: none
+      double                                largest_deviation = 0.;
+      std::shared_ptr<const Defect>         defect; ///< null: none
       FirstContact                          contact;
       PatchExtent                           patch;
       std::vector<Island>                   islands; ///< of that patch
@@ -408,7 +412,9 @@ namespace tread
     /// @throws InputError
     void make_shapes();
     void shape_wheel(Shapes &made) const;
-    void shape_rail(Shapes &made) const;
+    /// largest_deviation(), looked for.
+    double deviation_on_the_way() const;
+    void   shape_rail(Shapes &made) const;
     /// @param islands of the patch, found with it
     PatchExtent patch_under_load(std::vector<Island> &islands) const;
 

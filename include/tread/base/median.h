@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_geometry_median_h
-#define tread_geometry_median_h
+#ifndef tread_base_median_h
+#define tread_base_median_h
 
 #include <algorithm>
 #include <vector>
