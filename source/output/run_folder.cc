@@ -57,7 +57,7 @@ namespace tread
     std::filesystem::create_directories(folder, error);
     if (error)
       return cannot + " (" + error.message() + ")";
-    lock = open(path(".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
+    lock = ::open(path(".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (lock < 0)
       return cannot + " (" + std::strerror(errno) + ")";
 
@@ -144,7 +144,8 @@ namespace tread
       {
         // What is there is left from a run that was killed, or a trap.
         unlink(temporary.c_str());
-        const int made = open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
+        const int made =
+          ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (made < 0 || close(made) != 0)
           throw std::runtime_error(name);
         write(temporary);
@@ -154,7 +155,8 @@ namespace tread
       {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw std::runtime_error("cannot write '" + path(name) + "': is the disk full, or a limit of file sizes (ulimit -f) reached?");
+        throw std::runtime_error("cannot write '" + path(name) +
+                                 "': is the disk full, or a limit of file sizes (ulimit -f) reached?");
       }
   }
 
@@ -251,7 +253,8 @@ namespace tread
     GrowingTable &table = growing.at(name);
     table.file << rows << std::flush;
     if (!table.file)
-      throw std::runtime_error("cannot write '" + path(name) + "': is the disk full, or a limit of file sizes (ulimit -f) reached?");
+      throw std::runtime_error("cannot write '" + path(name) +
+                               "': is the disk full, or a limit of file sizes (ulimit -f) reached?");
     table.count(rows);
   }
 

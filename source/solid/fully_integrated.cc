@@ -48,13 +48,13 @@ namespace tread
     }
 
 
-    class Group : public BatchedGroup<BatchOfPoints>
+    class FullyIntegratedGroup : public BatchedGroup<BatchOfPoints>
     {
     public:
-      Group(const Mesh                      &mesh,
-            const ElasticMaterial           &material,
-            const std::vector<unsigned int> &cells,
-            const Quantum                    force_quantum)
+      FullyIntegratedGroup(const Mesh                      &mesh,
+                           const ElasticMaterial           &material,
+                           const std::vector<unsigned int> &cells,
+                           const Quantum                    force_quantum)
         : BatchedGroup<BatchOfPoints>(mesh, material, cells, set)
         , force_quantum(force_quantum)
       {
@@ -142,7 +142,7 @@ namespace tread
     const std::vector<unsigned int> &cells) const
   {
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    groups.push_back(std::make_unique<Group>(mesh, material, cells, force_quantum));
+    groups.push_back(std::make_unique<FullyIntegratedGroup>(mesh, material, cells, force_quantum));
     return groups;
   }
 } // namespace tread

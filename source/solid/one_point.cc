@@ -10,15 +10,15 @@ namespace tread
   namespace
   {
     template <bool affine>
-    class Group : public BatchedGroup<OnePointBatch<affine>>
+    class OnePointGroup : public BatchedGroup<OnePointBatch<affine>>
     {
     public:
       using Batch = OnePointBatch<affine>;
 
-      Group(const Mesh                      &mesh,
-            const ElasticMaterial           &material,
-            const std::vector<unsigned int> &cells,
-            const SolidParameters           &parameters)
+      OnePointGroup(const Mesh                      &mesh,
+                    const ElasticMaterial           &material,
+                    const std::vector<unsigned int> &cells,
+                    const SolidParameters           &parameters)
         : BatchedGroup<Batch>(
             mesh,
             material,
@@ -163,8 +163,8 @@ namespace tread
     for (const unsigned int c : cells)
       cells_of[is_parallelepiped(mesh.corners(c))].push_back(c);
     std::vector<std::unique_ptr<const CellGroup>> groups;
-    groups.push_back(std::make_unique<Group<true>>(mesh, material, cells_of[1], parameters));
-    groups.push_back(std::make_unique<Group<false>>(mesh, material, cells_of[0], parameters));
+    groups.push_back(std::make_unique<OnePointGroup<true>>(mesh, material, cells_of[1], parameters));
+    groups.push_back(std::make_unique<OnePointGroup<false>>(mesh, material, cells_of[0], parameters));
     return groups;
   }
 } // namespace tread
