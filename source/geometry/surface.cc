@@ -8,62 +8,53 @@
 
 namespace tread
 {
-  namespace
+  std::optional<OnSection> highest_over(const std::vector<ProfileCurve> &sections, const double y)
   {
-    struct Above
-    {
-      double z, slope;
-    };
-
-    /// The highest place of a section over y, and its slope there.
-    std::optional<Above> highest(const std::vector<ProfileCurve> &sections, const double y)
-    {
-      std::optional<Above> best;
-      for (const ProfileCurve &curve : sections)
-        {
-          const std::vector<double> &knots  = curve.knots();
-          ProfileCurve::Place        before = curve.at(knots.front());
-          for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-            {
-              const ProfileCurve::Place next = curve.at(knots[i + 1]);
-              if ((before.y - y) * (next.y - y) <= 0. && before.y != next.y)
-                {
-                  double     low = knots[i], high = knots[i + 1];
-                  const bool rises = next.y > before.y;
-                  double     s     = 0.5 * (low + high);
-                  for (unsigned int k = 0; k < 60; ++k)
-                    {
-                      const ProfileCurve::Place p = curve.at(s);
-                      if (std::abs(p.y - y) < 1e-15)
-                        break;
-                      ((p.y < y) == rises ? low : high) = s;
-                      const double newton               = s - (p.y - y) / p.dy;
-                      s = newton > low && newton < high ? newton : 0.5 * (low + high);
-                    }
-                  const ProfileCurve::Place p = curve.at(s);
-                  if (!best || p.z > best->z)
-                    best = Above{p.z, p.dz / p.dy};
-                }
-              before = next;
-            }
-        }
-      return best;
-    }
-  } // namespace
+    std::optional<OnSection> best;
+    for (const ProfileCurve &curve : sections)
+      {
+        const std::vector<double> &knots  = curve.knots();
+        ProfileCurve::Place        before = curve.at(knots.front());
+        for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+          {
+            const ProfileCurve::Place next = curve.at(knots[i + 1]);
+            if ((before.y - y) * (next.y - y) <= 0. && before.y != next.y)
+              {
+                double     low = knots[i], high = knots[i + 1];
+                const bool rises = next.y > before.y;
+                double     s     = 0.5 * (low + high);
+                for (unsigned int k = 0; k < 60; ++k)
+                  {
+                    const ProfileCurve::Place p = curve.at(s);
+                    if (std::abs(p.y - y) < 1e-15)
+                      break;
+                    ((p.y < y) == rises ? low : high) = s;
+                    const double newton               = s - (p.y - y) / p.dy;
+                    s = newton > low && newton < high ? newton : 0.5 * (low + high);
+                  }
+                const ProfileCurve::Place p = curve.at(s);
+                if (!best || p.z > best->z)
+                  best = OnSection{static_cast<std::size_t>(&curve - sections.data()), s, p.z, p.dz / p.dy};
+              }
+            before = next;
+          }
+      }
+    return best;
+  }
 
 
   std::optional<Surface::Height> Surface::height(const double along, const double y) const
   {
-    const std::optional<Above> here = highest(sections(along), y);
+    const std::optional<OnSection> here = highest_over(sections(along), y);
     if (!here)
       return {};
     Height height{here->z, 0., here->slope};
     if (is_constant())
       return height;
     // A surface that ends here has a derivative to the other side.
-    constexpr double           step   = 1e-6; // m or rad
-    const std::optional<Above> before = highest(sections(along - step), y),
-                               behind = highest(sections(along + step), y);
+    constexpr double               step   = 1e-6; // m or rad
+    const std::optional<OnSection> before = highest_over(sections(along - step), y),
+                                   behind = highest_over(sections(along + step), y);
     if (before && behind)
       height.by_along = (behind->z - before->z) / (2. * step);
     else if (before || behind)

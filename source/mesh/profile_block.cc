@@ -76,17 +76,13 @@ namespace tread
   }
 
 
-  Body make_profile_block(const ProfileSection                                            &section,
-                          const double                                                     x_begin,
-                          const double                                                     x_end,
-                          const double                                                     coarsest,
-                          const std::vector<FineZone>                                     &zones,
-                          const bool                                                       mirrored,
-                          const std::function<dealii::Point<3>(double, dealii::Point<2>)> &to_space)
+  Body make_profile_block(const ProfileBlock          &block,
+                          const double                 coarsest,
+                          const std::vector<FineZone> &zones)
   {
-    const double          sign = mirrored ? -1. : 1.;
+    const double          sign = block.mirrored ? -1. : 1.;
     std::vector<FineZone> charted(zones);
-    double                begin = section.half_width, end = -section.half_width;
+    double                begin = block.half_width, end = -block.half_width;
     for (FineZone &zone : charted)
       {
         zone.y_middle *= sign;
@@ -97,8 +93,8 @@ namespace tread
     all.y_middle   = 0.5 * (begin + end);
     all.half_width = 0.5 * (end - begin);
 
-    Body body =
-      make_flat_box({x_begin, x_end, section.half_width, section.depth}, coarsest, section.half_width, all);
+    Body body = make_flat_box({block.x_begin, block.x_end, block.half_width, block.depth}, coarsest,
+                              block.half_width, all);
     body.wanted_cell_size = [charted](const dealii::Point<3> &p) {
       double size = charted.front().wanted_size(p[0], p[1], -p[2]);
       for (const FineZone &zone : charted)
@@ -114,8 +110,8 @@ namespace tread
                p[0] < zone.x_end + reach;
       });
     };
-    body.to_space = [section, sign, to_space](const dealii::Point<3> &p) {
-      return to_space(p[0], section.point(sign * p[1], -p[2]));
+    body.to_space = [sign, place = block.place](const dealii::Point<3> &p) {
+      return place(p[0], sign * p[1], -p[2]);
     };
     return body;
   }

@@ -72,8 +72,12 @@ namespace
     const ProfileSection section(profile, 0.5 * profile.length() - radius * inclination, inclination,
                                  ProfileSection::Side::below, depth, half_width);
     const Body           body =
-      make_profile_block(section, -0.03, 0.03, 0.01, zones(), false,
-                         [](const double x, const Point<2> p) { return Point<3>(x, p[0], p[1]); });
+      make_profile_block({-0.03, 0.03, section.half_width, section.depth, false,
+                          [&section](const double x, const double along, const double behind) {
+                            const Point<2> p = section.point(along, behind);
+                            return Point<3>(x, p[0], p[1]);
+                          }},
+                         0.01, zones());
     tests::Mesh mesh;
     tests::refine(body, mesh);
     const tests::Measured m = tests::measure(body, mesh, finest, [](const Point<3> &p) {
@@ -120,10 +124,13 @@ namespace
                                  depth, half_width);
     const double         begin = -0.03, end = 0.05;
     const Body           body =
-      make_profile_block(section, begin, end, 0.01, zones(), true, [](const double along, const Point<2> p) {
-        const double angle = along / nominal, r = nominal - p[1];
-        return Point<3>(r * std::sin(angle), p[0], nominal - r * std::cos(angle));
-      });
+      make_profile_block({begin, end, section.half_width, section.depth, true,
+                          [&section](const double arc_length, const double along, const double behind) {
+                            const Point<2> p     = section.point(along, behind);
+                            const double   angle = arc_length / nominal, r = nominal - p[1];
+                            return Point<3>(r * std::sin(angle), p[0], nominal - r * std::cos(angle));
+                          }},
+                         0.01, zones());
     tests::Mesh mesh;
     tests::refine(body, mesh);
     const tests::Measured m = tests::measure(

@@ -12,6 +12,17 @@
 
 namespace tread
 {
+  /// A place of a section.
+  struct OnSection
+  {
+    std::size_t curve;    ///< of the section's pieces
+    double      s;        ///< parameter on it, m
+    double      z, slope; ///< m, dz/dy
+  };
+
+  /// The highest place of a section over y; nothing where there is none.
+  std::optional<OnSection> highest_over(const std::vector<ProfileCurve> &sections, double y);
+
   /// The running surface of a rail or of a wheel: a section that may change along the way. The way is x of a
   /// rail (m) and the angle about the axle of a wheel (rad). y is lateral, the gauge face and the flange at
   /// low y; z of a rail points up, of a wheel it is the nominal radius less its own. Lengths in m.

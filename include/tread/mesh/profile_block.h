@@ -61,18 +61,22 @@ namespace tread
     double               base_spacing[2]; ///< over that on the surface, on the side of low and of high s
   };
 
-  /// The block between x_begin and x_end of its chart (x, y, -behind), with y = along, or -along where
-  /// `mirrored`: a chart that would else be left-handed. Cells are finest in any of the zones, which have the
-  /// same x and lie side by side. Its surface is in reach of the other body there and a little beside, its
-  /// base is held.
-  /// @param to_space from x and the section's y, z to the reference position.
-  Body make_profile_block(const ProfileSection                                            &section,
-                          const double                                                     x_begin,
-                          const double                                                     x_end,
-                          const double                                                     coarsest,
-                          const std::vector<FineZone>                                     &zones,
-                          const bool                                                       mirrored,
-                          const std::function<dealii::Point<3>(double, dealii::Point<2>)> &to_space);
+  /// The chart of a block behind a running surface, (x, y, -behind) with y = along, or -along where
+  /// `mirrored`: a chart that would else be left-handed. (m)
+  struct ProfileBlock
+  {
+    double x_begin, x_end;
+    double half_width, depth;
+    bool   mirrored;
+    /// The reference position at x, `along` the surface across the way from its middle, and `behind` it.
+    std::function<dealii::Point<3>(double x, double along, double behind)> place;
+  };
+
+  /// Cells are finest in any of the zones, which lie side by side. The surface is in reach of the other body
+  /// there and a little beside, the base is held.
+  Body make_profile_block(const ProfileBlock          &block,
+                          const double                 coarsest,
+                          const std::vector<FineZone> &zones);
 } // namespace tread
 
 #endif

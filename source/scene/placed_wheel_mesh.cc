@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What is meshed of rail and wheel where the wheel has a position: blocks behind the running surfaces.
+#include <tread/base/format.h>
+#include <tread/geometry/contact_points.h>
+#include <tread/mesh/profile_block.h>
+#include <tread/scene/placed_wheel.h>
+#include <tread/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    /// Of finest cells ahead of and behind the path: the patch, a quarter of its half length and two cells,
+    /// m.
+    double beyond_path(const Scene &scene, const reference::PlanarResult &s)
+    {
+      return 1.25 * 0.5 * (s.x_end - s.x_begin) + 2. * scene.mesh.finest_cell;
+    }
+
+    /// Parameter of a profile at the distance t (m) in a patch's plane from the point at s.
+    double parameter_at(const ProfileCurve &profile, const WheelPatch &patch, const double s, const double t)
+    {
+      const double step = std::copysign(0.05e-3, t), cosine = std::cos(patch.angle()),
+                   sine = std::sin(patch.angle());
+      double at         = s;
+      for (double gone = 0.; std::abs(gone) < std::abs(t) && at >= 0. && at <= profile.length(); at += step)
+        {
+          const ProfileCurve::Place p = profile.at(at);
+          // Where the profile stands steep on the plane a step is worth little.
+          gone += step * std::max(0.2, p.dy * cosine + p.dz * sine);
+        }
+      return at;
+    }
+
+    /// By how much the rigid contact moves from where it is at the start, m.
+    struct Wandering
+    {
+      /// Least and largest on one of the bodies, 0 among them.
+      struct OnBody
+      {
+        double x[2] = {0., 0.}, s[2] = {0., 0.};
+
+        void add(const double x_now, const double s_now)
+        {
+          x[0] = std::min(x[0], x_now);
+          x[1] = std::max(x[1], x_now);
+          s[0] = std::min(s[0], s_now);
+          s[1] = std::max(s[1], s_now);
+        }
+      };
+      OnBody rail, wheel;
+    };
+
+    /// @param of_other_wheel whether the other wheel's is asked for, in the axes of its own side
+    Wandering wandering(const Scene &scene, const WheelOnRail &surfaces, const bool of_other_wheel)
+    {
+      Wandering all;
+      if (scene.guidance.kind != Guidance::file)
+        return all;
+      constexpr unsigned int n_instants = 40;
+      const double           duration   = scene.motion.meshed_distance() / scene.motion.speed,
+                   shift                = scene.wheelset.position().shift;
+      std::optional<WheelOnRail::OutlinePoint> first;
+      for (unsigned int i = 0; i <= n_instants; ++i)
+        {
+          const Across              now = scene.across(duration * i / n_instants);
+          WheelsetPosition          position{shift + now.y, now.yaw, now.roll, 0.};
+          WheelOnRail::OutlinePoint at;
+          try
+            {
+              if (scene.wheelset.both_wheels)
+                position = touching_wheelset(surfaces, position).position;
+              at = surfaces.nearest(of_other_wheel ? position.mirrored() : position).point;
+            }
+          catch (const std::runtime_error &error)
+            {
+              throw InputError(
+                format("'Guidance/File', %.4g s after the start, at a lateral shift of %.4g mm: ",
+                       duration * i / n_instants, 1e3 * position.shift) +
+                error.what());
+            }
+          if (!first)
+            first = at;
+          const auto on_rail = [&](const WheelOnRail::OutlinePoint &p) {
+            return surfaces.rail().parameter(p.place[1]);
+          };
+          all.rail.add(at.place[0] - first->place[0], on_rail(at) - on_rail(*first));
+          all.wheel.add(surfaces.radius() * (at.angle - first->angle), at.s - first->s);
+        }
+      return all;
+    }
+
+    /// The finest cells at a patch on one of the bodies. @param x_reference of its reference point at the
+    /// start
+    /// @param s, s_middle parameters of the body's profile there and in the middle of its block
+    FineZone zone_of(const Scene             &scene,
+                     const WheelPatch        &patch,
+                     const ProfileCurve      &profile,
+                     const double             x_reference,
+                     const double             s,
+                     const double             s_middle,
+                     const Wandering::OnBody &wanders)
+    {
+      // Contact that a plane does not stand for may reach farther than in one.
+      const double                   wider = 1.1 + 0.3 * patch.turn;
+      const reference::PlanarResult &r     = patch.solution;
+      const double                   x     = x_reference + 0.5 * (r.x_begin + r.x_end),
+                   begin                   = parameter_at(profile, patch, s, r.y_begin),
+                   end = parameter_at(profile, patch, s, r.y_end), half_width = 0.5 * (end - begin);
+      FineZone zone;
+      zone.finest_cell_size = scene.mesh.finest_cell;
+      zone.x_begin          = x - beyond_path(scene, r) + wanders.x[0];
+      zone.x_end            = x + scene.motion.meshed_distance() + beyond_path(scene, r) + wanders.x[1];
+      zone.y_middle         = 0.5 * (begin + end + wanders.s[0] + wanders.s[1]) - s_middle;
+      zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell +
+                                                               0.5 * (wanders.s[1] - wanders.s[0]));
+      zone.depth      = scene.mesh.fine_layers * zone.finest_cell_size;
+      zone.cells_per_level = scene.mesh.cells_per_level;
+      zone.level_depth     = scene.mesh.level_depth * std::sqrt(half_width * 0.5 * (r.x_end - r.x_begin));
+      return zone;
+    }
+
+    /// The middle of a body's block lies between the patches, its base at right angles to the mean of their
+    /// normals.
+    struct Middle
+    {
+      double s, inclination;
+    };
+    template <typename ParameterOf>
+    Middle middle_of(const std::vector<WheelPatch> &patches, const ParameterOf &parameter_of)
+    {
+      double s[2] = {1e300, -1e300}, angle[2] = {1e300, -1e300};
+      for (const WheelPatch &patch : patches)
+        {
+          s[0]     = std::min(s[0], parameter_of(patch));
+          s[1]     = std::max(s[1], parameter_of(patch));
+          angle[0] = std::min(angle[0], patch.angle());
+          angle[1] = std::max(angle[1], patch.angle());
+        }
+      return {0.5 * (s[0] + s[1]), 0.5 * (angle[0] + angle[1])};
+    }
+  } // namespace
+
+
+  namespace
+  {
+    /// @throws InputError unless a body has its profile wherever cells are finest.
+    void require_on_profile(const ProfileSection        &section,
+                            const std::vector<FineZone> &zones,
+                            const std::string           &parameter,
+                            const bool                   wanders)
+    {
+      for (const FineZone &zone : zones)
+        require(zone.y_middle - zone.half_width >= section.begin() &&
+                  zone.y_middle + zone.half_width <= section.end(),
+                "a patch lies where the profile of '" + parameter +
+                  "' ends, or stands steeper than 70 degrees on the block that is meshed behind it: its "
+                  "finest cells reach "
+                  "from " +
+                  text_in_mm(zone.y_middle - zone.half_width) + " to " +
+                  text_in_mm(zone.y_middle + zone.half_width) + " mm along the surface, the profile from " +
+                  text_in_mm(section.begin()) + " to " + text_in_mm(section.end()) +
+                  " mm: change 'Mesh/Fine half width (mm)', 'Wheel/Sector width (mm)' or the position" +
+                  (wanders ? ", or how far 'Guidance/File' moves the contact" : ""));
+    }
+  } // namespace
+
+
+  std::function<dealii::Point<3>(const Vector3d &)> PlacedWheel::from_track(const bool is_mirrored) const
+  {
+    return [origin = surfaces.rail_origin_y(), sign = is_mirrored ? -1. : 1.](const Vector3d &p) {
+      return dealii::Point<3>(p[0], sign * p[1] - origin, p[2]);
+    };
+  }
+
+
+  Body PlacedWheel::of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const
+  {
+    try
+      {
+        Body body = make(sides.front());
+        if (sides.size() > 1)
+          body = join(body, make(sides.back()));
+        body.name = name;
+        return body;
+      }
+    catch (const std::invalid_argument &error) // of the mesh
+      {
+        throw InputError(
+          name + ": " + error.what() +
+          "; change 'Mesh/Fine half width (mm)' or 'Fine layers', 'Wheel/Sector width (mm)' or "
+          "'Sector thickness (mm)', which rail and wheel share");
+      }
+  }
+
+
+  Body PlacedWheel::make_rail(const Scene &scene) const
+  {
+    return of_sides("rail", [&](const Side &side) { return rail_of(scene, side); });
+  }
+
+
+  Body PlacedWheel::make_wheel(const Scene &scene) const
+  {
+    return of_sides("wheel", [&](const Side &side) { return wheel_of(scene, side); });
+  }
+
+
+  Body PlacedWheel::rail_of(const Scene &scene, const Side &side) const
+  {
+    const std::vector<WheelPatch> &patches = side.contact.patches;
+    const ProfileCurve             profile = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
+    const auto                     parameter_of = [&](const WheelPatch &patch) {
+      return surfaces.rail().parameter(patch.region.reference[1]);
+    };
+    const Middle          middle = middle_of(patches, parameter_of);
+    const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
+                                  scene.wheel.sector_thickness, scene.wheel.half_width());
+    const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
+    std::vector<FineZone> zones;
+    for (const WheelPatch &patch : patches)
+      zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
+                              parameter_of(patch), middle.s, wanders.rail));
+    require_on_profile(section, zones,
+                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head",
+                       scene.guidance.kind == Guidance::file);
+    const auto place = [section, in_mesh = from_track(side.is_mirrored), origin = surfaces.rail_origin_y()](
+                         const double x, const double along, const double behind) {
+      const dealii::Point<2> p = section.point(along, behind);
+      return in_mesh({x, p[0] + origin, p[1]});
+    };
+    return make_profile_block(
+      {scene.rail_begin(), scene.rail_end(), section.half_width, section.depth, side.is_mirrored, place},
+      scene.mesh.coarsest_cell, zones);
+  }
+
+
+  Body PlacedWheel::wheel_of(const Scene &scene, const Side &side) const
+  {
+    const std::vector<WheelPatch> &patches = side.contact.patches;
+    const ProfileCurve            &profile = surfaces.wheel();
+    const Middle         middle = middle_of(patches, [](const WheelPatch &patch) { return patch.wheel_s; });
+    const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
+                                 scene.wheel.sector_thickness, scene.wheel.half_width());
+    // Along the tread arcs have the length that they have on the circle through the middle.
+    const double          radius  = surfaces.radius() - profile.at(middle.s).z;
+    const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
+    std::vector<FineZone> zones;
+    double                begin = 1e300, end = -1e300;
+    for (const WheelPatch &patch : patches)
+      {
+        const double arc = radius * patch.wheel_angle;
+        zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, wanders.wheel));
+        begin = std::min(begin, arc + wanders.wheel.x[0]);
+        end   = std::max(end, arc + wanders.wheel.x[1]);
+      }
+    require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
+    const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
+    const auto   place = [section, in_mesh = from_track(side.is_mirrored), surfaces = surfaces,
+                        position = side.contact.position, radius,
+                        x_start](const double arc, const double along, const double behind) {
+      const dealii::Point<2> p = section.point(along, behind);
+      const Vector3d         q = surfaces.place(position, p[0], p[1], arc / radius);
+      return in_mesh({q[0] + x_start, q[1], q[2]});
+    };
+    return make_profile_block({begin - margin, end + scene.motion.meshed_distance() + margin,
+                               section.half_width, section.depth, !side.is_mirrored, place},
+                              scene.mesh.coarsest_cell, zones);
+  }
+} // namespace tread
