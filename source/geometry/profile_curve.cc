@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/measured_line.h>
+#include <tread/geometry/natural_spline.h>
 #include <tread/geometry/profile_curve.h>
 #include <tread/geometry/rail_profile.h>
 #include <tread/geometry/wheel_tread.h>
-
-#include "natural_spline.h"
 
 #include <algorithm>
 #include <cmath>

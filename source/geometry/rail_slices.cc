@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/base/input_error.h>
+#include <tread/geometry/natural_spline.h>
 #include <tread/geometry/rail_slices.h>
-
-#include "natural_spline.h"
 
 #include <algorithm>
 #include <cmath>

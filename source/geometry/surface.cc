@@ -13,15 +13,15 @@ namespace tread
     std::optional<OnSection> best;
     for (const ProfileCurve &curve : sections)
       {
-        const std::vector<double> &knots  = curve.knots();
-        ProfileCurve::Place        before = curve.at(knots.front());
+        const std::vector<double>           &knots  = curve.knots();
+        const std::vector<dealii::Point<2>> &points = curve.points_at_knots();
         for (std::size_t i = 0; i + 1 < knots.size(); ++i)
           {
-            const ProfileCurve::Place next = curve.at(knots[i + 1]);
-            if ((before.y - y) * (next.y - y) <= 0. && before.y != next.y)
+            const double before = points[i][0], next = points[i + 1][0];
+            if ((before - y) * (next - y) <= 0. && before != next)
               {
                 double     low = knots[i], high = knots[i + 1];
-                const bool rises = next.y > before.y;
+                const bool rises = next > before;
                 double     s     = 0.5 * (low + high);
                 for (unsigned int k = 0; k < 60; ++k)
                   {
@@ -36,7 +36,6 @@ namespace tread
                 if (!best || p.z > best->z)
                   best = OnSection{static_cast<std::size_t>(&curve - sections.data()), s, p.z, p.dz / p.dy};
               }
-            before = next;
           }
       }
     return best;

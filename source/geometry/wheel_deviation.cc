@@ -3,10 +3,9 @@
 #include <tread/base/input_error.h>
 #include <tread/base/median.h>
 #include <tread/base/text_file.h>
+#include <tread/geometry/natural_spline.h>
 #include <tread/geometry/smoothing_spline.h>
 #include <tread/geometry/wheel_deviation.h>
-
-#include "natural_spline.h"
 
 #include <algorithm>
 #include <cmath>

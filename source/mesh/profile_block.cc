@@ -68,6 +68,14 @@ namespace tread
   }
 
 
+  bool ProfileSection::is_above_base(const double along) const
+  {
+    constexpr double           least   = 0.4; // of the depth
+    const dealii::Tensor<1, 2> inwards = (base_middle - surface(0.)) / depth;
+    return (base_middle - surface(along)) * inwards >= least * depth;
+  }
+
+
   dealii::Point<2> ProfileSection::point(const double along, const double behind) const
   {
     const double           share = behind / depth;
@@ -89,7 +97,12 @@ namespace tread
         begin = std::min(begin, zone.y_middle - zone.half_width);
         end   = std::max(end, zone.y_middle + zone.half_width);
       }
-    FineZone all   = charted.front();
+    FineZone all = charted.front();
+    for (const FineZone &zone : charted)
+      {
+        all.x_begin = std::min(all.x_begin, zone.x_begin);
+        all.x_end   = std::max(all.x_end, zone.x_end);
+      }
     all.y_middle   = 0.5 * (begin + end);
     all.half_width = 0.5 * (end - begin);
 

@@ -263,6 +263,19 @@ namespace tread
       add_columns(columns, both_wheels_columns(), "", wheel(0));
     if (parts.has_flexible_axle)
       add_columns(columns, flexible_axle_columns(), "", wheel(0));
+    if (parts.has_slices)
+      columns.push_back({"wheelset_height", "m",
+                         "Of the wheelset's middle in the track over the radius, at the end of the interval",
+                         [](const R &r) {
+                           return r.wheels.front().height;
+                         }});
+    if (parts.has_two_pieces)
+      columns.push_back({"inner_normal_force", "N",
+                         "Of the vertical force that of the piece of the rail nearer to the middle of the "
+                         "track, such as a nose",
+                         [](const R &r) {
+                           return r.wheels.front().inner_force;
+                         }});
     if (!parts.supports.empty())
       columns.push_back(
         {"spring_energy", "J", "Of the springs of the supports, change since the start", [](const R &r) {
@@ -646,7 +659,7 @@ namespace tread
   std::vector<TableDescription> tables_of_a_run()
   {
     HistoryParts all{2, true, true, {0}};
-    all.has_rail_base = all.has_flexible_axle = true;
+    all.has_rail_base = all.has_flexible_axle = all.has_slices = all.has_two_pieces = true;
     return {describe("history.csv", history_columns(all)),
             describe("patch.csv", patch_columns()),
             describe("patches.csv", patches_columns()),

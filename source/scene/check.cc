@@ -35,6 +35,9 @@ namespace tread
     require(guidance.kind == Guidance::rigid,
             "'Guidance/Kind' " + name_of(guidance.kind) +
               " moves a wheelset in its track: 'Wheelset/Lateral shift (mm)' puts it there");
+    require(!rail.is_sliced(),
+            "'Rail/Slices' are for a wheel in a position of its wheelset: 'Wheelset/Lateral "
+            "shift (mm)' puts it there");
     general.check();
     check_motion();
     rail.check();

@@ -61,7 +61,8 @@ namespace tread
         if (!scene.wheelset.both_wheels)
           {
             const WheelContact own = contact_under_load(surfaces, rolling, position, load);
-            require_other_wheel_clear(surfaces, own.position);
+            if (!scene.rail.is_sliced()) // whose other side is not known
+              require_other_wheel_clear(surfaces, own.position);
             return {{own, false}};
           }
         const BothWheels both = contact_of_both_wheels(surfaces, rolling, position, 2. * load);
@@ -99,8 +100,12 @@ namespace tread
 
 
   PlacedWheel::PlacedWheel(const Scene &scene)
-    : PlacedWheel(scene, scene.wheelset.position(), wheel_rolling(scene, scene.path_begin()))
+    : PlacedWheel(scene, scene.position_at(scene.path_begin()), wheel_rolling(scene, scene.path_begin()))
   {
+    if (!scene.rail.is_sliced())
+      return;
+    slices       = way_over_slices(scene, surfaces);
+    rise_of_rail = scene.motion.speed * slices.slope(scene.path_begin());
   }
 
 
@@ -108,6 +113,8 @@ namespace tread
     : surfaces(scene.wheel_on_rail())
     , sides(solve(scene, surfaces, position, rolling))
     , load(scene.static_load())
+    , rise_of_rail(0.)
+    , slices_place(scene.rail.slices_place)
     , contact(together(sides))
   {
   }
@@ -121,12 +128,20 @@ namespace tread
 
   PlacedWheel::Rise PlacedWheel::rise() const
   {
-    const double own = main_patch().rise;
+    const double own = main_patch().rise + rise_of_rail;
     if (sides.size() == 1)
       return {own, 0.};
     const double other = most_loaded(sides.back().contact.patches).rise;
     // A positive roll rate takes the own side down.
     return {0.5 * (own + other), 0.5 * (other - own) / surfaces.wheel_origin_y()};
+  }
+
+
+  std::optional<double> PlacedWheel::between_pieces() const
+  {
+    if (slices.pieces.size() != 2 || slices.pieces.front().y_high() >= slices.pieces.back().y_low())
+      return {};
+    return 0.5 * (slices.pieces.front().y_high() + slices.pieces.back().y_low()) - surfaces.rail_origin_y();
   }
 
 
@@ -269,8 +284,29 @@ namespace tread
 
   PlacedWheel::Place PlacedWheel::place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const
   {
+    if (!surfaces.rail_surface().is_constant())
+      return place_in_slices(p);
     const Vector3 arm = Vector3{p[0], p[1], p[2], 0.} - origin(patch);
     return {arm[0], dot(arm, along(patch)), -dot(arm, normal(patch))};
+  }
+
+
+  PlacedWheel::Place PlacedWheel::place_in_slices(const dealii::Point<3> &p) const
+  {
+    const double y         = p[1] + surfaces.rail_origin_y();
+    const auto   beside_of = [&](const TouchedPiece &piece) {
+      return (y - piece.y(p[0])) / std::cos(piece.inclination());
+    };
+    const TouchedPiece &piece = *std::min_element(slices.pieces.begin(), slices.pieces.end(),
+                                                  [&](const TouchedPiece &a, const TouchedPiece &b) {
+                                                    return std::abs(beside_of(a)) < std::abs(beside_of(b));
+                                                  });
+    std::shared_ptr<const std::vector<ProfileCurve>> &sections = sections_at[p[0]];
+    if (!sections)
+      sections = surfaces.rail_sections(slices_place + p[0]);
+    const auto   top   = highest_over(*sections, y);
+    const double below = top ? top->z - p[2] : 0.;
+    return {p[0], beside_of(piece), std::cos(piece.inclination()) * below};
   }
 
 

@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
 
 namespace tread
 {
@@ -96,13 +100,15 @@ namespace tread
     /// The finest cells at a patch on one of the bodies. @param x_reference of its reference point at the
     /// start
     /// @param s, s_middle parameters of the body's profile there and in the middle of its block
+    /// @param way that the patch goes from there along the body (m)
     FineZone zone_of(const Scene             &scene,
                      const WheelPatch        &patch,
                      const ProfileCurve      &profile,
                      const double             x_reference,
                      const double             s,
                      const double             s_middle,
-                     const Wandering::OnBody &wanders)
+                     const double             way,
+                     const Wandering::OnBody &wanders = {})
     {
       // Contact that a plane does not stand for may reach farther than in one.
       const double                   wider = 1.1 + 0.3 * patch.turn;
@@ -113,7 +119,7 @@ namespace tread
       FineZone zone;
       zone.finest_cell_size = scene.mesh.finest_cell;
       zone.x_begin          = x - beyond_path(scene, r) + wanders.x[0];
-      zone.x_end            = x + scene.motion.meshed_distance() + beyond_path(scene, r) + wanders.x[1];
+      zone.x_end            = x + way + beyond_path(scene, r) + wanders.x[1];
       zone.y_middle         = 0.5 * (begin + end + wanders.s[0] + wanders.s[1]) - s_middle;
       zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell +
                                                                0.5 * (wanders.s[1] - wanders.s[0]));
@@ -121,6 +127,36 @@ namespace tread
       zone.cells_per_level = scene.mesh.cells_per_level;
       zone.level_depth     = scene.mesh.level_depth * std::sqrt(half_width * 0.5 * (r.x_end - r.x_begin));
       return zone;
+    }
+
+    /// The smallest box about those of all touches of a piece; between two of them contact may begin or end.
+    FineZone hull_of(const Scene                                                     &scene,
+                     const TouchedPiece                                              &piece,
+                     const std::function<FineZone(const TouchedPiece::Touch &touch)> &zone_at)
+    {
+      FineZone hull;
+      double   low = 1e300, high = -1e300;
+      hull.x_begin = 1e300;
+      hull.x_end   = -1e300;
+      for (const TouchedPiece::Touch &touch : piece.touches)
+        {
+          const FineZone zone = zone_at(touch);
+          low                 = std::min(low, zone.y_middle - zone.half_width);
+          high                = std::max(high, zone.y_middle + zone.half_width);
+          const double begin = std::min(hull.x_begin, zone.x_begin), end = std::max(hull.x_end, zone.x_end),
+                       level_depth = std::max(hull.level_depth, zone.level_depth);
+          hull                     = zone;
+          hull.x_begin             = begin;
+          hull.x_end               = end;
+          hull.level_depth         = level_depth;
+        }
+      hull.y_middle   = 0.5 * (low + high);
+      hull.half_width = 0.5 * (high - low);
+      if (piece.touches.front().axle > scene.path_begin())
+        hull.x_begin -= piece.apart;
+      if (piece.touches.back().axle < scene.meshed_end() - 0.5 * piece.apart)
+        hull.x_end += piece.apart;
+      return hull;
     }
 
     /// The middle of a body's block lies between the patches, its base at right angles to the mean of their
@@ -199,6 +235,8 @@ namespace tread
 
   Body PlacedWheel::make_rail(const Scene &scene) const
   {
+    if (scene.rail.is_sliced())
+      return of_sides("rail", [&](const Side &) { return rail_of_slices(scene); });
     return of_sides("rail", [&](const Side &side) { return rail_of(scene, side); });
   }
 
@@ -223,7 +261,7 @@ namespace tread
     std::vector<FineZone> zones;
     for (const WheelPatch &patch : patches)
       zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
-                              parameter_of(patch), middle.s, wanders.rail));
+                              parameter_of(patch), middle.s, scene.motion.meshed_distance(), wanders.rail));
     require_on_profile(section, zones,
                        scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head",
                        scene.guidance.kind == Guidance::file);
@@ -238,11 +276,147 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// The sections of a piece along the way, each a block's about the line of its touches.
+    class PieceSections
+    {
+    public:
+      PieceSections(const Scene &scene, const WheelOnRail &surfaces, const TouchedPiece &piece)
+        : surfaces(surfaces)
+        , piece(piece)
+        , place(scene.rail.slices_place)
+        , inclination(piece.inclination())
+        , depth(scene.wheel.sector_thickness)
+        , half_width(scene.wheel.half_width())
+        , begin(reach(piece.touches.front().x(), scene.rail_begin()))
+        , end(reach(piece.touches.back().x(), scene.rail_end()))
+      {
+        // Where the surface falls away beside the touches there must be room between it and the base.
+        constexpr unsigned int n_places = 8;
+        constexpr double       step     = 0.5e-3; // m
+        for (unsigned int i = 0; i <= n_places; ++i)
+          {
+            const ProfileSection section = make(begin + (end - begin) * i / n_places);
+            double               wide    = 0.;
+            while (wide < half_width && section.is_above_base(wide + step) &&
+                   section.is_above_base(-wide - step))
+              wide += step;
+            half_width = std::min(half_width, wide);
+          }
+      }
+
+      /// The sections at x in track axes.
+      std::shared_ptr<const std::vector<ProfileCurve>> curves(const double x) const
+      {
+        return surfaces.rail_sections(place + x);
+      }
+
+      const ProfileSection &at(const double x)
+      {
+        const auto found = known.find(x);
+        return found != known.end() ? found->second : known.emplace(x, make(x)).first->second;
+      }
+
+    private:
+      /// How far towards `to` the piece goes on, m.
+      double reach(const double from, const double to) const
+      {
+        constexpr double      step = 1e-3, steepest = 1.; // m, m/m
+        constexpr double      least_cosine = 0.5;         // of the surface on the base
+        double                x            = from;
+        std::optional<double> last;
+        for (;;)
+          {
+            const auto                     here = curves(x);
+            const std::optional<OnSection> on   = highest_over(*here, piece.y(x));
+            if (!on || (last && std::abs(on->z - *last) > steepest * step) ||
+                std::cos(std::atan(on->slope) - inclination) < least_cosine ||
+                surfaces.rail_surface().body(place + x, piece.y(x) - surfaces.rail_origin_y()) != piece.body)
+              return x - std::copysign(step, to - from);
+            last = on->z;
+            if (x == to)
+              return x;
+            x = std::abs(to - x) <= step ? to : x + std::copysign(step, to - x);
+          }
+      }
+
+      ProfileSection make(const double x) const
+      {
+        const auto here = curves(x);
+        const auto on   = highest_over(*here, piece.y(x));
+        if (!on)
+          throw std::invalid_argument("the slices have no surface there");
+        return ProfileSection((*here)[on->curve], on->s, inclination, ProfileSection::Side::below, depth,
+                              half_width);
+      }
+
+      const WheelOnRail               &surfaces;
+      const TouchedPiece              &piece;
+      double                           place, inclination, depth;
+      std::map<double, ProfileSection> known;
+
+    public:
+      double half_width, begin, end; ///< m
+    };
+  } // namespace
+
+
+  Body PlacedWheel::rail_of_slices(const Scene &scene) const
+  {
+    const auto          in_mesh = from_track(false);
+    std::optional<Body> rail;
+    for (const TouchedPiece &piece : slices.pieces)
+      {
+        const auto sections = std::make_shared<PieceSections>(scene, surfaces, piece);
+        FineZone   zone     = hull_of(scene, piece, [&](const TouchedPiece::Touch &touch) {
+          const auto here   = sections->curves(touch.x());
+          const auto middle = highest_over(*here, piece.y(touch.x())),
+                     at     = highest_over(*here, touch.patch.region.reference[1]);
+          if (!middle || !at)
+            throw std::invalid_argument("the slices have no surface where the wheel touches them");
+          return zone_of(scene, touch.patch, (*here)[at->curve], touch.x(), at->s, middle->s, 0.);
+        });
+        zone.x_begin        = std::max(zone.x_begin, sections->begin);
+        zone.x_end          = std::min(zone.x_end, sections->end);
+        require(
+          zone.reach() <= sections->half_width,
+          "'Rail/Slices': the finest cells of a piece" + (piece.body.empty() ? "" : " (" + piece.body + ")") +
+            " reach " + text_in_mm(zone.reach()) +
+            " mm to the side of its middle line, and the block behind "
+            "its surface, 'Wheel/Sector thickness (mm)' " +
+            text_in_mm(scene.wheel.sector_thickness) + " thick, is only " + text_in_mm(sections->half_width) +
+            " mm wide to each side: a shorter way, a thicker block or lower 'Mesh/Fine half width (mm)'");
+        Body body = make_profile_block(
+          {sections->begin, sections->end, sections->half_width, scene.wheel.sector_thickness, false,
+           [sections, in_mesh](const double x, const double along, const double behind) {
+             const dealii::Point<2> p = sections->at(x).point(along, behind);
+             return in_mesh({x, p[0], p[1]});
+           }},
+          scene.mesh.coarsest_cell, {zone});
+        // Where a piece begins or ends within the rail, nothing is cut.
+        body.boundary_at = [at = body.boundary_at, is_whole_begin = sections->begin > scene.rail_begin(),
+                            is_whole_end = sections->end < scene.rail_end(),
+                            middle = 0.5 * (sections->begin + sections->end)](const dealii::Point<3> &p) {
+          const Boundary boundary = at(p);
+          return boundary == Boundary::end && (p[0] < middle ? is_whole_begin : is_whole_end) ? Boundary::free
+                                                                                              : boundary;
+        };
+        rail = rail ? join(body, *rail) : body;
+      }
+    return *rail;
+  }
+
+
   Body PlacedWheel::wheel_of(const Scene &scene, const Side &side) const
   {
     const std::vector<WheelPatch> &patches = side.contact.patches;
     const ProfileCurve            &profile = surfaces.wheel();
-    const Middle         middle = middle_of(patches, [](const WheelPatch &patch) { return patch.wheel_s; });
+    std::vector<WheelPatch>        all     = patches; // on the way too
+    for (const TouchedPiece &piece : slices.pieces)
+      for (const TouchedPiece::Touch &touch : piece.touches)
+        all.push_back(touch.patch);
+    const Middle         middle = middle_of(all, [](const WheelPatch &patch) { return patch.wheel_s; });
     const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
                                  scene.wheel.sector_thickness, scene.wheel.half_width());
     // Along the tread arcs have the length that they have on the circle through the middle.
@@ -250,12 +424,23 @@ namespace tread
     const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
     std::vector<FineZone> zones;
     double                begin = 1e300, end = -1e300;
+    const double          way = scene.motion.meshed_distance();
     for (const WheelPatch &patch : patches)
       {
         const double arc = radius * patch.wheel_angle;
-        zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, wanders.wheel));
+        if (slices.pieces.empty())
+          zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, way, wanders.wheel));
         begin = std::min(begin, arc + wanders.wheel.x[0]);
         end   = std::max(end, arc + wanders.wheel.x[1]);
+      }
+    for (const TouchedPiece &piece : slices.pieces)
+      {
+        zones.push_back(hull_of(scene, piece, [&](const TouchedPiece::Touch &touch) {
+          const double arc = radius * touch.patch.wheel_angle + touch.axle - scene.path_begin();
+          return zone_of(scene, touch.patch, profile, arc, touch.patch.wheel_s, middle.s, 0.);
+        }));
+        begin = std::min(begin, zones.back().x_begin);
+        end   = std::max(end, zones.back().x_end - way);
       }
     require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
     const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
@@ -266,8 +451,8 @@ namespace tread
       const Vector3d         q = surfaces.place(position, p[0], p[1], arc / radius);
       return in_mesh({q[0] + x_start, q[1], q[2]});
     };
-    return make_profile_block({begin - margin, end + scene.motion.meshed_distance() + margin,
-                               section.half_width, section.depth, !side.is_mirrored, place},
-                              scene.mesh.coarsest_cell, zones);
+    return make_profile_block(
+      {begin - margin, end + way + margin, section.half_width, section.depth, !side.is_mirrored, place},
+      scene.mesh.coarsest_cell, zones);
   }
 } // namespace tread

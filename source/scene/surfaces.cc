@@ -45,8 +45,8 @@ namespace tread
     for (const auto &[name, file] :
          {std::pair("Wheel/Tread profile", wheel.tread_profile),
           std::pair("Wheel/Deviation", wheel.deviation), std::pair("Rail/Measured head", rail.measured_head),
-          std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
-          std::pair("Track/Support file", track.support_file)})
+          std::pair("Rail/Slices", rail.slices), std::pair("Defect/Profile file", defect.profile_file),
+          std::pair("Guidance/File", guidance.file), std::pair("Track/Support file", track.support_file)})
       if (const std::string path = located(file);
           !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
         read_files.push_back(file_read(name, path));

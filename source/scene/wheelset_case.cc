@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/profile_names.h>
+#include <tread/geometry/rail_slices.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/wheelset_case.h>
 
@@ -32,10 +33,23 @@ namespace tread
           throw InputError("'Rail/Measured head': " + std::string(error.what()));
         }
     };
+    const auto sliced_rail = [&] {
+      try
+        {
+          return std::make_shared<const SlicedRail>(read_rail_slices(located(rail.slices)));
+        }
+      catch (const InputError &error)
+        {
+          throw InputError("'Rail/Slices': " + std::string(error.what()));
+        }
+    };
     require(!rail.is_block(),
             "a wheelset in its track needs a rail with a gauge face: 'Rail/Shape' cannot be block");
     try
       {
+        if (rail.is_sliced())
+          return WheelOnRail(WheelSurface(wheel_profile()), sliced_rail(), wheel.radius, wheelset.track,
+                             WheelOnRail::RailOrigin{rail.slices_y, rail.slices_z});
         return WheelOnRail(wheel_profile(), rail_profile().turned(rail.angle()), wheel.radius,
                            wheelset.track);
       }
@@ -132,6 +146,7 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
+    check_slices();
     check_other_wheel();
     const WheelRolling rolling = wheel_rolling(*this, path_begin());
     require(
@@ -152,9 +167,27 @@ namespace tread
   }
 
 
+  void Scene::check_slices() const
+  {
+    if (!rail.is_sliced())
+      return;
+    require(!wheelset.both_wheels && !contact.varies_across(),
+            "'Rail/Slices' are one rail, of which only the surface is known: 'Wheelset/Both wheels' must be "
+            "false, 'Contact/Friction across (mm)' and 'Friction inclinations (deg)' empty");
+    const Surface::Extent known = wheel_on_rail().rail_surface().extent();
+    const double          begin = rail.slices_place + rail_begin(), end = rail.slices_place + rail_end();
+    require(
+      known.includes(begin) && known.includes(end),
+      "'Rail/Slices' reach from " + text_in_mm(known.along_begin) + " to " + text_in_mm(known.along_end) +
+        " mm, the rail of the scene from " + text_in_mm(begin) + " to " + text_in_mm(end) +
+        " mm along them: change 'Rail/Slices place (mm)', 'Margin (mm)' or 'Motion/Rolled distance (mm)'");
+  }
+
+
   void Scene::check_other_wheel() const
   {
-    if (wheelset.both_wheels) // whose roll follows from the contact of both
+    // The roll follows from the contact of both, or the other wheel's rail is not known.
+    if (wheelset.both_wheels || rail.is_sliced())
       return;
     // A flange that climbs, or a roll that was not given, is some millimetres.
     constexpr double       deepest  = 15e-3; // m

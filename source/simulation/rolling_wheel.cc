@@ -28,6 +28,8 @@ namespace tread
           hub.follow([&scene](const double time) { return scene.across(time); });
         else if (scene.guidance.kind == Guidance::springs)
           hub.release(scene.guidance.springs);
+        if (scene.rail.is_sliced())
+          hub.ride([&scene](const double x) { return scene.placed_wheel().way().curvature(x); });
         hub.motion.angular_velocity = given_angular_velocity(scene);
       }
     else
@@ -60,7 +62,8 @@ namespace tread
   WheelsetPosition RollingWheel::position(const Scene &scene) const
   {
     return {scene.wheelset.position().shift + hub.motion.y, hub.motion.yaw, hub.motion.roll,
-            scene.placed_wheel().contact.position.height + hub.motion.z - hub.start()[2]};
+            scene.placed_wheel().contact.position.height + hub.motion.z - hub.start()[2],
+            scene.position_at(hub.motion.x).along};
   }
 
 
@@ -109,7 +112,9 @@ namespace tread
                        hub.motion.yaw,
                        hub.guidance_force(),
                        hub.motion.roll,
-                       (1. / n_steps) * interval_other_force};
+                       (1. / n_steps) * interval_other_force,
+                       interval_inner_force / n_steps,
+                       scene.is_positioned() ? position(scene).height : 0.};
     if (const FlexibleAxle *axle = hub.flexible_axle())
       {
         record.twist    = 2. * axle->twist(FlexibleAxle::own);
@@ -120,6 +125,7 @@ namespace tread
         record.other_tilt = tilt(FlexibleAxle::other);
       }
     interval_force = interval_other_force = Vector3{};
+    interval_inner_force                  = 0.;
     interval_start_speed                  = hub.motion.velocity_z;
     return record;
   }
@@ -131,6 +137,6 @@ namespace tread
     for (PatchAverage &of_patch : averages_of_patches)
       of_patch.serialize(archive);
     archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_other_force,
-                 interval_start_speed, last_force_sum, last_force_low, last_force_high);
+                 interval_inner_force, interval_start_speed, last_force_sum, last_force_low, last_force_high);
   }
 } // namespace tread

@@ -58,6 +58,7 @@ namespace tread
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), scene.friction_law())
+    , between_pieces(scene.rail.is_sliced() ? scene.placed_wheel().between_pieces() : std::nullopt)
     , end_position(scene.path_end() + 0.5 * scene.mesh.finest_cell)
   {
     for (unsigned int number = 0; number < scene.n_wheels(); ++number)
@@ -238,6 +239,9 @@ namespace tread
         wheel.interval_force += force;
         if (scene.wheelset.both_wheels)
           wheel.interval_other_force += force_on_other();
+        if (between_pieces)
+          wheel.interval_inner_force +=
+            contact.total_impulse_below(*between_pieces)[2] / dynamics.state.time_step;
         if (is_last)
           wheel.add_to_last_force(force);
       }
@@ -248,7 +252,7 @@ namespace tread
     if (std::abs(position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell)
       {
         const bool differs_from_start = scene.guidance.kind != Guidance::rigid ||
-                                        scene.wheelset.has_flexible_axle() ||
+                                        scene.wheelset.has_flexible_axle() || scene.rail.is_sliced() ||
                                         !scene.contact.friction_places.empty();
         if (differs_from_start && scene.is_positioned() && !placement_at_solution)
           {
@@ -259,6 +263,7 @@ namespace tread
             at.position.shift += rest * at.rates.across_speed;
             at.position.yaw += rest * at.rates.yaw_rate;
             at.position.roll += rest * at.rates.roll_rate;
+            at.position.along = scene.position_at(scene.path_end()).along;
             place_at_solution();
           }
         const auto states = contact_states();
@@ -445,7 +450,8 @@ namespace tread
       }
     folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
                            scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along(),
-                           scene.wheelset.has_flexible_axle()},
+                           scene.wheelset.has_flexible_axle(), scene.rail.is_sliced(),
+                           between_pieces.has_value()},
                           probes ? probes->centres().size() : 0);
     if (scene.output.interval_of_patches() > 0.)
       folder.open_patches(wheels.size());

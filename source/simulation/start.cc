@@ -138,6 +138,8 @@ namespace tread
             wheel.hub.begin_to_follow(scene.time_stepping.courant_number * dynamics.critical_time_step(),
                                       rise.speed, rise.roll_rate);
           }
+        else if (scene.rail.is_sliced())
+          wheel.hub.begin_to_rise(scene.placed_wheel().rise().speed);
         wheel.hub.motion.angular_velocity =
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }

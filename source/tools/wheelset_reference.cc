@@ -20,7 +20,8 @@ namespace tread
   {
     Progress progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     // Friction is that at the end of the path, as other scenes have it.
-    const PlacedWheel        placed(scene, scene.wheelset.position(), wheel_rolling(scene, scene.path_end()));
+    const PlacedWheel        placed(scene, scene.position_at(scene.path_end()),
+                                    wheel_rolling(scene, scene.path_end()));
     const WheelContact      &contact  = placed.contact;
     const double             rail_y   = placed.surfaces.rail_origin_y();
     std::vector<std::string> warnings = limits_of_half_space(contact.patches);

@@ -72,8 +72,30 @@ namespace tread
     motion.velocity_y = (next.y - now.y) / time_step;
     motion.yaw_rate   = (next.yaw - now.yaw) / time_step;
     motion.roll_rate  = rolls() ? roll_rate : (next.roll - now.roll) / time_step;
-    motion.velocity_z = rise;
-    companions        = {motion.velocity_z, motion.roll_rate};
+    begin_to_rise(rise);
+  }
+
+
+  void WheelHub::begin_to_rise(const double speed)
+  {
+    motion.velocity_z = speed;
+    companions        = {speed, motion.roll_rate};
+  }
+
+
+  void WheelHub::ride(const std::function<double(const double)> &curvature)
+  {
+    curvature_of_way = curvature;
+  }
+
+
+  double WheelHub::carrying_force(const double time_step)
+  {
+    if (!parameters.settling || !curvature_of_way)
+      return 0.;
+    const double acceleration = curvature_of_way(motion.x) * motion.velocity_x * motion.velocity_x;
+    companions.up += time_step * acceleration;
+    return (parameters.settling->mass() + parameters.settling->cell_mass) * acceleration;
   }
 
 
@@ -225,7 +247,8 @@ namespace tread
         moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double damper         = settling_force(motion.velocity_z, companions.up, 1., time_step);
+    const double damper =
+      settling_force(motion.velocity_z, companions.up, 1., time_step) + carrying_force(time_step);
     const double vertical_force = force[2] + static_force() - suspension + damper;
     const double acceleration   = vertical_force / mass_up();
 

@@ -126,6 +126,8 @@ namespace
     wheel.guidance_force             = factor * 4100.;
     wheel.roll                       = factor * 0.6e-3;
     wheel.other_force                = factor * Vector3{5.1e3, 0.7e3, 57e3, 0.};
+    wheel.inner_force                = factor * 4.2e3;
+    wheel.height                     = factor * -0.83e-3;
     return wheel;
   }
 
@@ -217,6 +219,14 @@ namespace
     row.wheels.resize(1);
     compare(check, "history.csv of one wheel", history_columns({1, false, false, {}}), row,
             together({time_and_energies, first_wheel}));
+
+    // A rail of slices, of one piece and of two.
+    Expected of_slices = together({time_and_energies, first_wheel, {{"wheelset_height_m", -0.83e-3}}});
+    compare(check, "history.csv of slices", history_columns({1, false, false, {}, false, false, true}), row,
+            of_slices);
+    of_slices.push_back({"inner_normal_force_N", 4.2e3});
+    compare(check, "history.csv of two pieces",
+            history_columns({1, false, false, {}, false, false, true, true}), row, of_slices);
 
     // A wheel in the air has no traction coefficient, and the table no nan.
     row.wheels.front().force = Vector3{};

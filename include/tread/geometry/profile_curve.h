@@ -37,6 +37,11 @@ namespace tread
 
     /// Knots of the splines (m): no piece has a kink or a turn that these do not show.
     const std::vector<double> &knots() const;
+    /// y, z there.
+    const std::vector<dealii::Point<2>> &points_at_knots() const
+    {
+      return points;
+    }
 
     /// The curve turned about the origin from y to z by `angle` (rad), then moved.
     ProfileCurve turned(double angle) const;

@@ -39,6 +39,10 @@ namespace tread
     /// half_width, and behind it, 0 .. depth.
     dealii::Point<2> point(const double along, const double behind) const;
 
+    /// Whether the surface stands over the base by a good part of the depth there: where it falls away, cells
+    /// would else be turned over.
+    bool is_above_base(const double along) const;
+
     /// The distances along the surface between which it is the profile.
     double begin() const
     {

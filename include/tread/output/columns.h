@@ -108,6 +108,8 @@ namespace tread
     std::vector<int> supports;                  ///< their numbers
     bool             has_rail_base     = false; ///< one that moves
     bool             has_flexible_axle = false; ///< the first one's wheelset
+    bool             has_slices        = false; ///< a rail that changes along the way
+    bool             has_two_pieces    = false; ///< of it, such as nose and wing
   };
   /// history.csv.
   Columns<HistoryRow> history_columns(const HistoryParts &parts);

@@ -31,6 +31,8 @@ namespace tread
     double        guidance_force;        ///< lateral, on the wheelset, at the end of the interval
     double        roll;                  ///< of a wheelset with both wheels, likewise
     Vector3       other_force;           ///< of `force`, that on the other wheel
+    double        inner_force; ///< of its vertical part, that of the inner piece of a rail of slices
+    double        height;      ///< of the wheelset over its radius, at the end of the interval
     /// Of a flexible axle, at the end of the interval: twist of the own wheel against the other, and what the
     /// wheels have in addition to the roll and yaw of the wheelset.
     double twist = 0.;

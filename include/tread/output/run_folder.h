@@ -5,10 +5,10 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
 #include <tread/dynamics/explicit_dynamics.h>
-#include <tread/track/wheel_hub.h>
 #include <tread/output/columns.h>
 #include <tread/output/picture.h>
 #include <tread/output/records.h>
+#include <tread/track/wheel_hub.h>
 
 #include <boost/crc.hpp>
 #include <mpi.h>

@@ -8,7 +8,11 @@
 #include <tread/contact/contact.h>
 #include <tread/mesh/body.h>
 #include <tread/reference/hertz.h>
+#include <tread/scene/touched_pieces.h>
 
+#include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace tread
@@ -38,8 +42,16 @@ namespace tread
     /// Of the own wheel, that with the largest normal force.
     const WheelPatch &main_patch() const;
 
+    /// Of a rail of slices. @pre made of the scene alone
+    const WayOverSlices &way() const
+    {
+      return slices;
+    }
+    /// Between two of them on all of the way: y in the mesh, m; nothing where there are not two.
+    std::optional<double> between_pieces() const;
+
     /// Vertical speed (m/s) and roll rate (rad/s) of the wheelset with which its wheels keep touching while
-    /// it moves across the track as prescribed.
+    /// it moves along a rail that rises, and across the track as prescribed.
     struct Rise
     {
       double speed, roll_rate;
@@ -111,10 +123,19 @@ namespace tread
     /// A body from its piece at each side.
     Body of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const;
     Body rail_of(const Scene &scene, const Side &side) const;
+    Body rail_of_slices(const Scene &scene) const;
     Body wheel_of(const Scene &scene, const Side &side) const;
 
+    /// The same of a rail of slices, in the piece that is nearest.
+    Place place_in_slices(const dealii::Point<3> &p) const;
+
     std::vector<Side> sides;
-    double            load; ///< on a wheel, N
+    double            load;         ///< on a wheel, N
+    double            rise_of_rail; ///< under the main patch, m/s
+    double            slices_place; ///< along them at x = 0, m
+    /// Of the slices, by x.
+    mutable std::map<double, std::shared_ptr<const std::vector<ProfileCurve>>> sections_at;
+    WayOverSlices                                                              slices;
 
   public:
     /// Of all wheels, in the track axes of the own one.

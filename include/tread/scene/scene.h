@@ -114,6 +114,13 @@ namespace tread
     }
     /// The wheel with its flange over the rail with its flanks, in the track. @throws InputError
     WheelOnRail wheel_on_rail() const;
+    /// The wheelset's position in its track with the axle at x, as long as nothing moves it across.
+    WheelsetPosition position_at(const double x) const
+    {
+      WheelsetPosition position = wheelset.position();
+      position.along            = rail.slices_place + x;
+      return position;
+    }
     /// The wheel in its position under the static load, solved at the first call, which may take some
     /// seconds.
     /// @pre is_positioned() @throws InputError
@@ -374,6 +381,7 @@ namespace tread
     void check_axle() const;
     void check_wheelset() const;
     /// Of a wheelset of which one wheel is looked at.
+    void check_slices() const;
     void check_other_wheel() const;
     void check_surfaces() const;
     void check_defect() const;

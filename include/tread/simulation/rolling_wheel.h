@@ -71,6 +71,7 @@ namespace tread
 
     Vector3 interval_force{};          ///< sum since the last row of the history, N
     Vector3 interval_other_force{};    ///< the same of the other wheel of the wheelset
+    double  interval_inner_force = 0.; ///< vertical, of the inner one of two pieces of a rail of slices
     double  interval_start_speed = 0.; ///< of the hub, vertical, m/s
 
     PatchAverage average; ///< while the wheel rolls over one cell around the solution instant

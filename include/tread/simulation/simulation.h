@@ -214,6 +214,8 @@ namespace tread
     std::unique_ptr<CellProbes>  probes;                  ///< none: no table
     std::unique_ptr<StressPeaks> rail_peaks, wheel_peaks; ///< none: no tables
 
+    const std::optional<double> between_pieces; ///< of a rail of slices, y (m)
+
     double end_position;                                       ///< of the first wheel, m
     double went_on_at = std::numeric_limits<double>::lowest(); ///< x where it was resumed for a longer way, m
     bool   torque_released = false, solution_taken = false;

@@ -119,6 +119,13 @@ namespace tread
     /// s. @param rise vertical velocity with it, m/s; @param roll_rate of a hub that rolls, rad/s
     void begin_to_follow(const double time_step, const double rise, const double roll_rate);
 
+    /// Rise from now on with the rail. @param speed m/s
+    void begin_to_rise(const double speed);
+
+    /// A hub that settles is carried along the height at which contact bears the load, so that its mass does
+    /// not lag behind. @param curvature second derivative of that height by x, 1/m, at x
+    void ride(const std::function<double(const double x)> &curvature);
+
     /// Whether the roll follows from the forces.
     bool rolls() const
     {
@@ -294,6 +301,8 @@ namespace tread
                           double      &companion,
                           const double scale,
                           const double time_step) const;
+    /// Force that carries a hub that settles, and its cells, along its way; its companion moves along.
+    double carrying_force(const double time_step);
     /// Angular velocity of the axle itself, rad/s.
     Vector3 tilting() const
     {
@@ -334,7 +343,9 @@ namespace tread
     }
 
     Companions companions;
-    Frame      reference, present;
+    /// Null: a level height.
+    std::function<double(double)> curvature_of_way;
+    Frame                         reference, present;
     double   reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
     Vector3  reference_first_moment{}; ///< of the rigid rest
     Guidance guidance      = Guidance::rigid;

@@ -81,6 +81,20 @@ namespace tread
       "surface, 6 % of those half as long and 94 % of those twice as long. Instruments need some "
       "millimetres; how far it moves the points is printed. 0: none.",
       Double(0., 50.));
+    section.add(
+      "Slices", slices,
+      "File with slices of a rail that changes along the way, such as a crossing, in place of a profile: a "
+      ".slcs of CONTACT or a table, doc/crossing.md. Blocks behind the surfaces on which the wheel rolls are "
+      "meshed, 'Wheel/Sector thickness (mm)' thick. For a wheel in a position ('Wheelset/Lateral shift "
+      "(mm)'). Empty: the rail is the same everywhere.",
+      Anything());
+    section.add("Slices place (mm)", slices_place, "Place along the slices that lies at x = 0 of the scene.",
+                Double(-1e6, 1e6));
+    section.add("Slices y (mm)", slices_y,
+                "Where y = 0 of the slices lies, from the middle of the track to the own side.",
+                Double(-3000., 3000.));
+    section.add("Slices z (mm)", slices_z, "Where z = 0 of the slices lies, over the tops of the rails.",
+                Double(-1000., 1000.));
     section.choose("Inclination", inclination,
                    "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
                    "same slope touches it on the "
@@ -162,6 +176,10 @@ namespace tread
         (!head_placement.is_mirrored && head_placement.shift == 0. && head_placement.smoothing == 0.),
       "'Rail/Measured head mirrored', 'Measured head shift (mm)' and 'Smoothing length (mm)' are of the file "
       "'Rail/Measured head'");
+    require(!is_sliced() ||
+              (shape == RailShape::head && measured_head.empty() && inclination == RailInclination::none),
+            "'Rail/Slices' take the place of a profile: 'Rail/Shape' must be head, 'Measured head' empty and "
+            "'Inclination' none");
     if (!is_block())
       return;
     require(crown_radius > 0.5 * block_width, "'Rail/Crown radius (mm)' " + text_in_mm(crown_radius) +

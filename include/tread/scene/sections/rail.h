@@ -51,11 +51,14 @@ namespace tread
   /// Section `Rail`. Lengths in m.
   struct RailSection
   {
-    RailShape             shape       = RailShape::head;
-    ProfileName           profile     = ProfileName::rail_54e1;
-    RailInclination       inclination = RailInclination::none;
-    std::string           measured_head;     ///< file; empty: a new rail
-    ProfilePlacement      head_placement;    ///< of that file
+    RailShape        shape       = RailShape::head;
+    ProfileName      profile     = ProfileName::rail_54e1;
+    RailInclination  inclination = RailInclination::none;
+    std::string      measured_head;          ///< file; empty: a new rail
+    ProfilePlacement head_placement;         ///< of that file
+    std::string      slices;                 ///< file of a rail that changes along the way; empty: none
+    double           slices_place = 0.;      ///< along them at x = 0
+    double slices_y = 0.75, slices_z = 0.;   ///< of their y = 0 and z = 0, from the middle of the track
     std::optional<double> begin;             ///< x of the first end; none: automatic
     double                length       = 0.; ///< 0: from margin to margin
     double                crown_radius = 0.3, block_width = 0.12, block_height = 0.06;
@@ -64,6 +67,10 @@ namespace tread
     double                absorbing_length = 0.6;
     MaterialSection       material;
 
+    bool is_sliced() const
+    {
+      return !slices.empty();
+    }
     bool is_block() const
     {
       return shape == RailShape::block;
