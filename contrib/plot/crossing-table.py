@@ -4,11 +4,13 @@
 
     crossing-table.py --positions IN.csv --output OUT.csv [--rail SLICES] [--wheel S1002] ...
     crossing-table.py [--picture crossing.png] [--element 0]
+    crossing-table.py --cells 0.13 0.1 0.075
 
 IN.csv has a row for each position: s_mm along the rail, y_ws_mm to the side of the wheel, load_N or z_ws_mm (down, of the axle from the
 radius), and where wanted yaw_rad and roll_rad. OUT.csv has a row for each patch: s_mm, y_ws_mm, x_mm ahead of the axle, y_mm from the middle
 of the track, normal_force_N, max_pressure_Pa and part, the body of the rail; a position without contact has a row with the forces 0.
 Without --positions: the table of doc/crossing.md, given positions of a British crossing beside CONTACT's figures, and the picture.
+With --cells: wheel at rest in three of them by finite elements of these sizes in mm (prm/crossing/uk-56E1-nose.prm), likewise.
 
 The program does the work (tread --positions); elements of 0.2 mm are those of the figures compared with, 0 takes its own, which are finer.
 """
@@ -17,16 +19,18 @@ from __future__ import annotations
 
 import argparse
 import os
+import tempfile
 from collections.abc import Iterable, Mapping
 
 from tread import Error, positions
 from tread.commands import command_parser, run_command
 from tread.positions import number, rows_of
-from tread.runs import PROGRAM, ROOT
+from tread.runs import PROGRAM, ROOT, run
 
 RAIL = os.path.join(ROOT, "contrib", "contact-data", "crossing_uk56E1.csv")
 GIVEN = os.path.join(ROOT, "contrib", "contact-data", "crossing_given.csv")
 COLUMNS = ("s_mm", "y_ws_mm", "x_mm", "y_mm", "normal_force_N", "max_pressure_Pa", "part")
+MIDDLE = 755.  # between nose and wing, mm
 SHEAR_MODULUS, POISSON = 82e9, 0.28  # of the figures compared with
 
 
@@ -90,6 +94,31 @@ def compare(options: argparse.Namespace) -> None:
         draw(options.picture, options.rail, of, answers)
 
 
+def by_finite_elements(options: argparse.Namespace) -> None:
+    """Split of the load and largest pressure where the wheel touches both, beside the half-space's and CONTACT's."""
+    keys = (("160", "3.52"), ("239", "0.95"), ("239", "1.01"))
+    given = {(row["s_mm"], row["y_ws_mm"], float(row["y_mm"]) > MIDDLE): row for row in rows_of(GIVEN)}
+    half_space = solve([{"s_mm": s, "y_ws_mm": y, "load_N": "10000"} for s, y in keys], "positions", options)
+    print("| s, mm | y_ws, mm | part | | CONTACT | half-space | " + " | ".join(f"cells of {cell:g} mm" for cell in options.cells) + " |\n|" +
+          (6 + len(options.cells)) * "---|")
+    for (s, y), of_half_space in zip(keys, half_space):
+        found = []
+        for cell in options.cells:
+            settings = {"Rail/Slices place (mm)": s, "Wheelset/Lateral shift (mm)": y, "Motion/Rolled distance (mm)": 0.1, "Mesh/Finest cell (mm)": cell,
+                        "Output/Write volume": False}
+            with tempfile.TemporaryDirectory() as folder:
+                found.append(run("crossing/uk-56E1-nose.prm", settings, output=os.path.join(folder, "run"), program=options.program).summary["patches"])
+        for is_wing, part in ((True, "wing"), (False, "nose")):
+            row = given[s, y, is_wing]
+            own = next(patch for patch in of_half_space if (float(patch["y_mm"]) > MIDDLE) == is_wing)
+            patches = [next(patch for patch in of_run if (1e3 * patch["y_m"] > MIDDLE) == is_wing) for of_run in found]
+            for label, key, column, unit in (("FN, N", "normal_force_N", "normal_force_N", 1.), ("p_max, MPa", "max_pressure_Pa", "max_pressure_MPa", 1e-6)):
+                wanted = float(row[column])
+                values = [unit * float(own[key])] + [unit * patch[key] for patch in patches]
+                print(f"| {s} | {y} | {part} | {label} | {wanted:.0f} | " +
+                      " | ".join(f"{value:.0f} ({100 * (value / wanted - 1):+.1f} %)" for value in values) + " |")
+
+
 def draw(path: str, rail: str, given: Mapping[tuple[str, str], list[dict[str, str]]], answers: list[list[dict[str, str]]]) -> None:
     from tread.plots import BLUE, GREEN, ORANGE, RED, save, subplots, use_style
 
@@ -115,7 +144,7 @@ def draw(path: str, rail: str, given: Mapping[tuple[str, str], list[dict[str, st
                   for (s, y), patches in zip(given, answers) if s == "239"]
         beside.plot(*zip(*shifts), "-", color=colour, label=f"{body}, tread")
         printed = [(float(row["y_ws_mm"]), float(row["normal_force_N"])) for (s, _), rows in given.items() if s == "239" for row in rows
-                   if (float(row["y_mm"]) > 755) == (body == "wing")]
+                   if (float(row["y_mm"]) > MIDDLE) == (body == "wing")]
         beside.plot(*zip(*printed), "o", color=colour, fillstyle="none", label=f"{body}, CONTACT")
     beside.set(xlabel="lateral shift of the wheelset at 239 mm, mm", ylabel="normal force, N", title="The load goes over from the wing to the nose")
     beside.legend()
@@ -127,6 +156,7 @@ def main() -> None:
     parser.add_argument("--positions", metavar="IN.csv")
     parser.add_argument("--output", metavar="OUT.csv")
     parser.add_argument("--picture", metavar="PNG", help="of the given positions")
+    parser.add_argument("--cells", type=float, nargs="+", metavar="MM", help="finite elements of these sizes")
     parser.add_argument("--rail", default=RAIL, help="slices: .slcs or .csv (the crossing of doc/crossing.md)")
     parser.add_argument("--rail-y", type=float, default=750., help="where y = 0 of the slices lies in the track, mm (750)")
     parser.add_argument("--wheel", default="S1002", help="profile, or its file (S1002)")
@@ -139,7 +169,9 @@ def main() -> None:
     arguments = parser.parse_args()
     if bool(arguments.positions) != bool(arguments.output):
         raise Error("--positions and --output belong together")
-    if arguments.positions:
+    if arguments.cells:
+        by_finite_elements(arguments)
+    elif arguments.positions:
         answers = solve(rows_of(arguments.positions), arguments.positions, arguments)
         positions.write(arguments.output, COLUMNS, [row for patches in answers for row in patches])
         print(f"{len(answers)} positions, {sum(map(len, answers))} rows. Results in {arguments.output}")

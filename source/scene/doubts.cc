@@ -321,9 +321,15 @@ namespace tread
           narrow.push_back({patch, island, size});
     };
     if (is_positioned())
-      for (const WheelPatch &patch : placed_wheel().patches())
-        look(islands_of(patch.solution.grid, patch.solution.pressure),
-             "patch " + std::to_string(&patch - placed_wheel().patches().data() + 1));
+      {
+        for (const WheelPatch &patch : placed_wheel().patches())
+          look(islands_of(patch.solution.grid, patch.solution.pressure),
+               "patch " + std::to_string(&patch - placed_wheel().patches().data() + 1));
+        for (const TouchedPiece &piece : placed_wheel().way().pieces)
+          for (const TouchedPiece::Touch &touch : piece.touches)
+            look(islands_of(touch.patch.solution.grid, touch.patch.solution.pressure),
+                 format("the patch at %.1f mm along the slices", 1e3 * position_at(touch.x()).along));
+      }
     else
       look(shapes->islands, "the patch");
     if (narrow.empty())

@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rails of slices by finite elements: a rail that does not change beside its profile, wing and nose of a crossing beside half-space theory; bad input."""
+
+import os
+import sys
+import tempfile
+
+from tread.positions import rows_of
+from tread.runs import ROOT, arguments_of, execute, must_end_well
+from tread_runner import Check, run, table
+
+program = sys.argv[1]
+check = Check()
+CURVE, NOSE, PASSAGE = "curves/two-patches.prm", "crossing/uk-56E1-nose.prm", "crossing/uk-56E1-passage.prm"
+GIVEN = os.path.join(ROOT, "contrib", "contact-data", "crossing_given.csv")
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+
+    # The same profile at every x: its points once in 60 mm.
+    short = ["Mesh/Finest cell (mm)=1", "Wheelset/Lateral shift (mm)=0", "Motion/Rolled distance (mm)=3", "Output/Write volume=false",
+             "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50"]
+    must_end_well(execute([*arguments_of(CURVE, short, path("points")), "--contact-points", "--shift-to", "1"], program=program))
+    points = table(path("points"), "rail_profile.csv")
+    with open(path("same.csv"), "w", encoding="utf-8") as file:
+        file.write("x_mm,y_mm,z_mm\n")
+        for x in (-120, -60, 0, 60, 120):
+            for y, z in zip(points["y_mm"], points["z_mm"]):
+                file.write(f"{x},{y:.9f},{z:.9f}\n")
+    profile = run(program, CURVE, path("profile"), short)
+    slices = run(program, CURVE, path("slices"), [*short, f"Rail/Slices={path('same.csv')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"])
+    # Where finest cells end follows from elements of the half-space's answer, which are others: within what the mesh makes.
+    check.relative("cells", slices["cells"], profile["cells"], 0.03)
+    for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "wheelset_height_m"):
+        check.relative(f"a rail that does not change: {key} beside that of its profile", slices[key], profile[key], 2e-3)
+    check.absolute("its lateral force over the normal one", slices["lateral_force_N"] / profile["normal_force_N"],
+                   profile["lateral_force_N"] / profile["normal_force_N"], 3e-4)
+
+    # Wing and nose at rest. Five cells lie over the width of the nose's patch.
+    given = {float(row["y_mm"]) > 755.: row for row in rows_of(GIVEN) if (row["s_mm"], row["y_ws_mm"]) == ("160", "3.52")}
+    at_rest = ["Rail/Slices place (mm)=160", "Wheelset/Lateral shift (mm)=3.52", "Mesh/Finest cell (mm)=0.19", "Motion/Rolled distance (mm)=0.1", "Output/Write volume=false"]
+    nose = run(program, NOSE, path("nose"), at_rest)
+    check.absolute("number of patches", len(nose["patches"]), 2, 0)
+    for patch in nose["patches"]:
+        row  = given[1e3 * patch["y_m"] > 755.]
+        name = "wing" if 1e3 * patch["y_m"] > 755. else "nose"
+        check.relative(f"{name}: normal force, N", patch["normal_force_N"], float(row["normal_force_N"]), 0.03)
+        check.relative(f"{name}: largest pressure, MPa", 1e-6 * patch["max_pressure_Pa"], float(row["max_pressure_MPa"]), 0.03)
+        check.absolute(f"{name}: y, mm", 1e3 * patch["y_m"], float(row["y_mm"]), 0.05)
+
+    # On the way to the nose: forces by piece, height.
+    rolled = ["Rail/Slices place (mm)=214", "Motion/Rolled distance (mm)=16", "Mesh/Finest cell (mm)=0.8", "Output/Write volume=false"]
+    way = run(program, PASSAGE, path("way"), rolled)
+    history = table(path("way"), "history.csv")
+    inner, all_of_it = history["inner_normal_force_N"], history["normal_force_N"]
+    check.that("the wheel begins on the wing", inner[0] == 0.)
+    check.that("and comes to the nose", 0.2 * all_of_it[-1] < inner[-1] < all_of_it[-1])
+    check.absolute("height of the wheelset at the end, mm", 1e3 * history["wheelset_height_m"][-1], 1e3 * way["wheelset_height_m"], 0.01)
+    check.energy("over the nose: ", way, 0.01)
+
+    # What is refused, in one line.
+    refused = lambda what, scene, settings, words: check.refused(what, program, scene, path("refused"), settings, words)
+    refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
+    refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
+    refused("an upright wheel", "smooth-rolling.prm", [f"Rail/Slices={path('same.csv')}"], ["'Rail/Slices'", "'Wheelset/Lateral shift (mm)'"])
+    refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' take the place of a profile"])
+    refused("a file that is not there", PASSAGE, ["Rail/Slices=nowhere.csv"], ["'Rail/Slices'", "nowhere.csv"])
+    refused("a gap under the wheel", PASSAGE, ["Wheelset/Lateral shift (mm)=-60", "Rail/Slices place (mm)=60"], ["'Rail/Slices'"])
+
+check.exit()
