@@ -103,7 +103,8 @@ def what_is_wrong_is_found(check):
                and commands_of(["build/x \\", "  -s"]) == ["build/x    -s"])
 
 
-check = Check()
-what_is_wrong_is_found(check)
-run_page(sys.argv[2], sys.argv[1], check)
-check.exit()
+if __name__ == "__main__":
+    check = Check()
+    what_is_wrong_is_found(check)
+    run_page(sys.argv[2], sys.argv[1], check)
+    check.exit()
