@@ -49,7 +49,7 @@ LEFT_OUT = (
     (r"contrib/package/check-deb\.sh|^podman |^spack |^conda ", "needs root, a network or a container, and hours"),
     (r"/usr/share/tread|import tread; tread\.run\(\"smooth-rolling\.prm\", show", "of an installed program: the test install.all"),
     (r"contrib/sanitize\.sh", "builds with sanitizers: continuous integration runs it"),
-    (r"contrib/mutate\.py|contrib/draw-faults\.py .*--python", "builds and tests each fault: hours"),
+    (r"contrib/mutate\.py|contrib/draw-faults\.py .*--(python|try)", "builds and tests each fault: hours"),
     (r"contrib/unchecked\.py", "the test scene.unchecked"),
     (r"contrib/manual\.sh", "the test doc.manual"),
     (r"contrib/plot/verification-tables\.py --run", "fine meshes, whose figures are the point: an hour; the test scene.verification runs its coarse ones"),
@@ -93,6 +93,9 @@ GIVEN = {
     "CONTRIBUTING.md": Given({"FILE": "source/main.cc"}),
     "doc/critical-size.md": Given({"RUN RUN ...": "results/one results/two"}, {},
                                   tuple(f"build/source/tread prm/thesis/5.1-{which}.prm --output results/{name}" for which, name in (("6.7-smooth", "one"), ("10-sharp", "two")))),
+    "doc/crossing.md": Given({"IN.csv": "in.csv", "OUT.csv": "out.csv"},
+                             {"in.csv": "s_mm,y_ws_mm,load_N\n239,0,10000\n",
+                              "positions.csv": "rail,wheel,s_mm,y_ws_mm,load_N,element_x_mm,element_y_mm\ncontrib/contact-data/crossing_uk56E1.csv,S1002,239,0,10000,0.4,0.4\n"}),
     "doc/editor.md": Given({}, {"my.prm": "subsection Mesh\n  set Finest cell (mm) = 2\nend\n"}),
     "doc/half-space-library.md": Given({"CASE.inp": "contrib/contact-data/thesis.inp", "FOLDER": "results/inp"}, {"cases.csv": CASES}, (),
                                        "import numpy as np\nx = y = np.linspace(-9e-3, 9e-3, 31)\ngap = 1.087 * x[None, :]**2 + 1.667 * y[:, None]**2\n"),
@@ -114,8 +117,8 @@ os.execv(program, [program, *shortened(sys.argv[1:], program)])
 
 
 def shortened(arguments, program):
-    """The arguments of the program: as they are unless they run a scene by finite elements. Then its cells are at least 2.2 mm (1.5 where a
-    wheelset is in a position), evenly along the path and of two layers; it rolls at most 4 mm once, or where there is a defect and a start is given, from 15 mm
+    """The arguments of the program: as they are unless they run a scene by finite elements. Then its cells are at least 2.2 mm (0.34 where a
+    wheelset is in a position: a patch at the corner of a rail is 1.5 mm wide), evenly along the path and of two layers; it rolls at most 4 mm once, or where there is a defect and a start is given, from 15 mm
     before its leading edge to 30 mm behind it; modes end at 300 Hz."""
     scenes = [argument for before, argument in zip(["", *arguments], arguments) if argument.endswith(".prm") and before in ("", "--quiet", "--overwrite", "--modes", "--resume") or
               argument.endswith(".prm") and not before.startswith("-")]
@@ -131,18 +134,23 @@ def shortened(arguments, program):
         os.environ[name[6:]] = os.environ.pop(name)
     positioned = own["Wheelset/Lateral shift (mm)"] != "none"
     changes = {"Mesh/Fine layers": "2", "Motion/Passages": "1", "Mesh/Fine from (mm)": "0", "Mesh/Fine to (mm)": "0", "Mesh/Path cell (mm)": "0", "Mesh/Fine half width (mm)": "0",
-               "Mesh/Finest cell (mm)": max(own["Mesh/Finest cell (mm)"], "1.5" if positioned else "2.2", key=float)}
-    defect = own["Defect/Shape"] != "none" or float(own["Defect/Length (mm)"]) > 0
+               "Mesh/Finest cell (mm)": max(own["Mesh/Finest cell (mm)"], "0.34" if positioned else "2.2", key=float)}
+    # A smooth twin rolls where the run with the defect does.
+    defect = own["Defect/Shape"] != "none" or float(own["Defect/Length (mm)"]) > 0 or any(re.match(r"Defect/Shape\s*=", setting) for setting in settings)
     if defect and own["Motion/Start (mm)"] != "automatic":
         changes.update({"Motion/Start (mm)": f"{float(own['Defect/Position (mm)']) - 15:g}", "Motion/Rolled distance (mm)": "45"})
     elif not defect:
         changes["Motion/Rolled distance (mm)"] = min(own["Motion/Rolled distance (mm)"], "4", key=float)
         changes["Motion/Hold distance (mm)"] = min(own["Motion/Hold distance (mm)"], "1", key=float)
-    added = [word for name, value in changes.items() if own.get(name, value) != value for word in ("-s", f"{name}={value}")]
+    changes = {name: value for name, value in changes.items() if own.get(name, value) != value}
+    added = [word for name, value in changes.items() for word in ("-s", f"{name}={value}")]
+    # The program takes each name once.
+    replaced = {i for i, word in enumerate(arguments[:-1]) if word == "-s" and arguments[i + 1].partition("=")[0].strip() in changes}
+    arguments = [word for i, word in enumerate(arguments) if i not in replaced and i - 1 not in replaced]
     if "--modes" not in arguments:
         return [*arguments, *added]
-    limit = arguments.index("--up-to") + 1 if "--up-to" in arguments else 0
-    return [*(["300" if limit == i else argument for i, argument in enumerate(arguments)]), *added, *([] if limit else ["--up-to", "300"])]
+    limit = arguments.index("--up-to") + 1 if "--up-to" in arguments else None
+    return [*(["300" if limit == i else argument for i, argument in enumerate(arguments)]), *added, *([] if limit is not None else ["--up-to", "300"])]
 
 
 def clone(folder, program=None):
