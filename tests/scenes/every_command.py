@@ -106,6 +106,9 @@ GIVEN = {
     "doc/sleeper.md": Given({"RUN": "results/M1", "FOLDER": "results/M1-sleeper"}, {}, (SQUAT[0].replace("results/squat", "results/M1"),)),
     "doc/squats.md": Given({}, {}, tuple(f"build/source/tread prm/thesis/{scene}.prm -s 'Rail/Yield stress (MPa)=800' -s 'Output/Table depth (mm)=8' --output results/{study}/one"
                                          for scene, study in (("4.1-case1-sliding", "squat-yield"), ("4.1-case2", "squat-weld-yield")))),
+    "doc/wheel-flat.md": Given({"IN.csv": "in.csv", "OUT.csv": "out.csv"},
+                               {"in.csv": "pitch_deg,load_N\n-33,125000\n",
+                                "positions.csv": "rail,wheel,wheel_deviation,s_mm,y_ws_mm,pitch_rad,load_N,rail_y_mm,element_x_mm,element_y_mm\nprm/flat/rail-of-arcs.csv,S1002,flat: length_mm=60 depth_mm=0.5,0,0,0.02,50000,757.44,1,1\n"}),
 }
 
 WRAPPER = """#!/usr/bin/python3
