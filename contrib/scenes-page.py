@@ -100,10 +100,12 @@ def comment(path):
 
 
 def command_of(path, name):
-    """How it is run: what its head says, or the program on two ranks."""
+    """How it is run: what its head says, or the program on two ranks, with results in a folder of its own: the program refuses one that has those of another scene."""
     with open(path, encoding="utf-8") as stream:
         found = re.search(r"^#   ((?:mpirun|tread|contrib/)\S* .*)$", stream.read(), re.MULTILINE)
-    return found[1].split("  ")[0].strip() if found else f"mpirun -np 2 tread prm/{name}"
+    command = found[1].split("  ")[0].strip() if found else f"mpirun -np 2 tread prm/{name}"
+    own = command.startswith("contrib/") or "--output" in command
+    return command if own else f"{command} --output results/{os.path.splitext(os.path.basename(name))[0]}"
 
 
 def included(name):
@@ -220,7 +222,7 @@ def page(rows):
     for names, (heading, _, pages, picture, *shared) in groups():
         text += f"\n## {heading}\n\nResults: " + ", ".join(f"[{os.path.splitext(p)[0].replace('-', ' ')}]({p})" for p in pages) + ".\n\n"
         text += "".join(described(name, command=False) for name in shared)
-        text += "".join(map(line, names)) + f"\n    mpirun -np 2 tread prm/{names[0]}\n\nand so with the others.\n\n" if shared else "".join(map(described, names))
+        text += "".join(map(line, names)) + f"\n    {command_of(os.path.join(PRM, names[0]), names[0])}\n\nand so with the others.\n\n" if shared else "".join(map(described, names))
         text += markdown(HEADER, [[f"`{name}`", *(rows.get(name, {}).get(figure, "-") for figure in FIGURES), time_of(name)] for name in names]) + "\n"
         if picture:
             text += f"\n![{picture[1]}](pictures/{picture[0]})\n\n{picture[1]}.\n"

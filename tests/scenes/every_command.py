@@ -47,7 +47,6 @@ LEFT_OUT = (
     (r"cpack --config CPackSourceConfig", "packs a build; the test doc.quickstart does it"),
     (r"contrib/install-debian\.sh|^apt install", ROOT_OR_NETWORK),
     (r"contrib/package/check-deb\.sh|^podman |^spack |^conda ", "needs root, a network or a container, and hours"),
-    (r"/usr/share/tread|import tread; tread\.run\(\"smooth-rolling\.prm\", show", "of an installed program: the test install.all"),
     (r"contrib/sanitize\.sh", "builds with sanitizers: continuous integration runs it"),
     (r"contrib/mutate\.py|contrib/draw-faults\.py .*--(python|try)", "builds and tests each fault: hours"),
     (r"contrib/unchecked\.py", "the test scene.unchecked"),
@@ -102,6 +101,9 @@ GIVEN = {
                                        "import numpy as np\nx = y = np.linspace(-9e-3, 9e-3, 31)\ngap = 1.087 * x[None, :]**2 + 1.667 * y[:, None]**2\n"),
     "doc/modes.md": Given({"SCENE.prm": "prm/tutorial/track.prm --output results/modes", "FOLDER": "results/modes"}),
     "doc/mutations.md": Given({"17 FILE": "17 source/geometry/rail_profile.cc"}),
+    # What is installed has the folders of a clone.
+    "doc/packages.md": Given({"/usr/share/tread/prm/smooth-rolling.prm": "prm/smooth-rolling.prm", "/usr/share/tread/contrib/plot/plot-run.py": "contrib/plot/plot-run.py",
+                              "python3 -c": "PYTHONPATH=contrib/python /usr/bin/python3 -c"}),
     "doc/results.md": Given({}, {"my.study": STUDY}, (SMOOTH, DIP, DIP.replace("dip.prm", "dip.prm -s 'Defect/Shape=none'").replace("results/dip", "results/dip-smooth"), *SQUAT), "import h5py\n"),
     "doc/sleeper.md": Given({"RUN": "results/M1", "FOLDER": "results/M1-sleeper"}, {}, (SQUAT[0].replace("results/squat", "results/M1"),)),
     "doc/squats.md": Given({}, {}, tuple(f"build/source/tread prm/thesis/{scene}.prm -s 'Rail/Yield stress (MPa)=800' -s 'Output/Table depth (mm)=8' --output results/{study}/one"
@@ -270,7 +272,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("pages", nargs="*")
     parser.add_argument("--list", action="store_true")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     check = Check()
     pages = Pages(arguments.program, check, arguments.list)
     every = ["README.md", "CONTRIBUTING.md", *sorted(os.path.relpath(page, ROOT) for page in glob.glob(os.path.join(ROOT, "doc", "*.md")))]
