@@ -120,6 +120,22 @@ class Pages(unittest.TestCase):
         self.assertGreaterEqual(writers, 6)
         self.assertEqual(len(folders), len(set(folders)), folders)
 
+    def test_scenes_of_a_page_have_a_folder_each(self):
+        """The program refuses a folder that holds the finished run of another scene."""
+        seen = 0
+        for page in PAGES:
+            scenes = {}
+            for command in re.findall(r"(?m)^    (.*)$", text_of(page).replace("\\\n", " ")):
+                command = command.partition(" #")[0]
+                scene = re.match(r"(?:mpirun -np \d+ )?(?:build/source/)?tread (?:--reference-only )?(\S+\.prm)\b", command)
+                if not scene or "--dry-run" in command:
+                    continue
+                named = re.search(r"--output (\S+)", command)
+                folder = named[1] if named else "results" + ("-reference" if "--reference-only" in command else "")
+                self.assertEqual(scenes.setdefault(folder, scene[1]), scene[1], f"{os.path.basename(page)}: two scenes write to {folder}")
+                seen += 1
+        self.assertGreater(seen, 60)
+
     def test_quickstart_builds_what_the_readme_uses(self):
         built = re.search(r"^cmake --build build --target (.*) -j", text_of(os.path.join(ROOT, "contrib", "quickstart.sh")), re.MULTILINE)[1].split()
         readme = text_of(os.path.join(ROOT, "README.md"))
