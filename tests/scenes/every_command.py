@@ -125,7 +125,7 @@ os.execv(program, [program, *shortened(sys.argv[1:], program)])
 def shortened(arguments, program):
     """The arguments of the program: as they are unless they run a scene by finite elements. Then its cells are at least 2.2 mm (0.34 where a
     wheelset is in a position: a patch at the corner of a rail is 1.5 mm wide), evenly along the path and of two layers; it rolls at most 4 mm once, or where there is a defect and a start is given, from 15 mm
-    before its leading edge to 30 mm behind it; modes end at 300 Hz."""
+    before its leading edge to 30 mm behind it; a wheel that is not round begins on its flat, at -33 degrees; modes end at 300 Hz."""
     scenes = [argument for before, argument in zip(["", *arguments], arguments) if argument.endswith(".prm") and before in ("", "--quiet", "--overwrite", "--modes", "--resume") or
               argument.endswith(".prm") and not before.startswith("-")]
     if not scenes or {"--dry-run", "--reference-only", "--contact-points", "--print-parameters"} & set(arguments):
@@ -147,7 +147,10 @@ def shortened(arguments, program):
         changes.update({"Motion/Start (mm)": f"{float(own['Defect/Position (mm)']) - 15:g}", "Motion/Rolled distance (mm)": "45"})
     elif not defect:
         changes["Motion/Rolled distance (mm)"] = min(own["Motion/Rolled distance (mm)"], "4", key=float)
-        changes["Motion/Hold distance (mm)"] = min(own["Motion/Hold distance (mm)"], "1", key=float)
+        if own["Motion/Drive"] == "torque":
+            changes["Motion/Hold distance (mm)"] = min(own["Motion/Hold distance (mm)"], "1", key=float)
+    if own["Wheel/Deviation"]:
+        changes["Wheel/Deviation pitch (deg)"] = "-33"
     changes = {name: value for name, value in changes.items() if own.get(name, value) != value}
     added = [word for name, value in changes.items() for word in ("-s", f"{name}={value}")]
     # The program takes each name once.
