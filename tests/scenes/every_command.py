@@ -104,7 +104,7 @@ GIVEN = {
     # What is installed has the folders of a clone.
     "doc/packages.md": Given({"/usr/share/tread/prm/smooth-rolling.prm": "prm/smooth-rolling.prm", "/usr/share/tread/contrib/plot/plot-run.py": "contrib/plot/plot-run.py",
                               "python3 -c": "PYTHONPATH=contrib/python /usr/bin/python3 -c"}),
-    "doc/results.md": Given({}, {"my.study": STUDY}, (SMOOTH, DIP, DIP.replace("dip.prm", "dip.prm -s 'Defect/Shape=none'").replace("results/dip", "results/dip-smooth"), *SQUAT), "import h5py\n"),
+    "doc/results.md": Given({}, {"my.study": STUDY}, (f"{SMOOTH} -s Output/Pictures=xdmf", DIP, DIP.replace("dip.prm", "dip.prm -s 'Defect/Shape=none'").replace("results/dip", "results/dip-smooth"), *SQUAT), "import h5py\n"),
     "doc/sleeper.md": Given({"RUN": "results/M1", "FOLDER": "results/M1-sleeper"}, {}, (SQUAT[0].replace("results/squat", "results/M1"),)),
     "doc/squats.md": Given({}, {}, tuple(f"build/source/tread prm/thesis/{scene}.prm -s 'Rail/Yield stress (MPa)=800' -s 'Output/Table depth (mm)=8' --output results/{study}/one"
                                          for scene, study in (("4.1-case1-sliding", "squat-yield"), ("4.1-case2", "squat-weld-yield")))),
