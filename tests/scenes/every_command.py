@@ -79,13 +79,13 @@ CASES = """A_per_m,B_per_m,normal_force_N,friction,young_Pa,poisson,creepage,lat
 STUDY = """set Scene    = prm/smooth-rolling.prm
 set Figures  = normal_force_N
 subsection Vary
-  set Contact/Friction coefficient = 0.3 | 0.4
+  set Contact/Friction coefficient = 0.4 | 0.5
 end
 """
 # What a page takes for granted, by page: {word: what stands in its place}, files, and commands before it.
 Given = collections.namedtuple("Given", "words files before python", defaults=({}, {}, (), ""))
 SMOOTH = "build/source/tread prm/smooth-rolling.prm --output results/smooth-rolling"
-DIP = "build/source/tread prm/tutorial/dip.prm --output results/dip"
+DIP = "build/source/tread prm/tutorial/dip.prm -s 'Output/Patch interval (mm)=2' --output results/dip"
 SQUAT = ("build/source/tread prm/thesis/4.3-M1.prm --output results/squat",
          "build/source/tread prm/thesis/4.3-M1.prm -s 'Defect/Shape=none' --output results/smooth")
 GIVEN = {
