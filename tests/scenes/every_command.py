@@ -139,8 +139,11 @@ def shortened(arguments, program):
     for name in [name for name in os.environ if name.startswith("SAVED_")]:
         os.environ[name[6:]] = os.environ.pop(name)
     positioned = own["Wheelset/Lateral shift (mm)"] != "none"
-    changes = {"Mesh/Fine layers": "2", "Motion/Passages": "1", "Mesh/Fine from (mm)": "0", "Mesh/Fine to (mm)": "0", "Mesh/Path cell (mm)": "0", "Mesh/Fine half width (mm)": "0",
+    changes = {"Mesh/Fine layers": "2", "Motion/Passages": "1", "Mesh/Fine from (mm)": "0", "Mesh/Fine to (mm)": "0", "Mesh/Path cell (mm)": "0",
                "Mesh/Finest cell (mm)": max(own["Mesh/Finest cell (mm)"], "0.34" if positioned else "2.2", key=float)}
+    # The patch of a wheelset in a position, on steel that yields, grows beyond the width that is found for it.
+    if not positioned:
+        changes["Mesh/Fine half width (mm)"] = "0"
     # A smooth twin rolls where the run with the defect does.
     defect = own["Defect/Shape"] != "none" or float(own["Defect/Length (mm)"]) > 0 or any(re.match(r"Defect/Shape\s*=", setting) for setting in settings)
     if defect and own["Motion/Start (mm)"] != "automatic":
