@@ -44,6 +44,8 @@ GROUPS = (
      ("measured-contact-force.png", "The contact force at the squat of tutorial/measured.prm, beside the smooth twin")),
     ("Curves: wheelsets in any position", "curves/*.prm", ("kinematics.md", "curve.md"),
      ("two-patches.png", "curves/two-patches.prm: tread and gauge corner at once")),
+    ("Crossings", "crossing/*.prm", ("crossing.md",),
+     ("crossing-force.png", "crossing/uk-56E1-passage.prm at several speeds, beside a mass on the half-space's force at rest")),
     ("Wheels that are not round", "flat/*.prm", ("wheel-flat.md",),
      ("wheel-flat-force.png", "flat/scanned-flat.prm at several speeds, beside a mass on a Hertz spring on a beam")),
     ("Half-spaces: Kalker's case and its relatives", "verification/*.prm", ("verification.md", "track.md"),

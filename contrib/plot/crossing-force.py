@@ -15,8 +15,8 @@ from __future__ import annotations
 import numpy as np
 from tread import Run
 from tread.commands import command_parser, run_command
-from tread.runs import PROGRAM
 from tread.crossing_force import SLICES, Rail, force_of_rest, pass_over
+from tread.runs import PROGRAM
 
 LOAD, MASS, SHIFT, BEGIN, END = 60e3, 600., 2.5, 170., 280.  # N, kg, mm: as in the scene
 

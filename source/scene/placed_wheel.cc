@@ -291,6 +291,35 @@ namespace tread
   }
 
 
+  bool PlacedWheel::is_on_path(const dealii::Point<3> &p, const double cell) const
+  {
+    constexpr double on_surface = 0.3; // of a cell, above the nodes of the next layer
+    const auto       is_on      = [&](const double beside, const double below) {
+      return std::abs(beside) <= 0.5 * cell && std::abs(below) <= on_surface * cell;
+    };
+    if (slices.pieces.empty())
+      {
+        const Place place = place_in_rail(p, main_patch());
+        return is_on(place.beside, place.below);
+      }
+    const TouchedPiece        *on    = nullptr;
+    const TouchedPiece::Touch *touch = nullptr;
+    for (const TouchedPiece &piece : slices.pieces)
+      for (const TouchedPiece::Touch &other : piece.touches)
+        {
+          const double nearer = touch ? std::abs(touch->axle - p[0]) - std::abs(other.axle - p[0]) : 1.;
+          if (nearer > 0. ||
+              (nearer == 0. && other.patch.solution.normal_force > touch->patch.solution.normal_force))
+            {
+              on    = &piece;
+              touch = &other;
+            }
+        }
+    const double beside = (p[1] + surfaces.rail_origin_y() - on->y(p[0])) / std::cos(on->inclination());
+    return is_on(beside, place_in_slices(p).below);
+  }
+
+
   PlacedWheel::Place PlacedWheel::place_in_slices(const dealii::Point<3> &p) const
   {
     const double y         = p[1] + surfaces.rail_origin_y();

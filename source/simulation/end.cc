@@ -103,12 +103,16 @@ namespace tread
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
     const double middle = 0.5 * (scene.path_begin() + scene.path_end()), half_length = 5e-3, on_line = 1e-6;
+    const auto   is_on_path = [&](const dealii::Point<3> &p) {
+      return scene.is_positioned() ? scene.placed_wheel().is_on_path(p, scene.mesh.finest_cell)
+                                     : std::abs(p[1]) < on_line && std::abs(p[2]) < on_line;
+    };
     ReproducibleSum<double> settled, shifted;
     double                  n_nodes = 0., strain = 0., residual = 0.;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      if (const dealii::Point<3> &p = mesh.nodes[i];
-          mesh.node_bodies[i] == rail_body && mesh.shared_nodes.is_owned(i) &&
-          std::abs(p[0] - middle) <= half_length && std::abs(p[1]) < on_line && std::abs(p[2]) < on_line)
+      if (const dealii::Point<3> &p = mesh.nodes[i]; mesh.node_bodies[i] == rail_body &&
+                                                     mesh.shared_nodes.is_owned(i) &&
+                                                     std::abs(p[0] - middle) <= half_length && is_on_path(p))
         {
           settled.add(p[2] - dynamics.state.position(i)[2]);
           shifted.add(dynamics.state.position(i)[0] - p[0]);
@@ -124,7 +128,7 @@ namespace tread
           strain   = std::max(strain, strains[c]);
           residual = std::max(residual, von_mises(stress[c]));
         }
-    n_nodes                   = std::max(1., sum(n_nodes, comm));
+    n_nodes                   = sum(n_nodes, comm); // 0: not a number, instead of a settlement of 0
     const Vector3      force  = last_force_on(wheels.front());
     const EnergyLedger energy = dynamics.ledger();
     passages.push_back({passages.size() + 1., settled.value(comm) / n_nodes, shifted.value(comm) / n_nodes,

@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import comparison, contact_cases, creep_table, differences, flat_force, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
+from tread import comparison, contact_cases, creep_table, crossing_force, differences, flat_force, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
@@ -92,6 +92,42 @@ class FlatForce(unittest.TestCase):
         rigid = np.where(np.arange(2 * beam.n) % 2 == 0, 1., 0.)
         self.assertAlmostEqual(rigid @ beam.mass[:2 * beam.n, :2 * beam.n] @ rigid, 7800. * 76.70e-4 * 1.2, delta=1e-6)
         self.assertEqual(beam.mass[-1, -1], 200.)
+
+
+class CrossingForce(unittest.TestCase):
+    """A mass on a contact force at rest: one of a Hertz spring over a level way, and over one that rises."""
+    LOAD, STIFFNESS, SLOPE = 60e3, 4e10, 5e-3  # N, N/m^1.5, -
+
+    def force(self, slope):
+        places, offsets = np.linspace(0., 0.1, 11), np.linspace(-0.3e-3, 0.3e-3, 601)
+        sunk = (self.LOAD / self.STIFFNESS)**(2 / 3)
+        row = self.STIFFNESS * np.maximum(0., sunk - offsets)**1.5
+        return crossing_force.Force(places, slope * places, offsets, np.array([row] * len(places)))
+
+    def test_the_force_is_that_of_its_table(self):
+        force = self.force(self.SLOPE)
+        sunk = (self.LOAD / self.STIFFNESS)**(2 / 3)
+        self.assertAlmostEqual(force.height(0.034), self.SLOPE * 0.034, places=12)
+        self.assertAlmostEqual(force(0.034, self.SLOPE * 0.034 - 30e-6) / (self.STIFFNESS * (sunk + 30e-6)**1.5), 1., places=6)
+        self.assertEqual(force(0.034, self.SLOPE * 0.034 + 2. * sunk), 0.)
+
+    def test_a_way_that_rises_evenly_leaves_the_load_as_it_is(self):
+        for slope in (0., self.SLOPE):
+            places, forces = crossing_force.pass_over(self.force(slope), crossing_force.Rail(), 10., 0.01, 0.09, self.LOAD, 600.)
+            self.assertAlmostEqual(places[0], 0.01)
+            self.assertAlmostEqual(places[-1], 0.09, places=3)
+            np.testing.assert_allclose(forces, self.LOAD, rtol=1e-6)
+
+    def test_a_kink_swings_the_mass_on_its_spring(self):
+        # On a rail that does not move, linear for so small a kink: v0 sqrt(k m) more, after a quarter of a period.
+        kink, speed, mass = 2e-4, 10., 600.
+        force = self.force(0.)
+        bent = crossing_force.Force(force.places, np.maximum(0., force.places - 0.02) * kink, force.offsets, force.forces)
+        places, forces = crossing_force.pass_over(bent, crossing_force.Rail(1e9, 1e15, 0.), speed, 0.01, 0.09, self.LOAD, mass, 1e-6)
+        spring = 1.5 * self.LOAD**(1 / 3) * self.STIFFNESS**(2 / 3)
+        more = kink * speed * math.sqrt(spring * mass)
+        self.assertAlmostEqual((forces.max() - self.LOAD) / more, 1., delta=0.03)
+        self.assertAlmostEqual((places[forces.argmax()] - 0.02) / (speed * 0.5 * math.pi * math.sqrt(mass / spring)), 1., delta=0.02)
 
 
 class InFolder(unittest.TestCase):

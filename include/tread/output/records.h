@@ -61,7 +61,7 @@ namespace tread
   };
 
   /// Residual state of the rail after the first wheel, SI units: averages over the nodes in the middle of the
-  /// rolled distance, 10 mm long and on the line y = 0, and the largest values of the cells below them.
+  /// rolled distance, 10 mm long and on the line of the path, and the largest values of the cells below them.
   struct Passage
   {
     double number;                ///< 1 for the first wheel

@@ -42,6 +42,10 @@ namespace tread
     /// Of the own wheel, that with the largest normal force.
     const WheelPatch &main_patch() const;
 
+    /// Whether a place of the rail lies on its surface, and within half a cell on the line on which the wheel
+    /// rolls: through the main patch, or the most loaded touch of slices that is nearest.
+    bool is_on_path(const dealii::Point<3> &p, const double cell) const;
+
     /// Of a rail of slices. @pre made of the scene alone
     const WayOverSlices &way() const
     {
