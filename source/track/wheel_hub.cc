@@ -80,6 +80,8 @@ namespace tread
   {
     motion.velocity_z = speed;
     companions        = {speed, motion.roll_rate};
+    if (parameters.settling && curvature_of_way) // the suspension carries the load, and nothing else
+      motion.sprung_velocity = speed;
   }
 
 
@@ -95,6 +97,7 @@ namespace tread
       return 0.;
     const double acceleration = curvature_of_way(motion.x) * motion.velocity_x * motion.velocity_x;
     companions.up += time_step * acceleration;
+    motion.sprung_velocity += time_step * acceleration;
     return (parameters.settling->mass() + parameters.settling->cell_mass) * acceleration;
   }
 

@@ -301,7 +301,8 @@ namespace tread
                           double      &companion,
                           const double scale,
                           const double time_step) const;
-    /// Force that carries a hub that settles, and its cells, along its way; its companion moves along.
+    /// Force that carries a hub that settles, and its cells, along its way; its companion and the sprung mass
+    /// move along.
     double carrying_force(const double time_step);
     /// Angular velocity of the axle itself, rad/s.
     Vector3 tilting() const
