@@ -30,11 +30,13 @@ def main() -> None:
     force = force_of_rest(SLICES, SHIFT, LOAD, BEGIN, END, arguments.program)
     rows = []
     for folder in arguments.runs:
-        history = Run(folder).table("history.csv")
-        place = END + 1e3 * history["position_m"]
+        run = Run(folder)
+        history = run.table("history.csv")
+        end = float(run.parameters["Rail/Slices place (mm)"])
+        place = end + 1e3 * history["position_m"]
         speed = 1e-3 * float((place[-1] - place[0]) / (history["time_s"][-1] - history["time_s"][0]))
-        rows.append((speed, place, history["normal_force_N"], history["inner_normal_force_N"], 1e3 * history["wheelset_height_m"],
-                     *pass_over(force, Rail(), speed, 1e-3 * BEGIN, 1e-3 * END, LOAD, MASS)))
+        rows.append((speed, place, history["normal_force_N"], history.get("inner_normal_force_N", 0. * place), 1e3 * history["wheelset_height_m"],
+                     *pass_over(force, Rail(), speed, 1e-3 * place[0], 1e-3 * end, LOAD, MASS)))
     rows.sort(key=lambda row: row[0])
     print("| km/h | largest force, kN | simple model | at, mm | simple model | off the rail, mm | simple model |\n|---|---|---|---|---|---|---|")
     for speed, place, total, _, _, of_model, model_force in rows:

@@ -36,6 +36,7 @@ def draw_forces(run: Run) -> Figure:
                              else ("longitudinal, + forward", "lateral, + to the field side"))
     figure, axes = subplots(4, 1, figsize=(10, 9.6), sharex=True, height_ratios=(1.5, 1, 1, 1))
     for axis, names in ((axes[0], (("normal_force_N", "vertical, of all patches" if wheelset else "normal", BLUE, "-"),
+                                   ("inner_normal_force_N", "of the inner piece, such as a nose", SKY, "-"),
                                    *((name, f"normal, wheel {name.split('_')[1]}", SKY, "--") for name in history
                                      if name.startswith("wheel_") and name.endswith("_normal_force_N")))),
                         (axes[1], (("longitudinal_force_N", longitudinal, RED, "-"),
