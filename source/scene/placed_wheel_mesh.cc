@@ -62,7 +62,8 @@ namespace tread
     Wandering wandering(const Scene &scene, const WheelOnRail &surfaces, const bool of_other_wheel)
     {
       Wandering all;
-      if (scene.guidance.kind != Guidance::file)
+      // Slices: contact is solved along the way, guidance included.
+      if (scene.guidance.kind != Guidance::file || scene.rail.is_sliced())
         return all;
       constexpr unsigned int n_instants = 40;
       const double           duration   = scene.motion.meshed_distance() / scene.motion.speed,

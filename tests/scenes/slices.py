@@ -69,6 +69,7 @@ with tempfile.TemporaryDirectory() as folder:
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
     refused("an upright wheel", "smooth-rolling.prm", [f"Rail/Slices={path('same.csv')}"], ["'Rail/Slices'", "'Wheelset/Lateral shift (mm)'"])
+    check.refused("points of contact", program, PASSAGE, path("refused"), [], ["--contact-points", "'Rail/Slices' must be empty"], more=["--contact-points"])
     refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' take the place of a profile"])
     refused("a file that is not there", PASSAGE, ["Rail/Slices=nowhere.csv"], ["'Rail/Slices'", "nowhere.csv"])
     refused("a gap under the wheel", PASSAGE, ["Wheelset/Lateral shift (mm)=-60", "Rail/Slices place (mm)=60"], ["'Rail/Slices'"])
