@@ -36,7 +36,7 @@ namespace tread
             "'Guidance/Kind' " + name_of(guidance.kind) +
               " moves a wheelset in its track: 'Wheelset/Lateral shift (mm)' puts it there");
     require(!rail.is_sliced(),
-            "'Rail/Slices' are for a wheel in a position of its wheelset: 'Wheelset/Lateral "
+            "'Rail/Shape' slices is for a wheel in a position of its wheelset: 'Wheelset/Lateral "
             "shift (mm)' puts it there");
     general.check();
     check_motion();

@@ -201,7 +201,7 @@ namespace tread
     {
       Scene scene;
       scene.read_surfaces(file, {});
-      require(!scene.rail.is_sliced(), "--other-side " + file + ": 'Rail/Slices' must be empty");
+      require(!scene.rail.is_sliced(), "--other-side " + file + ": 'Rail/Shape' cannot be slices");
       const TrackGauge &a = own.wheelset.track, &b = scene.wheelset.track;
       require(a.gauge == b.gauge && a.measuring_depth == b.measuring_depth &&
                 a.back_distance == b.back_distance,
@@ -233,7 +233,7 @@ namespace tread
             format("--shift-step %g mm makes more than %g rows up to --shift-to %g mm; at least %.2g",
                    request.step_mm, most_rows, request.to_mm, 2.1 * request.to_mm / most_rows));
     require(!scene.rail.is_sliced(),
-            "--contact-points is for a rail that is the same everywhere: 'Rail/Slices' must be empty; "
+            "--contact-points is for a rail that is the same everywhere: 'Rail/Shape' cannot be slices; "
             "--positions solves positions over slices");
     Progress          progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const WheelOnRail surfaces = scene.wheel_on_rail();

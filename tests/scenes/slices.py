@@ -29,7 +29,7 @@ with tempfile.TemporaryDirectory() as folder:
             for y, z in zip(points["y_mm"], points["z_mm"]):
                 file.write(f"{x},{y:.9f},{z:.9f}\n")
     profile = run(program, CURVE, path("profile"), short)
-    slices = run(program, CURVE, path("slices"), [*short, f"Rail/Slices={path('same.csv')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"])
+    slices = run(program, CURVE, path("slices"), [*short, "Rail/Shape=slices", f"Rail/Slices={path('same.csv')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"])
     # Where finest cells end follows from elements of the half-space's answer, which are others: within what the mesh makes.
     check.relative("cells", slices["cells"], profile["cells"], 0.03)
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "wheelset_height_m"):
@@ -68,9 +68,11 @@ with tempfile.TemporaryDirectory() as folder:
     refused = lambda what, scene, settings, words: check.refused(what, program, scene, path("refused"), settings, words)
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
-    refused("an upright wheel", "smooth-rolling.prm", [f"Rail/Slices={path('same.csv')}"], ["'Rail/Slices'", "'Wheelset/Lateral shift (mm)'"])
-    check.refused("points of contact", program, PASSAGE, path("refused"), [], ["--contact-points", "'Rail/Slices' must be empty"], more=["--contact-points"])
-    refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' take the place of a profile"])
+    refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])
+    check.refused("points of contact", program, PASSAGE, path("refused"), [], ["--contact-points", "'Rail/Shape' cannot be slices"], more=["--contact-points"])
+    refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' need 'Rail/Shape' slices"])
+    refused("no file", PASSAGE, ["Rail/Slices="], ["'Rail/Shape' slices needs a file"])
+    refused("a measured head", PASSAGE, ["Rail/Measured head=some.csv"], ["'Rail/Slices' take the place of a profile"])
     refused("a file that is not there", PASSAGE, ["Rail/Slices=nowhere.csv"], ["'Rail/Slices'", "nowhere.csv"])
     refused("a gap under the wheel", PASSAGE, ["Wheelset/Lateral shift (mm)=-60", "Rail/Slices place (mm)=60"], ["'Rail/Slices'"])
 

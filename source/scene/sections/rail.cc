@@ -13,7 +13,11 @@ namespace tread
     static const std::vector<Choice<RailShape>> list{
       {RailShape::head, "head", "the head of a rail profile on a rigid foundation."},
       {RailShape::full_section, "full section", "head, web and foot, held at the foot."},
-      {RailShape::block, "block", "a box with a cylindrical crown, to compare with half-space theory."}};
+      {RailShape::block, "block", "a box with a cylindrical crown, to compare with half-space theory."},
+      {RailShape::slices, "slices",
+       "blocks behind the surfaces of a rail that changes along the way, on which a wheel in a position "
+       "rolls; "
+       "doc/crossing.md."}};
     return list;
   }
 
@@ -81,13 +85,10 @@ namespace tread
       "surface, 6 % of those half as long and 94 % of those twice as long. Instruments need some "
       "millimetres; how far it moves the points is printed. 0: none.",
       Double(0., 50.));
-    section.add(
-      "Slices", slices,
-      "File with slices of a rail that changes along the way, such as a crossing, in place of a profile: a "
-      ".slcs of CONTACT or a table, doc/crossing.md. Blocks behind the surfaces on which the wheel rolls are "
-      "meshed, 'Wheel/Sector thickness (mm)' thick. For a wheel in a position ('Wheelset/Lateral shift "
-      "(mm)'). Empty: the rail is the same everywhere.",
-      Anything());
+    section.add("Slices", slices,
+                "File with the slices of 'Shape' slices, such as a crossing: a .slcs of CONTACT or a table, "
+                "doc/crossing.md. Blocks are 'Wheel/Sector thickness (mm)' thick.",
+                Anything());
     section.add("Slices place (mm)", slices_place, "Place along the slices that lies at x = 0 of the scene.",
                 Double(-1e6, 1e6));
     section.add("Slices y (mm)", slices_y,
@@ -176,10 +177,11 @@ namespace tread
         (!head_placement.is_mirrored && head_placement.shift == 0. && head_placement.smoothing == 0.),
       "'Rail/Measured head mirrored', 'Measured head shift (mm)' and 'Smoothing length (mm)' are of the file "
       "'Rail/Measured head'");
-    require(!is_sliced() ||
-              (shape == RailShape::head && measured_head.empty() && inclination == RailInclination::none),
-            "'Rail/Slices' take the place of a profile: 'Rail/Shape' must be head, 'Measured head' empty and "
-            "'Inclination' none");
+    require(is_sliced() != slices.empty(), is_sliced() ? "'Rail/Shape' slices needs a file: 'Rail/Slices'"
+                                                       : "'Rail/Slices' need 'Rail/Shape' slices");
+    require(!is_sliced() || (measured_head.empty() && inclination == RailInclination::none),
+            "'Rail/Slices' take the place of a profile: 'Rail/Measured head' must be empty and 'Inclination' "
+            "none");
     if (!is_block())
       return;
     require(crown_radius > 0.5 * block_width, "'Rail/Crown radius (mm)' " + text_in_mm(crown_radius) +

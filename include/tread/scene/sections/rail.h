@@ -12,7 +12,8 @@ namespace tread
   {
     head,
     full_section,
-    block
+    block,
+    slices
   };
 
   template <>
@@ -56,7 +57,7 @@ namespace tread
     RailInclination  inclination = RailInclination::none;
     std::string      measured_head;          ///< file; empty: a new rail
     ProfilePlacement head_placement;         ///< of that file
-    std::string      slices;                 ///< file of a rail that changes along the way; empty: none
+    std::string      slices;                 ///< file of a rail that changes along the way
     double           slices_place = 0.;      ///< along them at x = 0
     double slices_y = 0.75, slices_z = 0.;   ///< of their y = 0 and z = 0, from the middle of the track
     std::optional<double> begin;             ///< x of the first end; none: automatic
@@ -69,7 +70,7 @@ namespace tread
 
     bool is_sliced() const
     {
-      return !slices.empty();
+      return shape == RailShape::slices;
     }
     bool is_block() const
     {
