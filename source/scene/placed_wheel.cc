@@ -128,7 +128,8 @@ namespace tread
 
   PlacedWheel::Rise PlacedWheel::rise() const
   {
-    const double own = main_patch().rise + rise_of_rail;
+    // On slices the way holds what guidance by a file does, too.
+    const double own = slices.pieces.empty() ? main_patch().rise : rise_of_rail;
     if (sides.size() == 1)
       return {own, 0.};
     const double other = most_loaded(sides.back().contact.patches).rise;

@@ -174,6 +174,10 @@ namespace tread
     require(!wheelset.both_wheels && !contact.varies_across(),
             "'Rail/Slices' are one rail, of which only the surface is known: 'Wheelset/Both wheels' must be "
             "false, 'Contact/Friction across (mm)' and 'Friction inclinations (deg)' empty");
+    require(wheel.material.yield_stress == 0. && wheel.material.plastic_zones.empty(),
+            "'Wheel/Yield stress (MPa)' must be 0 and 'Plastic zones' empty over 'Rail/Shape' slices: the "
+            "wheel would "
+            "yield only where it touches at the start");
     const Surface::Extent known = wheel_on_rail().rail_surface().extent();
     const double          begin = rail.slices_place + rail_begin(), end = rail.slices_place + rail_end();
     require(

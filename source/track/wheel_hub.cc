@@ -250,9 +250,9 @@ namespace tread
         moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double damper =
-      settling_force(motion.velocity_z, companions.up, 1., time_step) + carrying_force(time_step);
-    const double vertical_force = force[2] + static_force() - suspension + damper;
+    const double damper         = settling_force(motion.velocity_z, companions.up, 1., time_step);
+    const double carrying       = carrying_force(time_step);
+    const double vertical_force = force[2] + static_force() - suspension + damper + carrying;
     const double acceleration   = vertical_force / mass_up();
 
     motion.velocity_z += time_step * acceleration;

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Rails of slices by finite elements: a rail that does not change beside its profile, wing and nose of a crossing beside half-space theory; bad input."""
 
+import math
 import os
 import sys
 import tempfile
 
-from tread.positions import rows_of
+from tread.crossing_force import SLICES
+from tread.positions import rows_of, solve
 from tread.runs import ROOT, arguments_of, execute, must_end_well
 from tread_runner import Check, run, table
 
@@ -49,6 +51,15 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"{name}: largest pressure, MPa", 1e-6 * patch["max_pressure_Pa"], float(row["max_pressure_MPa"]), 0.03)
         check.absolute(f"{name}: y, mm", 1e3 * patch["y_m"], float(row["y_mm"]), 0.05)
 
+    # The columns of slices: what is vertical of the nose's patch, and the height of the half-space.
+    row = {name: values[-1] for name, values in table(path("nose"), "history.csv").items()}
+    on_nose = min(nose["patches"], key=lambda patch: patch["y_m"])
+    check.relative("nose: vertical force, N", row["inner_normal_force_N"], on_nose["normal_force_N"] * math.cos(on_nose["angle_rad"]) +
+                   on_nose["lateral_force_N"] * math.sin(on_nose["angle_rad"]), 0.005)
+    position = {"rail": SLICES, "s_mm": 160, "y_ws_mm": 3.52, "load_N": 10e3, "young_Pa": 209.92e9, "poisson": 0.28, "friction": 0}
+    at_load = solve([position], program)[0][0]
+    check.absolute("height of the wheelset, mm", 1e3 * row["wheelset_height_m"], float(at_load["height_mm"]), 4e-3)
+
     # On the way to the nose: forces by piece, height.
     rolled = ["Rail/Slices place (mm)=214", "Motion/Rolled distance (mm)=16", "Mesh/Finest cell (mm)=0.8", "Output/Write volume=false"]
     way = run(program, PASSAGE, path("way"), rolled)
@@ -71,6 +82,7 @@ with tempfile.TemporaryDirectory() as folder:
     refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])
     check.refused("points of contact", program, PASSAGE, path("refused"), [], ["--contact-points", "'Rail/Shape' cannot be slices"], more=["--contact-points"])
     refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' need 'Rail/Shape' slices"])
+    refused("a wheel that yields", PASSAGE, ["Wheel/Yield stress (MPa)=500"], ["'Wheel/Yield stress (MPa)' must be 0"])
     refused("no file", PASSAGE, ["Rail/Slices="], ["'Rail/Shape' slices needs a file"])
     refused("a measured head", PASSAGE, ["Rail/Measured head=some.csv"], ["'Rail/Slices' take the place of a profile"])
     refused("a file that is not there", PASSAGE, ["Rail/Slices=nowhere.csv"], ["'Rail/Slices'", "nowhere.csv"])
