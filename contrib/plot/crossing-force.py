@@ -12,8 +12,8 @@ is off the rail.
 
 from __future__ import annotations
 
-import numpy as np
 from tread import Run
+from tread.blows import off_the_rail, speed
 from tread.commands import command_parser, run_command
 from tread.crossing_force import SLICES, Rail, force_of_rest, pass_over
 from tread.runs import PROGRAM
@@ -34,28 +34,27 @@ def main() -> None:
         history = run.table("history.csv")
         end = float(run.parameters["Rail/Slices place (mm)"])
         place = end + 1e3 * history["position_m"]
-        speed = 1e-3 * float((place[-1] - place[0]) / (history["time_s"][-1] - history["time_s"][0]))
-        rows.append((speed, place, history["normal_force_N"], history.get("inner_normal_force_N", 0. * place), 1e3 * history["wheelset_height_m"],
-                     *pass_over(force, Rail(), speed, 1e-3 * place[0], 1e-3 * end, LOAD, MASS)))
+        velocity = speed(history)
+        rows.append((velocity, place, history["normal_force_N"], history.get("inner_normal_force_N", 0. * place), 1e3 * history["wheelset_height_m"],
+                     *pass_over(force, Rail(), velocity, 1e-3 * place[0], 1e-3 * end, LOAD, MASS)))
     rows.sort(key=lambda row: row[0])
     print("| km/h | largest force, kN | simple model | at, mm | simple model | off the rail, mm | simple model |\n|---|---|---|---|---|---|---|")
-    for speed, place, total, _, _, of_model, model_force in rows:
-        off = lambda places, forces: float(np.sum(np.diff(places, prepend=places[0])[forces <= 0.]))
-        print(f"| {3.6 * speed:.0f} | {1e-3 * total.max():.0f} | {1e-3 * model_force.max():.0f} | {place[total.argmax()]:.0f} | "
-              f"{1e3 * of_model[model_force.argmax()]:.0f} | {off(place, total):.0f} | {1e3 * off(of_model, model_force):.0f} |")
+    for velocity, place, total, _, _, of_model, model_force in rows:
+        print(f"| {3.6 * velocity:.0f} | {1e-3 * total.max():.0f} | {1e-3 * model_force.max():.0f} | {place[total.argmax()]:.0f} | "
+              f"{1e3 * of_model[model_force.argmax()]:.0f} | {off_the_rail(place, total):.0f} | {1e3 * off_the_rail(of_model, model_force):.0f} |")
     if arguments.picture:
         from tread.plots import BLUE, GREEN, ORANGE, RED, save, subplots, use_style
 
         use_style()
         figure, axes = subplots(len(rows) + 1, 1, figsize=(9, 2.6 * (len(rows) + 1)), sharex=True)
-        for axis, (speed, place, total, nose, _, of_model, model_force) in zip(axes, rows):
+        for axis, (velocity, place, total, nose, _, of_model, model_force) in zip(axes, rows):
             axis.plot(place, 1e-3 * total, color=BLUE, label="finite elements")
             axis.plot(place, 1e-3 * nose, color=ORANGE, label="on the nose")
             axis.plot(1e3 * of_model, 1e-3 * model_force, "--", color=RED, label="mass on the half-space's force at rest")
-            axis.set(ylabel="force, kN", title=f"{3.6 * speed:.0f} km/h")
+            axis.set(ylabel="force, kN", title=f"{3.6 * velocity:.0f} km/h")
         axes[0].legend()
-        for (speed, place, _, _, height, _, _), colour in zip(rows, (BLUE, GREEN, ORANGE, RED)):
-            axes[-1].plot(place, height, color=colour, label=f"{3.6 * speed:.0f} km/h")
+        for (velocity, place, _, _, height, _, _), colour in zip(rows, (BLUE, GREEN, ORANGE, RED)):
+            axes[-1].plot(place, height, color=colour, label=f"{3.6 * velocity:.0f} km/h")
         axes[-1].plot(1e3 * force.places, 1e3 * force.heights, "--", color="0.4", label="at rest, half-space")
         axes[-1].set(xlabel="along the slices, mm", ylabel="height of the axle, mm", title="The axle sinks with the wing, and rises with the nose")
         axes[-1].legend()

@@ -15,6 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 from tread import Run
+from tread.blows import off_the_rail, speed
 from tread.commands import command_parser, run_command
 from tread.flat_force import Track, roll
 from tread.flats import Options, solve
@@ -45,33 +46,32 @@ def main() -> None:
     parser.add_argument("--program", default=PROGRAM, help="tread")
     arguments = parser.parse_args()
     height, stiffness = heights(arguments.program)
-    model = lambda speed: roll(Track(), height, speed, WAY, LOAD, MASS, stiffness, START, min(10e-6, 5e-5 / speed))
+    model = lambda velocity: roll(Track(), height, velocity, WAY, LOAD, MASS, stiffness, START, min(10e-6, 5e-5 / velocity))
     rows = []
     for folder in arguments.runs:
         history = Run(folder).table("history.csv")
         way, force = history["position_m"], history["normal_force_N"]
-        speed = float((way[-1] - way[0]) / (history["time_s"][-1] - history["time_s"][0]))
-        rows.append((speed, way, force, *model(speed)))
+        velocity = speed(history)
+        rows.append((velocity, way, force, *model(velocity)))
     rows.sort(key=lambda row: row[0])
     print(f"Hertz spring: {stiffness:.4g} N/m^1.5\n\n| km/h | largest force, kN | simple model | least force, kN | simple model | off the rail, mm | simple model |\n"
           "|---|---|---|---|---|---|---|")
-    for speed, way, force, of_model, model_force in rows:
-        off = lambda places, forces: 1e3 * float(np.sum(np.diff(places, prepend=places[0])[forces <= 0.]))
-        print(f"| {3.6 * speed:.0f} | {1e-3 * force.max():.0f} | {1e-3 * model_force.max():.0f} | {1e-3 * force.min():.0f} | {1e-3 * model_force.min():.0f} | "
-              f"{off(way, force):.0f} | {off(of_model, model_force):.0f} |")
+    for velocity, way, force, of_model, model_force in rows:
+        print(f"| {3.6 * velocity:.0f} | {1e-3 * force.max():.0f} | {1e-3 * model_force.max():.0f} | {1e-3 * force.min():.0f} | {1e-3 * model_force.min():.0f} | "
+              f"{1e3 * off_the_rail(way, force):.0f} | {1e3 * off_the_rail(of_model, model_force):.0f} |")
     if arguments.picture:
         from tread.plots import BLUE, RED, save, subplots, use_style
 
         use_style()
         figure, axes = subplots(len(rows) + 1, 1, figsize=(9, 2.4 * (len(rows) + 1)))
-        for axis, (speed, way, force, of_model, model_force) in zip(axes, rows):
+        for axis, (velocity, way, force, of_model, model_force) in zip(axes, rows):
             axis.plot(1e3 * way, 1e-3 * force, color=BLUE, label="finite elements")
             axis.plot(1e3 * of_model, 1e-3 * model_force, "--", color=RED, label="mass on a Hertz spring on a beam")
-            axis.set(ylabel="force, kN", title=f"{3.6 * speed:.0f} km/h")
+            axis.set(ylabel="force, kN", title=f"{3.6 * velocity:.0f} km/h")
         axes[0].legend()
         axes[-2].set(xlabel="way of the wheel, mm; its flat is on the rail from 59 to 218 mm")
-        speeds = [speed / 3.6 for speed in SPEEDS]
-        axes[-1].plot(SPEEDS, [1e-3 * model(speed)[1].max() for speed in speeds], "--", color=RED)
+        speeds = [of_axis / 3.6 for of_axis in SPEEDS]
+        axes[-1].plot(SPEEDS, [1e-3 * model(velocity)[1].max() for velocity in speeds], "--", color=RED)
         axes[-1].plot([3.6 * row[0] for row in rows], [1e-3 * row[2].max() for row in rows], "o", color=BLUE)
         axes[-1].set(xlabel="speed, km/h", ylabel="largest force, kN", title="Largest force over the speed")
         save(figure, arguments.picture)

@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import comparison, contact_cases, creep_table, crossing_force, differences, flat_force, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
+from tread import blows, comparison, contact_cases, creep_table, crossing_force, differences, flat_force, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
@@ -92,6 +92,13 @@ class FlatForce(unittest.TestCase):
         rigid = np.where(np.arange(2 * beam.n) % 2 == 0, 1., 0.)
         self.assertAlmostEqual(rigid @ beam.mass[:2 * beam.n, :2 * beam.n] @ rigid, 7800. * 76.70e-4 * 1.2, delta=1e-6)
         self.assertEqual(beam.mass[-1, -1], 200.)
+
+
+class Blows(unittest.TestCase):
+    def test_speed_and_way_in_the_air(self):
+        self.assertAlmostEqual(blows.speed({"position_m": np.array([-0.3, 0.1, 0.5]), "time_s": np.array([0.01, 0.03, 0.09])}), 10.)
+        places, forces = np.array([1., 2., 4., 7., 9.]), np.array([5., 0., 3., 0., -0.])
+        self.assertAlmostEqual(blows.off_the_rail(places, forces), 1. + 3. + 2.)
 
 
 class CrossingForce(unittest.TestCase):

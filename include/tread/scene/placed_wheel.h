@@ -51,7 +51,7 @@ namespace tread
     {
       return slices;
     }
-    /// Between two of them on all of the way: y in the mesh, m; nothing where there are not two.
+    /// Between two pieces of it on all of the way: y in the mesh, m; nothing where there are not two.
     std::optional<double> between_pieces() const;
 
     /// Vertical speed (m/s) and roll rate (rad/s) of the wheelset with which its wheels keep touching while
@@ -135,7 +135,7 @@ namespace tread
 
     std::vector<Side> sides;
     double            load;         ///< on a wheel, N
-    double            rise_of_rail; ///< under the main patch, m/s
+    double            rise_of_rail; ///< of the wheelset with it, at the start, m/s
     double            slices_place; ///< along them at x = 0, m
     /// Of the slices, by x.
     mutable std::map<double, std::shared_ptr<const std::vector<ProfileCurve>>> sections_at;

@@ -380,8 +380,8 @@ namespace tread
     void check_suspension() const;
     void check_axle() const;
     void check_wheelset() const;
-    /// Of a wheelset of which one wheel is looked at.
     void check_slices() const;
+    /// Of a wheelset of which one wheel is looked at.
     void check_other_wheel() const;
     void check_surfaces() const;
     void check_defect() const;
