@@ -4,6 +4,7 @@
 #include <tread/simulation/simulation.h>
 #include <tread/tools/batch_files.h>
 #include <tread/tools/contact_points_files.h>
+#include <tread/tools/contact_way_files.h>
 #include <tread/tools/dynamic_force_files.h>
 #include <tread/tools/modes_files.h>
 #include <tread/tools/position_files.h>
@@ -17,6 +18,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -70,19 +72,22 @@ namespace
     how->add_flag("--resume", line.resume, "go on from the last checkpoint in the folder of the results");
     how->add_flag("--reference-only", line.reference_only,
                   "print and write the half-space answer of the scene in a second; roll nothing");
-    CLI::Option *modes  = how->add_flag("--modes", line.modes.wanted,
-                                        "write eigenmodes and receptances of wheel and track; roll nothing");
-    CLI::Option *points = how->add_flag("--contact-points", line.points.wanted,
-                                        "table over the lateral shift of a rigid wheelset; roll nothing");
+    CLI::Option *modes = how->add_flag("--modes", line.modes.wanted,
+                                       "write eigenmodes and receptances of wheel and track; roll nothing");
+    CLI::Option *points =
+      how->add_flag("--contact-points", line.points.wanted,
+                    "table over the lateral shift of a rigid wheelset, or over the way of "
+                    "a wheel on slices; roll nothing");
     how->add_flag("--dry-run", line.dry_run, "print size and cost of the run; run and write nothing");
     how->require_option(0, 1);
     app.add_option("--up-to", line.modes.up_to, "highest frequency of the modes, Hz (2000)")->needs(modes);
-    app.add_option("--shift-to", line.points.to_mm, "largest lateral shift, mm (10)")->needs(points);
-    app.add_option("--shift-step", line.points.step_mm, "between lateral shifts, mm (0.25)")->needs(points);
-    app
-      .add_option("--other-side", line.points.other_side,
-                  "scene whose wheel and rail stand on the other side of the track (the same, mirrored)")
-      ->needs(points);
+    const std::array<CLI::Option *, 3> over_shift{
+      app.add_option("--shift-to", line.points.to_mm, "largest lateral shift, mm (10)"),
+      app.add_option("--shift-step", line.points.step_mm, "between lateral shifts, mm (0.25)"),
+      app.add_option("--other-side", line.points.other_side,
+                     "scene whose wheel and rail stand on the other side of the track (the same, mirrored)")};
+    for (CLI::Option *option : over_shift)
+      option->needs(points);
     CLI::Option *defect = app.add_option("--dynamic-force", line.dynamic.run,
                                          "folder of a run: what the defect adds to its forces, with spectra"),
                 *smooth = app.add_option("--smooth-twin", line.dynamic.smooth_twin,
@@ -124,6 +129,8 @@ namespace
       {
         throw tread::InputError(std::string(error.what()) + "; tread --help lists all options");
       }
+    line.points.is_over_shift = std::any_of(over_shift.begin(), over_shift.end(),
+                                            [](const CLI::Option *option) { return option->count() > 0; });
     if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
@@ -221,7 +228,16 @@ namespace
       }
     if (line.points.wanted)
       {
-        tread::write_contact_points(scene, line.points, folder_of("-contact-points"), comm);
+        if (scene.rail.is_sliced())
+          {
+            tread::require(!line.points.is_over_shift,
+                           "--shift-to, --shift-step and --other-side are for a rail that is the same "
+                           "everywhere: over 'Rail/Shape' slices --contact-points follows the way of the "
+                           "scene, at its lateral shift");
+            tread::write_contact_way(scene, folder_of("-contact-points"), comm);
+          }
+        else
+          tread::write_contact_points(scene, line.points, folder_of("-contact-points"), comm);
         return 0;
       }
     if (line.reference_only)

@@ -109,65 +109,91 @@ namespace tread
           throw InputError(error.what());
         }
     }
+
+    /// The list without the points of its slices.
+    SliceList read_list(const std::string &file)
+    {
+      Lines        lines(file);
+      SliceList    list;
+      const auto   scale  = lines.numbers(2, "offset and scale of the positions");
+      const double factor = scale[1];
+      if (!(factor > 0.))
+        lines.fail("the scale of the positions is " + text_of(factor) + "; it must be above 0");
+      const unsigned int n          = lines.count(lines.numbers(1, "the number of slices NSLC")[0], "NSLC");
+      const auto         counts     = lines.numbers(3, "NFEAT, NKINK, NACCEL");
+      const unsigned int n_features = lines.count(counts[0], "NFEAT");
+      if (counts[1] != 0. || counts[2] != 0.)
+        lines.fail("kinks and accelerations (NKINK, NACCEL) are not available; they must be 0");
+      if (n_features == 1)
+        lines.fail("NFEAT is 1; parts need at least two features, 0 means that no slice is cut");
+      const double method = lines.numbers(1, "the method, 1 or 2")[0];
+      if (method != 1. && method != 2.)
+        lines.fail("the method is " + text_of(method) + "; it must be 1 or 2");
+      list.approximates   = method == 2.;
+      list.line_of_method = lines.number();
+
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const std::string  text = lines.take("slice " + std::to_string(i + 1) + " of " + std::to_string(n));
+          std::istringstream stream(text);
+          std::string        word;
+          stream >> word;
+          const std::optional<double> at = number_in(word);
+          if (!at || !std::isfinite(*at))
+            lines.fail("'" + word.substr(0, 40) + "' is no position of a slice");
+          const std::size_t begin = text.find_first_of("'\"");
+          const std::size_t end   = begin == text.npos ? text.npos : text.find(text[begin], begin + 1);
+          if (end == text.npos || end == begin + 1)
+            lines.fail("the name of the slice's file must stand in quotes behind its position");
+          const std::string name  = text.substr(begin + 1, end - begin - 1);
+          const double      along = factor * (scale[0] + *at);
+          if (!list.entries.empty() && !(along > list.entries.back().along))
+            lines.fail("slices must follow each other; " + text_of(along) + " comes after " +
+                       text_of(list.entries.back().along));
+          list.entries.push_back({along, name, {}, {}});
+        }
+      for (unsigned int i = 0; n_features > 0 && i < n; ++i)
+        {
+          const auto row = lines.numbers(n_features + 1, "position and NFEAT features of a slice");
+          if (const double along = factor * (scale[0] + row[0]);
+              std::abs(along - list.entries[i].along) > 1e-6 * factor)
+            lines.fail("features of a slice at " + text_of(along) + ", where that at " +
+                       text_of(list.entries[i].along) + " comes next");
+          list.entries[i].features.assign(row.begin() + 1, row.end());
+        }
+      if (lines.has_more())
+        {
+          lines.take("");
+          lines.fail("more lines than the list of " + std::to_string(n) + " slices has");
+        }
+      return list;
+    }
   } // namespace
 
 
   SliceList read_slice_list(const std::string &file)
   {
-    Lines        lines(file);
-    SliceList    list;
-    const auto   scale  = lines.numbers(2, "offset and scale of the positions");
-    const double factor = scale[1];
-    if (!(factor > 0.))
-      lines.fail("the scale of the positions is " + text_of(factor) + "; it must be above 0");
-    const unsigned int n          = lines.count(lines.numbers(1, "the number of slices NSLC")[0], "NSLC");
-    const auto         counts     = lines.numbers(3, "NFEAT, NKINK, NACCEL");
-    const unsigned int n_features = lines.count(counts[0], "NFEAT");
-    if (counts[1] != 0. || counts[2] != 0.)
-      lines.fail("kinks and accelerations (NKINK, NACCEL) are not available; they must be 0");
-    if (n_features == 1)
-      lines.fail("NFEAT is 1; parts need at least two features, 0 means that no slice is cut");
-    const double method = lines.numbers(1, "the method, 1 or 2")[0];
-    if (method != 1. && method != 2.)
-      lines.fail("the method is " + text_of(method) + "; it must be 1 or 2");
-    list.approximates   = method == 2.;
-    list.line_of_method = lines.number();
-
+    SliceList                   list   = read_list(file);
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const std::string  text = lines.take("slice " + std::to_string(i + 1) + " of " + std::to_string(n));
-        std::istringstream stream(text);
-        std::string        word;
-        stream >> word;
-        const std::optional<double> at = number_in(word);
-        if (!at || !std::isfinite(*at))
-          lines.fail("'" + word.substr(0, 40) + "' is no position of a slice");
-        const std::size_t begin = text.find_first_of("'\"");
-        const std::size_t end   = begin == text.npos ? text.npos : text.find(text[begin], begin + 1);
-        if (end == text.npos || end == begin + 1)
-          lines.fail("the name of the slice's file must stand in quotes behind its position");
-        const std::string name  = text.substr(begin + 1, end - begin - 1);
-        const double      along = factor * (scale[0] + *at);
-        if (!list.entries.empty() && !(along > list.entries.back().along))
-          lines.fail("slices must follow each other; " + text_of(along) + " comes after " +
-                     text_of(list.entries.back().along));
-        list.entries.push_back({along, points_of((folder / name).string()), {}});
-      }
-    for (unsigned int i = 0; n_features > 0 && i < n; ++i)
-      {
-        const auto row = lines.numbers(n_features + 1, "position and NFEAT features of a slice");
-        if (const double along = factor * (scale[0] + row[0]);
-            std::abs(along - list.entries[i].along) > 1e-6 * factor)
-          lines.fail("features of a slice at " + text_of(along) + ", where that at " +
-                     text_of(list.entries[i].along) + " comes next");
-        list.entries[i].features.assign(row.begin() + 1, row.end());
-      }
-    if (lines.has_more())
-      {
-        lines.take("");
-        lines.fail("more lines than the list of " + std::to_string(n) + " slices has");
-      }
+    for (SliceList::Entry &entry : list.entries)
+      entry.points = points_of((folder / entry.file).string());
     return list;
+  }
+
+
+  std::vector<std::string> slices_named_in(const std::string &file)
+  {
+    std::vector<std::string> names;
+    if (file.ends_with(".slcs") || file.ends_with(".slcw"))
+      try
+        {
+          for (const SliceList::Entry &entry : read_list(file).entries)
+            names.push_back(entry.file);
+        }
+      catch (const InputError &)
+        {
+          // Whoever reads the slices says so.
+        }
+    return names;
   }
 } // namespace tread

@@ -321,6 +321,21 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// Height of the end of a section that is nearest to y, beside all of them.
+    double nearest_end(const std::vector<ProfileCurve> &sections, const double y)
+    {
+      dealii::Point<2> nearest(1e300, 0.);
+      for (const ProfileCurve &curve : sections)
+        for (const dealii::Point<2> &end : {curve.points_at_knots().front(), curve.points_at_knots().back()})
+          if (std::abs(end[0] - y) < std::abs(nearest[0] - y))
+            nearest = end;
+      return nearest[1];
+    }
+  } // namespace
+
+
   PlacedWheel::Place PlacedWheel::place_in_slices(const dealii::Point<3> &p) const
   {
     const double y         = p[1] + surfaces.rail_origin_y();
@@ -335,7 +350,7 @@ namespace tread
     if (!sections)
       sections = surfaces.rail_sections(slices_place + p[0]);
     const auto   top   = highest_over(*sections, y);
-    const double below = top ? top->z - p[2] : 0.;
+    const double below = (top ? top->z : nearest_end(*sections, y)) - p[2];
     return {p[0], beside_of(piece), std::cos(piece.inclination()) * below};
   }
 

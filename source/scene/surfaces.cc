@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/geometry/profile_names.h>
+#include <tread/geometry/slice_list.h>
 #include <tread/geometry/wheel_deviation.h>
 #include <tread/geometry/wheel_tread.h>
 #include <tread/mesh/rail_body.h>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 namespace tread
 {
@@ -49,7 +51,14 @@ namespace tread
           std::pair("Guidance/File", guidance.file), std::pair("Track/Support file", track.support_file)})
       if (const std::string path = located(file);
           !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
-        read_files.push_back(file_read(name, path));
+        {
+          read_files.push_back(file_read(name, path));
+          // A slice may stand in a list more than once.
+          const std::vector<std::string> named = slices_named_in(path);
+          for (const std::string &slice : std::set<std::string>(named.begin(), named.end()))
+            read_files.push_back(file_read(std::string(name) + ": " + slice,
+                                           (std::filesystem::path(path).parent_path() / slice).string()));
+        }
   }
 
 

@@ -152,7 +152,8 @@ namespace tread
     const double       length = scene.motion.meshed_distance();
     const unsigned int n      = std::ceil(std::clamp(length / apart, least, most));
     WayOverSlices      way;
-    WheelContact       contact;
+    // The first place twice, so that it has elements as fine as the others.
+    WheelContact contact = contact_at(scene, surfaces, scene.path_begin(), {});
     for (unsigned int i = 0; i <= n; ++i)
       {
         way.axles.push_back(scene.path_begin() + length * i / n);

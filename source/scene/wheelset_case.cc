@@ -233,6 +233,17 @@ namespace tread
     without(output.cells.empty(), "'Output/Cells' must be empty");
     without(motion.drive != Drive::torque, "'Motion/Drive' cannot be torque");
     without(mesh.fine_from == mesh.fine_to, "'Mesh/Fine from (mm)' and 'Fine to (mm)' must be equal");
+    const auto require_margin = [&](const WheelPatch &patch) {
+      const reference::PlanarResult &s = patch.solution;
+      const double least               = 1.5 * (s.x_end - s.x_begin) + std::abs(patch.region.reference[0]);
+      require(
+        std::min(rail.margin, wheel.sector_margin) >= least,
+        "'Rail/Margin (mm)' " + text_in_mm(rail.margin) + " or 'Wheel/Sector margin (mm)' " +
+          text_in_mm(wheel.sector_margin) +
+          " lets the patch leave what is meshed; both at least three half lengths of the patch and what "
+          "it lies ahead of the axle, " +
+          text_in_mm(least) + " mm");
+    };
     for (const WheelPatch &patch : placed_wheel().patches())
       {
         const reference::PlanarResult &s = patch.solution;
@@ -242,15 +253,11 @@ namespace tread
                 "'Mesh/Finest cell (mm)' " + text_in_mm(mesh.finest_cell) + " is too large for a patch " +
                   text_in_mm(2. * a) + " mm long and " + text_in_mm(2. * b) + " mm wide; at most " +
                   text_in_mm(largest_finest));
-        const double least = 3. * a + std::abs(patch.region.reference[0]);
-        require(
-          std::min(rail.margin, wheel.sector_margin) >= least,
-          "'Rail/Margin (mm)' " + text_in_mm(rail.margin) + " or 'Wheel/Sector margin (mm)' " +
-            text_in_mm(wheel.sector_margin) +
-            " lets the patch leave what is meshed; both at least three half lengths of the patch and what "
-            "it lies ahead of the axle, " +
-            text_in_mm(least) + " mm");
+        require_margin(patch);
       }
+    for (const TouchedPiece &piece : placed_wheel().way().pieces)
+      for (const TouchedPiece::Touch &touch : piece.touches)
+        require_margin(touch.patch);
     check_sector();
     check_plasticity();
     check_numerics();

@@ -232,9 +232,6 @@ namespace tread
     require(2. * request.to_mm / request.step_mm + 1. <= most_rows,
             format("--shift-step %g mm makes more than %g rows up to --shift-to %g mm; at least %.2g",
                    request.step_mm, most_rows, request.to_mm, 2.1 * request.to_mm / most_rows));
-    require(!scene.rail.is_sliced(),
-            "--contact-points is for a rail that is the same everywhere: 'Rail/Shape' cannot be slices; "
-            "--positions solves positions over slices");
     Progress          progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const WheelOnRail surfaces = scene.wheel_on_rail();
     const WheelOnRail other = request.other_side.empty() ? surfaces : other_side(scene, request.other_side);

@@ -2,6 +2,7 @@
 #include <tread/output/summary_keys.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/tools/contact_points_files.h>
+#include <tread/tools/contact_way_files.h>
 #include <tread/tools/modes_files.h>
 #include <tread/tools/print_columns.h>
 
@@ -19,6 +20,7 @@ namespace tread
     tables.insert(tables.begin(), summary);
     for (const auto &more : {tables_of_modes(), tables_of_contact_points()})
       tables.insert(tables.end(), more.begin(), more.end());
+    tables.push_back(table_of_contact_way());
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const TableDescription &table : tables)
       {

@@ -6,8 +6,12 @@ import math
 import os
 import sys
 import tempfile
+import zlib
+
+import numpy as np
 
 from tread.crossing_force import SLICES
+from tread.files import input_of, read_table
 from tread.positions import rows_of, solve
 from tread.runs import ROOT, arguments_of, execute, must_end_well
 from tread_runner import Check, run, table
@@ -38,6 +42,19 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"a rail that does not change: {key} beside that of its profile", slices[key], profile[key], 2e-3)
     check.absolute("its lateral force over the normal one", slices["lateral_force_N"] / profile["normal_force_N"],
                    profile["lateral_force_N"] / profile["normal_force_N"], 3e-4)
+
+    # As a list, whose slices count as files that the run has read.
+    with open(path("section.txt"), "w", encoding="utf-8") as file:
+        file.writelines(f"{y:.9f} {-z:.9f}\n" for y, z in zip(points["y_mm"], points["z_mm"]))
+    with open(path("same.slcs"), "w", encoding="utf-8") as file:
+        file.write("0 1\n5\n0 0 0\n1\n" + "".join(f"{x} 'section.txt'\n" for x in (-120, -60, 0, 60, 120)))
+    listed = run(program, CURVE, path("listed"), [*short, "Rail/Shape=slices", f"Rail/Slices={path('same.slcs')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"], more=["--reference-only"])
+    check.relative("a list beside the table: largest pressure by half-space theory", listed["max_pressure_Pa"], slices["half_space_patches"][0]["max_pressure_Pa"], 1e-3)
+    read = {file["parameter"]: file for file in listed["files"]}
+    with open(path("section.txt"), "rb") as file:
+        check.that("its slices are among the files, once", list(read)[1:] == ["Rail/Slices", "Rail/Slices: section.txt"] and read["Rail/Slices: section.txt"]["crc32"] == zlib.crc32(file.read()))
+    known = input_of(arguments_of(CURVE, [], path("listed"))[0], {"Rail/Slices": path("same.slcs")})["files"]
+    check.that("and of what decides about a study's run", {path("same.slcs"), path("section.txt")} <= set(known))
 
     # Wing and nose at rest. Five cells lie over the width of the nose's patch.
     given = {float(row["y_mm"]) > 755.: row for row in rows_of(GIVEN) if (row["s_mm"], row["y_ws_mm"]) == ("160", "3.52")}
@@ -75,12 +92,36 @@ with tempfile.TemporaryDirectory() as folder:
                                                     "Motion/Rolled distance (mm)=6", "Mesh/Finest cell (mm)=0.8", "Output/Write volume=false"])
     check.relative("a wing that sinks: vertical force, N", steady["normal_force_N"], 60e3, 0.01)
 
+    # The way as a table, beside the answers at its places, and the height at which nothing carries yet.
+    must_end_well(execute([*arguments_of(PASSAGE, ["Rail/Slices place (mm)=239", "Wheelset/Lateral shift (mm)=0.97", "Motion/Start (mm)=-2", "Motion/Rolled distance (mm)=4"],
+                                         path("points-along")), "--contact-points"], program=program))
+    along = read_table(os.path.join(path("points-along"), "contact_way.csv"), text=("part",))
+    places = sorted(set(along["along_mm"]))
+    check.that("five places", np.allclose(places, [237, 238, 239, 240, 241]) and np.allclose(along["along_mm"] - along["axle_x_mm"], 239))
+    check.that("wing and nose at each", all(sorted(along["part"][along["along_mm"] == place]) == ["nose", "wing"] for place in places))
+    load = [{**position, "s_mm": place, "y_ws_mm": 0.97, "load_N": 60e3} for place in places]
+    for place, patches in zip(places, solve(load, program)):
+        for patch in patches:
+            row = {name: values[(along["along_mm"] == place) & (along["part"] == patch["part"])][0] for name, values in along.items()}
+            for name, of_answer, factor, limit in (("height_mm", "height_mm", 1., 1e-3), ("patch_x_mm", "x_mm", 1., 0.02), ("patch_y_mm", "y_mm", 1., 0.02), ("patch_z_mm", "z_mm", 1., 0.02),
+                                                   ("angle_rad", "angle_rad", 1., 0.003), ("normal_force_N", "normal_force_N", 1e-3, 0.3),
+                                                   ("max_pressure_MPa", "max_pressure_Pa", 1e-6, 40.), ("patch_length_mm", "length_mm", 1., 0.5), ("patch_width_mm", "width_mm", 1., 0.3)):
+                check.absolute(f"way at {place:.0f} mm, {patch['part']}: {name}", (factor if name.endswith("_N") else 1.) * row[name], factor * float(patch[of_answer]), limit)
+            check.relative("its vertical force, N", row["vertical_force_N"], row["normal_force_N"] * math.cos(row["angle_rad"]), 1e-6)
+            check.relative("its share", row["load_share"], row["vertical_force_N"] / 60e3, 1e-3)
+            check.absolute("its radius, mm: the axle from the patch, up to how deep surfaces overlap", row["rolling_radius_mm"], math.hypot(460. + row["height_mm"] - row["patch_z_mm"], row["patch_x_mm"]), 0.15)
+    touching = {**position, "y_ws_mm": 0.97, "s_mm": 239}
+    del touching["load_N"]
+    at = along["rigid_height_mm"][along["along_mm"] == 239][0]
+    just = lambda off: float(solve([{**touching, "height_mm": at + off}], program)[0][0]["normal_force_N"])
+    check.that("without load: nothing a micrometre higher, something three lower", just(1e-3) == 0. < just(-3e-3))
+
     # What is refused, in one line.
     refused = lambda what, scene, settings, words: check.refused(what, program, scene, path("refused"), settings, words)
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
     refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])
-    check.refused("points of contact", program, PASSAGE, path("refused"), [], ["--contact-points", "'Rail/Shape' cannot be slices"], more=["--contact-points"])
+    check.refused("points over the shift", program, PASSAGE, path("refused"), [], ["--shift-to", "'Rail/Shape' slices"], more=["--contact-points", "--shift-to", "5"])
     refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' need 'Rail/Shape' slices"])
     refused("a wheel that yields", PASSAGE, ["Wheel/Yield stress (MPa)=500"], ["'Wheel/Yield stress (MPa)' must be 0"])
     refused("no file", PASSAGE, ["Rail/Slices="], ["'Rail/Shape' slices needs a file"])

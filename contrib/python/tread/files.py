@@ -11,6 +11,7 @@ import gzip
 import hashlib
 import json
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -170,6 +171,15 @@ def own_parameters(scene: str) -> dict[str, str]:
     return {name: value for text in reversed(texts_of(scene)) for name, value in parameters_in(text.splitlines()).items()}
 
 
+def slices_named_in(path: str) -> list[str]:
+    """Paths of the files in quotes that a list of slices names (.slcs, .slcw of CONTACT), relative to its folder; of any other file none."""
+    if not path.lower().endswith((".slcs", ".slcw")) or not os.path.isfile(path):
+        return []
+    with open(path, encoding="utf-8", errors="replace") as stream:
+        named = re.findall(r"^[^%!#'\"]*['\"]([^'\"]+)['\"]", stream.read(), re.MULTILINE)
+    return [os.path.join(os.path.dirname(path), name) for name in named]
+
+
 def input_of(scene: str, settings: Mapping[str, object]) -> dict:
     """What decides about a run's results: its settings, {"Section/Name": value}, the texts of the scene, and what the files contain that
     parameters name, such as profiles: as the program takes them, from the present folder or else from that of the scene. @raises DataError"""
@@ -178,9 +188,10 @@ def input_of(scene: str, settings: Mapping[str, object]) -> dict:
     files = {}
     for name in sorted(named - {""}):
         path = name if os.path.exists(name) else os.path.join(os.path.dirname(scene), name)
-        if os.path.isfile(path):
-            with open(path, "rb") as stream:
-                files[name] = hashlib.sha256(stream.read()).hexdigest()
+        for part in [path] + slices_named_in(path):
+            if os.path.isfile(part):
+                with open(part, "rb") as stream:
+                    files[name if part == path else part] = hashlib.sha256(stream.read()).hexdigest()
     return {"settings": {name: str(value) for name, value in settings.items()}, "scene": texts, "files": files}
 
 

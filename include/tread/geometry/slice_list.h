@@ -15,6 +15,7 @@ namespace tread
     struct Entry
     {
       double                                 along;    ///< the unit of the scaled numbers: mm, or rad
+      std::string                            file;     ///< as the list names it, from its own folder
       std::vector<std::pair<double, double>> points;   ///< as read_profile_points() gives them (m)
       std::vector<double>                    features; ///< lengths along the slice, -1: not there
     };
@@ -26,6 +27,10 @@ namespace tread
   /// @throws InputError, one line with file, line and cause, for what is not understood: kinks, jumps of the
   /// curvature, numbers that are missing or too many, slices that are not there
   SliceList read_slice_list(const std::string &file);
+
+  /// The files of the slices as a list names them, from its own folder; none if it is no list, or a wrong
+  /// one.
+  std::vector<std::string> slices_named_in(const std::string &file);
 } // namespace tread
 
 #endif

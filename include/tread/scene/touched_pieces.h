@@ -52,7 +52,8 @@ namespace tread
     double curvature(double axle) const;
   };
 
-  /// Contact is solved at places some millimetres apart. @throws InputError where the wheel meets no rail
+  /// Contact is solved at 5 to 61 places, a millimetre apart where that is as many. @throws InputError where
+  /// the wheel meets no rail
   WayOverSlices way_over_slices(const Scene &scene, const WheelOnRail &surfaces);
 } // namespace tread
 

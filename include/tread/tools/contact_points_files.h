@@ -15,9 +15,10 @@ namespace tread
   /// What the user asks `--contact-points` for.
   struct ContactPointsRequest
   {
-    bool   wanted  = false;
-    double to_mm   = 10.;  ///< largest lateral shift to both sides
-    double step_mm = 0.25; ///< between shifts
+    bool   wanted        = false;
+    double to_mm         = 10.;   ///< largest lateral shift to both sides
+    double step_mm       = 0.25;  ///< between shifts
+    bool   is_over_shift = false; ///< one of these, or the other side, is asked for
     /// Scene whose wheel and rail stand on the other side; empty: those of the scene, mirrored.
     std::string other_side;
   };

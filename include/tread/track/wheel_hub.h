@@ -48,7 +48,8 @@ namespace tread
   /// How a hub follows its load where inertia is no part of the answer. Its own mass would take a hundred
   /// times as long to sink by what the contact gives way as the contact takes to roll over a patch. A light
   /// one is there after about a patch, or as soon as the scaled cells let it. Its damper leads to a companion
-  /// that moves along by nothing else, so that a hub which rises evenly is free of it.
+  /// on which nothing else acts, so that a hub which rises evenly is free of it. Where the rail's height
+  /// changes along the way both are carried along it.
   struct SettlingOfHub
   {
     double stiffness; ///< of the contacts under the hub, N/m

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..plots import Figure, save, style  # before the modules: it says that matplotlib is missing
-from . import contact_points, crossing, history, impact, mesh, patch, peaks, profiles
+from . import contact_points, contact_way, crossing, damage, history, impact, mesh, patch, peaks, profiles
 
 if TYPE_CHECKING:
     from ..runs import Run
@@ -20,8 +20,11 @@ def all_figures(run: Run, contact: str | None = None) -> Iterator[tuple[str, Fig
     if run.has("contact_points.csv"):
         yield from contact_points.figures(run)
         return
+    if run.has("contact_way.csv"):
+        yield from contact_way.figures(run)
+        return
     yield from patch.figures(run, contact)
-    for module in (history, impact, crossing, peaks, mesh, profiles):
+    for module in (history, impact, crossing, peaks, damage, mesh, profiles):
         yield from module.figures(run)
 
 
