@@ -105,6 +105,8 @@ namespace tread
 
   void Contact::refresh(const Vector3 *x, const Vector3 *v, const double time_step)
   {
+    if (take_record)
+      hand_over_record();
     std::vector<Vector3> all_x, all_v;
     surfaces.replicate(x, all_x);
     surfaces.replicate(v, all_v);
@@ -258,6 +260,8 @@ namespace tread
       position[i] = x[involved[i]];
     previous_impulse = impulse;
     slid.assign(problem.constraints.size(), 0.);
+    if (take_record)
+      totals.assign(problem.constraints.size(), {});
     given_ratio.clear();
     if (given_tractions)
       for (const ContactProblem::Constraint &constraint : problem.constraints)
@@ -380,6 +384,7 @@ namespace tread
     gather_strips(pair_friction.coefficient);
     gather_strips(previous_impulse);
     gather_strips(slid);
+    gather_strips(totals);
 
     std::vector<Vector3> rows;
     for (const unsigned int i : involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tread
 {
@@ -24,14 +25,97 @@ namespace tread
         const double                      normal     = dot(impulse[j], constraint.normal);
         if (normal <= 0.)
           continue;
-        const Vector3 u          = problem.combine(constraint, mean_velocity);
-        const Vector3 tangential = impulse[j] - normal * constraint.normal;
-        const double  put_in     = -dot(tangential, imposed[j]);
-        const double  lost       = put_in - dot(tangential, u);
-        work.imposed += put_in;
+        const Vector3 u = problem.combine(constraint, mean_velocity);
+        work.imposed -= dot(impulse[j] - normal * constraint.normal, imposed[j]);
         work.normal -= normal * dot(u, constraint.normal);
-        (slips[j] ? work.friction : work.adhesion) += lost;
+        (slips[j] ? work.friction : work.adhesion) += tangential_loss(j, normal, u);
       }
+  }
+
+
+  double Contact::tangential_loss(const unsigned int j, const double normal, const Vector3 u) const
+  {
+    const Vector3 tangential = impulse[j] - normal * problem.constraints[j].normal;
+    return -dot(tangential, imposed[j]) - dot(tangential, u);
+  }
+
+
+  Vector3 Contact::slip_of(const unsigned int j, const Vector3 u) const
+  {
+    const Vector3 &normal = problem.constraints[j].normal;
+    return u - dot(u, normal) * normal + imposed[j] - before_entry[j];
+  }
+
+
+  void Contact::add_step_to_record(const double time_step)
+  {
+    if (!counts_pairs())
+      return;
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
+      {
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        const double                      normal     = dot(impulse[j], constraint.normal);
+        if (normal <= 0. || !slips[j])
+          continue;
+        const Vector3 u    = problem.combine(constraint, mean_velocity);
+        const double  slip = norm(slip_of(j, u));
+        totals[j].duration += time_step;
+        totals[j].friction += tangential_loss(j, normal, u);
+        totals[j].distance += time_step * slip;
+        totals[j].sliding += normal * slip;
+      }
+  }
+
+
+  void Contact::hand_over_record()
+  {
+    if (!counts_pairs())
+      return;
+    PairRecord record;
+    for (unsigned int j = strips.begin; j < strips.end; ++j)
+      {
+        if (totals[j].duration == 0.)
+          continue;
+        const ContactProblem::Constraint &constraint = problem.constraints[j];
+        record.slave                                 = constraint.slave;
+        record.area                                  = constraint.area;
+        record.totals                                = std::exchange(totals[j], {});
+        // The dual functions make the coefficients of some nodes negative, who would gain what others lose.
+        record.masters.clear();
+        double sum = 0.;
+        for (unsigned int i = constraint.begin; i < constraint.end; ++i)
+          if (const ContactProblem::Entry &entry = problem.entries[i];
+              entry.coefficient > 0. && surfaces.nodes[involved[entry.node]].body != parameters.slave_body)
+            {
+              record.masters.push_back({involved[entry.node], entry.coefficient});
+              sum += entry.coefficient;
+            }
+        for (PairRecord::Share &share : record.masters)
+          share.share /= sum;
+        take_record(record);
+      }
+  }
+
+
+  void Contact::visit_impulses(
+    const std::function<void(unsigned int node, double normal, double tangential)> &visit) const
+  {
+    for (const NodeTerms &node : node_terms)
+      if (node.owned)
+        {
+          double  normal = 0.;
+          Vector3 tangential{};
+          for (unsigned int k = node.begin; k < node.end; ++k)
+            {
+              const Vector3 &p   = impulse[terms[k].constraint],
+                            &n   = problem.constraints[terms[k].constraint].normal;
+              const double along = dot(p, n);
+              normal += terms[k].coefficient * along;
+              tangential += terms[k].coefficient * (p - along * n);
+            }
+          if (normal != 0.)
+            visit(involved[node.node], std::abs(normal), norm(tangential));
+        }
   }
 
 
@@ -119,11 +203,10 @@ namespace tread
         state.normal      = constraint.normal;
         state.impulse     = impulse[j];
         const Vector3 u   = problem.combine(constraint, velocity);
-        // While it touches: what an entering pair slips before that is not.
-        state.slip     = u - dot(u, constraint.normal) * constraint.normal + imposed[j] - before_entry[j];
-        state.area     = constraint.area;
-        state.gap      = dot(problem.combine(constraint, position), constraint.normal);
-        state.adhesion = !slips[j];
+        state.slip        = slip_of(j, u);
+        state.area        = constraint.area;
+        state.gap         = dot(problem.combine(constraint, position), constraint.normal);
+        state.adhesion    = !slips[j];
         states.push_back(state);
       }
     return parameters.reproducible ? states : gathered(states, comm);

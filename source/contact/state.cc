@@ -17,7 +17,8 @@ namespace tread
          {impulse.size(), previous_impulse.size(), slid.size(), corners_around.size()})
       if (size != n_pairs)
         return false;
-    for (const std::size_t size : {pair_friction.coefficient.size(), pair_friction.factor.size()})
+    for (const std::size_t size :
+         {pair_friction.coefficient.size(), pair_friction.factor.size(), totals.size()})
       if (size != 0 && size != n_pairs)
         return false;
     if (position.size() != n_nodes || !all_below(involved, surfaces.nodes.size()) ||
@@ -58,7 +59,7 @@ namespace tread
     archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
                  corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
                  travelled, allowed_travel, unconverged_steps, pair_friction.coefficient,
-                 pair_friction.factor, near_contact);
+                 pair_friction.factor, near_contact, totals);
     archive.shares(work.friction, work.normal, work.adhesion, work.imposed);
     work.on_nodes.serialize(archive);
     std::vector<unsigned int> begin_of_strip = strips.begins();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/output/columns.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <array>
 #include <regex>
 #include <utility>
@@ -9,8 +11,13 @@ namespace tread
 {
   double factor_of(const std::string &unit)
   {
-    static const std::array<std::pair<const char *, double>, 5> factors{
-      {{"mm", 1e3}, {"um", 1e6}, {"mm2", 1e6}, {"MPa", 1e-6}, {"percent", 100.}}};
+    static const std::array<std::pair<const char *, double>, 6> factors{
+      {{"mm", 1e3},
+       {"um", 1e6},
+       {"mm2", 1e6},
+       {"MPa", 1e-6},
+       {"percent", 100.},
+       {"deg", 180. / dealii::numbers::PI}}};
     for (const auto &[name, factor] : factors)
       if (unit == name)
         return factor;
@@ -22,9 +29,9 @@ namespace tread
   {
     // Longer ones before those that they end with.
     for (const std::string unit :
-         {"rad_per_s", "m_per_s2", "m_per_s", "N_per_m", "m_per_N", "per_m", "per_s", "percent",
-          "degrees",   "bytes",    "MPa",     "Pa",      "Hz",      "mm2",   "mm",    "um",
-          "m2",        "rad",      "Nm",      "m",       "N",       "J",     "W",     "s"})
+         {"J_per_m2", "deg",     "K",       "rad_per_s", "m_per_s2", "m_per_s", "N_per_m", "m_per_N", "per_m",
+          "per_s",    "percent", "degrees", "bytes",     "MPa",      "Pa",      "Hz",      "mm2",     "mm",
+          "um",       "m2",      "rad",     "Nm",        "m",        "N",       "J",       "W",       "s"})
       if (heading.size() > unit.size() + 1 &&
           heading.compare(heading.size() - unit.size() - 1, std::string::npos, "_" + unit) == 0)
         return unit;
@@ -508,6 +515,54 @@ namespace tread
   }
 
 
+  Columns<SurfacePlace> surface_damage_columns(const bool of_wheel)
+  {
+    using R = SurfacePlace;
+    return {of_wheel ? Column<R>{"angle", "deg",
+                                 "About the axle, from where the wheel stands on the rail at the start; "
+                                 "positive: comes to the rail later",
+                                 [](const R &r) {
+                                   return r.along;
+                                 }}
+                     : Column<R>{"x", "mm", "Along the rail, without load",
+                                 [](const R &r) {
+                                   return r.along;
+                                 }},
+            {"y", "mm", "Across, without load; 0 at the middle of the rail's top",
+             [](const R &r) {
+               return r.y;
+             }},
+            {"area", "m2", "Of the surface that this node stands for: its share of the faces around it", [](const R &r) { return r.area; }},
+            {"friction_work", "J_per_m2", "Work of friction so far",
+             [](const R &r) {
+               return r.friction_work;
+             }},
+            {"slip_distance", "m", "Way that the other surface has slid over it",
+             [](const R &r) {
+               return r.slip_distance;
+             }},
+            {"max_pressure", "Pa", "Largest pressure",
+             [](const R &r) {
+               return r.max_pressure;
+             }},
+            {"max_shear", "Pa", "Largest shear stress of friction",
+             [](const R &r) {
+               return r.max_shear;
+             }},
+            {"passages", "", "How often it came into contact",
+             [](const R &r) {
+               return r.passages;
+             }},
+            {"max_flash_temperature", "K", "Largest rise of temperature by the heat of friction",
+             [](const R &r) {
+               return r.max_temperature;
+             }},
+            {"wear_depth", "m", "Lost by 'Damage/Wear law'", [](const R &r) {
+               return r.wear_depth;
+             }}};
+  }
+
+
   const Columns<StripColumn> &strip_columns()
   {
     using R = StripColumn;
@@ -665,6 +720,8 @@ namespace tread
             describe("patches.csv", patches_columns()),
             describe("cells.csv", cell_columns(1)),
             describe("strip.csv", strip_columns()),
+            describe("rail_surface_damage.csv", surface_damage_columns(false)),
+            describe("wheel_surface_damage.csv", surface_damage_columns(true)),
             describe("peak_stress.csv", peak_columns()),
             describe("rail_seats.csv", rail_seat_columns()),
             describe("passages.csv", passage_columns()),
@@ -679,11 +736,13 @@ namespace tread
   {
     // patch_averaged.csv, patch_wheel_2.csv, reference_patch.csv, peak_stress_wheel.csv
     static const std::regex patch("^(reference_patch|patch_.*)[.]"), peaks("^peak_stress_wheel"),
-      support("^support_-?[0-9]+_"), wheel("^wheel_[0-9]+_"), cell("^cell_[0-9]+_");
+      damage("^wheel_surface_damage_wheel_[0-9]+"), support("^support_-?[0-9]+_"), wheel("^wheel_[0-9]+_"),
+      cell("^cell_[0-9]+_");
     const auto like = [](const std::string &text, const std::regex &numbered, const char *instead) {
       return std::regex_replace(text, numbered, instead);
     };
-    const std::string table = like(like(file, patch, "patch."), peaks, "peak_stress");
+    const std::string table =
+      like(like(like(file, patch, "patch."), peaks, "peak_stress"), damage, "wheel_surface_damage");
     const std::string name =
       like(like(like(heading, support, "support_0_"), wheel, "wheel_2_"), cell, "cell_1_");
     static const std::vector<TableDescription> tables = tables_of_a_run();

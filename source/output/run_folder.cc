@@ -92,7 +92,8 @@ namespace tread
       "(summary\\.json|run\\.h5|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
       "transient|"
       "rail_cells|"
-      "rail_surface|strip|peak_stress(_wheel)?|rail_seats|cells|passages|dynamic|spectrum|modes|"
+      "rail_surface|(rail|wheel)_surface_damage(_wheel_[0-9]+)?|strip|peak_stress(_wheel)?|rail_seats|cells|"
+      "passages|dynamic|spectrum|modes|"
       "receptance|measured_(rail|wheel))\\.csv|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
       "checkpoint-[01]|checkpoint\\.last|"
       "(volume|surface|modes)(\\.pvd|\\.xdmf|\\.h5|-[0-9]{4,}\\.(vtu|h5)))(\\.part)?");
@@ -131,7 +132,8 @@ namespace tread
     std::filesystem::remove(path("summary.json"), ignored);
     static const std::regex of_solution(
       "run\\.h5|(patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|rail_cells|"
-      "rail_surface|rail_seats|strip|peak_stress(_wheel)?)\\.csv");
+      "rail_surface|(rail|wheel)_surface_damage(_wheel_[0-9]+)?|rail_seats|strip|peak_stress(_wheel)?)\\."
+      "csv");
     remove_files(folder, [](const std::string &name) { return std::regex_match(name, of_solution); });
   }
 
@@ -224,6 +226,12 @@ namespace tread
   void RunFolder::write_strip(const std::vector<StripColumn> &columns) const
   {
     write_table("strip.csv", strip_columns(), columns);
+  }
+
+
+  void RunFolder::write_surface_damage(const std::string &name, const std::vector<SurfacePlace> &places) const
+  {
+    write_table(name, surface_damage_columns(name.starts_with("wheel")), places);
   }
 
 

@@ -68,6 +68,19 @@ namespace tread
        largest_patch},
       {"frictional_power_W", "Power that friction takes in the patch, " + over_a_cell, all_patches}};
 
+    /// What rolling does to the steel.
+    const Keys of_damage{
+      {"t_gamma_N", "Frictional power over the rolling speed: T-gamma, spin included"},
+      {"surface_fatigue_index",
+       "Friction used less what the shakedown map allows, 2 pi a b k / (3 N), with Hertz's semi-axes under "
+       "the "
+       "normal force (of a wheelset in a position the extents of the patch that is worst) and 'Damage/Shear "
+       "strength (MPa)'"},
+      {"max_flash_temperature_K",
+       "Largest rise of temperature by the heat of friction, of rail and wheels, in all steps"},
+      {"wear_volume_m3",
+       "Volume that the rail has lost by 'Damage/Wear law'; the wheels together lose as much"}};
+
     /// Of the first wheel alone.
     const Keys first_wheel{
       {"friction_coefficient",
@@ -282,7 +295,7 @@ namespace tread
         quality.emplace_back(heading(column), column.about);
       Keys all;
       for (const Keys &keys : {scene, wheel, first_wheel, comparison, quality, impacts, cost, further_wheels,
-                               recorded, peaks(), half_space})
+                               recorded, of_damage, peaks(), half_space})
         all.insert(all.end(), keys.begin(), keys.end());
       return all;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the parameters of several sections have to say to each other.
+#include <tread/base/registry.h>
 #include <tread/contact/remembering_friction.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/hertz.h>
@@ -442,12 +443,15 @@ namespace tread
         require((material.plastic_zones.empty() && material.yield_stress == 0.) ||
                   (element_named(solid.element).can_yield && !solid.has_bulk_viscosity()),
                 "'" + section + "/Yield stress (MPa)' needs 'Solid/Element' one-point and no bulk viscosity");
-        material.check(section, of_wheel
-                                  ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside,
-                                                            -wheel.sector_margin,
-                                                            motion.meshed_distance() + wheel.sector_margin}
-                                  : MaterialSection::Meshed{rail.thickness(), rail.half_width() - beside,
-                                                            rail_begin(), rail_end()});
+        // Where the wheel has a position both bodies are blocks of one size.
+        material.check(
+          section,
+          of_wheel
+            ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside, -wheel.sector_margin,
+                                      motion.meshed_distance() + wheel.sector_margin}
+            : MaterialSection::Meshed{(is_positioned() ? wheel.thickness() : rail.thickness()),
+                                      (is_positioned() ? wheel.half_width() : rail.half_width()) - beside,
+                                      rail_begin(), rail_end()});
       }
   }
 
@@ -554,6 +558,13 @@ namespace tread
       {
         throw InputError(error.what());
       }
+  }
+
+
+  std::shared_ptr<const WearLaw> Scene::wear_law() const
+  {
+    const Section section(handler, "Damage");
+    return entry_named(wear_laws(), damage.wear_law, "wear law").make(handler);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/rail_profile.h>
 #include <tread/reference/errors.h>
+#include <tread/reference/fatigue.h>
 #include <tread/scene/half_space_case.h>
 
 #include <algorithm>
@@ -276,6 +277,11 @@ namespace tread
     summary.show("max_shear_Pa", "maximum shear stress, MPa", 1e-6, patch.max_shear);
     summary.show("max_slip_m_per_s", "maximum micro-slip, m/s", 1., patch.max_slip);
     summary.show("frictional_power_W", "frictional power, W", 1., patch.frictional_power);
+    summary.set("t_gamma_N", patch.frictional_power / scene.motion.speed);
+    if (const double strength = scene.shear_strength(); strength > 0. && normal > 0.)
+      summary.set("surface_fatigue_index", reference::surface_fatigue_index(
+                                             std::hypot(answer.force[0], answer.force[1]) / normal,
+                                             ellipse.semi_axis_x, ellipse.semi_axis_y, strength, normal));
   }
 
 

@@ -154,6 +154,23 @@ namespace tread
   }
 
 
+  SurfaceDamageParameters surface_damage_parameters(const Scene &scene)
+  {
+    constexpr double looks_in_a_cell = 4.;
+    const auto       effusivity      = [&](const MaterialSection &steel) {
+      return std::sqrt(scene.damage.conductivity * steel.density * scene.damage.heat_capacity);
+    };
+    SurfaceDamageParameters p;
+    p.interval          = scene.mesh.finest_cell / (looks_in_a_cell * scene.motion.speed);
+    p.wear              = scene.wear_law();
+    p.slave_effusivity  = effusivity(scene.rail.material);
+    p.master_effusivity = effusivity(scene.wheel.material);
+    p.master_share =
+      scene.damage.wheel_share.value_or(p.master_effusivity / (p.master_effusivity + p.slave_effusivity));
+    return p;
+  }
+
+
   PeakRegion peak_region(const Scene &scene, const unsigned int body)
   {
     // This far from the middle of a patch, half a semi-axis from its edge, no stress is as large as under it.

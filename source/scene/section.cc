@@ -21,7 +21,7 @@ namespace tread
       double      times, over;
     };
 
-    constexpr std::array<Unit, 29> units{{{"mm", 1e-3, 1.},
+    constexpr std::array<Unit, 31> units{{{"mm", 1e-3, 1.},
                                           {"m", 1., 1.},
                                           {"GPa", 1e9, 1.},
                                           {"MPa", 1e6, 1.},
@@ -49,7 +49,9 @@ namespace tread
                                           {"kN m", 1e3, 1.},
                                           {"MN m per rad", 1e6, 1.},
                                           {"MN m2", 1e6, 1.},
-                                          {"kN m s per rad", 1e3, 1.}}};
+                                          {"kN m s per rad", 1e3, 1.},
+                                          {"W per m K", 1., 1.},
+                                          {"J per kg K", 1., 1.}}};
 
     Unit unit_of(const std::string &name)
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/reference/fatigue.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 
@@ -289,5 +290,18 @@ namespace tread
     summary.set("patch_area_m2", area);
     summary.set("max_shear_Pa", shear);
     summary.set("max_slip_m_per_s", slip);
+    summary.set("t_gamma_N", frictional_power(contact) / scene.motion.speed);
+    const double strength = scene.shear_strength();
+    if (!(strength > 0.))
+      return;
+    double index = -1e300;
+    for (const WheelPatch &patch : contact.patches)
+      if (const reference::PlanarResult &s = patch.solution; s.normal_force > 0.)
+        index = std::max(index, reference::surface_fatigue_index(
+                                  std::hypot(s.longitudinal_force, s.lateral_force) / s.normal_force,
+                                  0.5 * (s.x_end - s.x_begin), 0.5 * (s.y_end - s.y_begin), strength,
+                                  s.normal_force));
+    if (index > -1e300)
+      summary.set("surface_fatigue_index", index);
   }
 } // namespace tread

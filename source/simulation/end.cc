@@ -394,6 +394,28 @@ namespace tread
   }
 
 
+  void Simulation::add_damage(Summary &summary, RunFolder &folder) const
+  {
+    if (!damage)
+      return;
+    folder.write_surface_damage("rail_surface_damage.csv",
+                                damage->places(rail_body, [](const Vector3 &p) { return p[0]; }));
+    double hottest = damage->max_temperature(rail_body);
+    for (const RollingWheel &wheel : wheels)
+      {
+        const Vector3 axle = wheel.hub.start();
+        folder.write_surface_damage(RunFolder::table_of_wheel("wheel_surface_damage", wheel.number),
+                                    damage->places(wheel.body, [&](const Vector3 &p) {
+                                      return std::atan2(p[0] - axle[0], axle[2] - p[2]);
+                                    }));
+        hottest = std::max(hottest, damage->max_temperature(wheel.body));
+      }
+    summary.set("max_flash_temperature_K", hottest);
+    if (scene.wear_law())
+      summary.set("wear_volume_m3", damage->wear_volume(rail_body));
+  }
+
+
   std::string Simulation::add_peaks(Summary                  &summary,
                                     RunFolder                &folder,
                                     std::vector<std::string> &warnings) const
@@ -620,6 +642,7 @@ namespace tread
       warnings.push_back(
         format("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
                rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
+    add_damage(summary, folder);
     const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     const std::string plastic_strain = add_plastic_strain(
       summary, dynamics, wheels.front().body,

@@ -124,6 +124,8 @@ namespace tread
         rail_peaks  = record(true, rail_body);
         wheel_peaks = record(false, wheels.front().body);
       }
+    if (scene.damage.record)
+      damage = std::make_unique<SurfaceDamage>(contact, rail_body, surface_damage_parameters(scene));
     if (const auto points = scene.recorded_cells(); !points.empty())
       try
         {
@@ -148,6 +150,8 @@ namespace tread
     for (StressPeaks *peaks : {rail_peaks.get(), wheel_peaks.get()})
       if (peaks)
         peaks->serialize(archive);
+    if (damage)
+      damage->serialize(archive);
     archive.same(placement_at_solution);
     if (placement_at_solution && !placed_at_solution && no_half_space.empty())
       place_at_solution();
@@ -544,6 +548,8 @@ namespace tread
         dynamics.step();
         add_to_interval();
         look_for_peaks();
+        if (damage)
+          damage->add_step(dynamics.state.time_step);
         if (seats)
           seats->record(dynamics.state.time, position());
         if (!dynamics.synchronised())

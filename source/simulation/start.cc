@@ -212,6 +212,8 @@ namespace tread
       supports->set_at_rest(dynamics.state.positions().data());
     if (rail_base)
       rail_base->place();
+    if (damage)
+      damage->forget_masters();
     contact.scale_impulses(0.);
     forget_solution();
     torque_released  = false;

@@ -59,6 +59,28 @@ namespace tread
     double imposed = 0.; ///< put in by who imposes sliding; on_nodes + imposed is lost by the pairs
   };
 
+  /// What a pair has done since it was asked for the last time.
+  struct PairRecord
+  {
+    struct Totals
+    {
+      double duration = 0.; ///< in which it slipped, s
+      double friction = 0.; ///< work lost by its tangential impulses, J
+      double distance = 0.; ///< slip of master over slave surface while it touches, m
+      double sliding  = 0.; ///< normal force over that distance, J
+    };
+    unsigned int slave; ///< surface node
+    double       area;  ///< m^2
+    Totals       totals;
+    /// The master's nodes under the slave node, each with its share in what the pair does; together 1.
+    struct Share
+    {
+      unsigned int node; ///< surface node
+      double       share;
+    };
+    std::vector<Share> masters;
+  };
+
   /// Contact between the surface of one body and those of others, each of which touches it in a place of its
   /// own: search, mortar coupling and impulses of each step.
   ///
@@ -166,6 +188,22 @@ namespace tread
     /// know all of them.
     std::vector<Vector3> surface_impulses() const;
 
+    /// Sum what pairs do from now on, and hand it over before they change. Each pair is counted on one rank.
+    void record_pairs(std::function<void(const PairRecord &)> take)
+    {
+      take_record = std::move(take);
+      totals.assign(problem.constraints.size(), {});
+    }
+    /// To be called after each step that counts. @pre record_pairs()
+    void add_step_to_record(double time_step);
+    /// Hand over what there is now.
+    void hand_over_record();
+
+    /// The impulse of the last step on each surface node of this rank's own that couples: its part along the
+    /// pairs' normals and the length of the rest, both positive, N s.
+    void visit_impulses(
+      const std::function<void(unsigned int node, double normal, double tangential)> &visit) const;
+
     /// Number of steps in which the sweeps ended before the tolerance was reached, without those of the
     /// start.
     std::uint64_t n_unconverged_steps() const
@@ -204,6 +242,11 @@ namespace tread
     void age_friction(const double time_step);
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
+    /// Slip of a pair of the strip with the relative velocity u (m/s), while it touches: what an entering
+    /// pair slips before that is left out.
+    Vector3 slip_of(unsigned int constraint, const Vector3 u) const;
+    /// Work that the tangential impulse of a pair loses, with the mean relative velocity u of the step, J.
+    double tangential_loss(unsigned int constraint, double normal, const Vector3 u) const;
     /// Largest speeds of this rank's own slave and master nodes, m/s.
     std::array<double, 2> largest_speeds(const Vector3 *v) const;
     /// Rotate the normals with the slave faces between two refreshes.
@@ -263,7 +306,9 @@ namespace tread
     std::vector<Vector3>      before_entry;     ///< likewise: slip before it touched, over the step, m/s
     std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
     std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
-    std::vector<unsigned int> swept_nodes;      ///< compact numbers of those that the strip's sweeps move
+    std::function<void(const PairRecord &)> take_record; ///< none: pairs are not recorded
+    std::vector<PairRecord::Totals>         totals;      ///< likewise; empty: not recorded
+    std::vector<unsigned int> swept_nodes; ///< compact numbers of those that the strip's sweeps move
     /// Effect of the constraints on a node of the strip or of this rank. It is summed in the same order on
     /// all ranks that know the node, so that its position is the same on all of them.
     struct NodeTerms

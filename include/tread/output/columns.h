@@ -5,6 +5,7 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
 #include <tread/analysis/stress_peaks.h>
+#include <tread/analysis/surface_damage.h>
 #include <tread/output/records.h>
 #include <tread/track/rail_seats.h>
 
@@ -119,6 +120,7 @@ namespace tread
   const Columns<PatchesRow>         &patches_columns();
   const Columns<Passage>            &passage_columns();
   const Columns<StripColumn>        &strip_columns();
+  Columns<SurfacePlace>              surface_damage_columns(bool of_wheel);
   const Columns<StressPeaks::Layer> &peak_columns();
   const Columns<RailSeatPoint>      &rail_seat_columns();
   /// rail_cells.csv: middle, von Mises stress, Cauchy stress xx, yy, zz, xy, yz, zx, plastic strain.

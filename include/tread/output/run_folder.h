@@ -4,6 +4,7 @@
 
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
+#include <tread/analysis/surface_damage.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/output/columns.h>
 #include <tread/output/picture.h>
@@ -106,6 +107,9 @@ namespace tread
 
     /// The largest stresses at the surface, depth 0, and in each layer of cells below it.
     void write_peaks(const std::string &name, const StressPeaks::Answer &answer) const;
+
+    /// rail_surface_damage.csv or wheel_surface_damage.csv: what friction did to each place of a surface.
+    void write_surface_damage(const std::string &name, const std::vector<SurfacePlace> &places) const;
 
     /// rail_seats.csv: one row for each part of a recorded support's pad.
     void write_rail_seats(const std::vector<RailSeatPoint> &points) const;

@@ -4,6 +4,7 @@
 
 #include <tread/analysis/rail_stress.h>
 #include <tread/analysis/stress_peaks.h>
+#include <tread/analysis/surface_damage.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/body.h>
@@ -47,10 +48,11 @@ namespace tread
   /// Depth below the surface of the rail or of the first wheel, m, in the reference configuration.
   std::function<double(const dealii::Point<3> &)> depth_in(const Scene &scene, const unsigned int body);
   /// Where the largest stresses of the rail, or of the tread of the first wheel, are looked for.
-  PeakRegion         peak_region(const Scene &scene, const unsigned int body);
-  WheelHubParameters hub_parameters(const Scene &scene);
-  DynamicsParameters dynamics_parameters(const Scene &scene);
-  ContactParameters  contact_parameters(const Scene &scene);
+  PeakRegion              peak_region(const Scene &scene, const unsigned int body);
+  SurfaceDamageParameters surface_damage_parameters(const Scene &scene);
+  WheelHubParameters      hub_parameters(const Scene &scene);
+  DynamicsParameters      dynamics_parameters(const Scene &scene);
+  ContactParameters       contact_parameters(const Scene &scene);
   /// Coordinate x half a spacing ahead of a support, or the end of the rail if it comes first.
   double mid_span_beside(const Scene &scene, const int number);
 } // namespace tread

@@ -7,6 +7,7 @@
 #include <tread/scene/islands.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/sections/contact.h>
+#include <tread/scene/sections/damage.h>
 #include <tread/scene/sections/defect.h>
 #include <tread/scene/sections/further_wheels.h>
 #include <tread/scene/sections/general.h>
@@ -29,6 +30,7 @@
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -67,6 +69,7 @@ namespace tread
     StartSection         start;
     OutputSection        output;
     PeakStressSection    peak_stress;
+    DamageSection        damage;
     WatchdogSection      watchdogs;
 
     /// Read a parameter file (none: all defaults) with those that its lines "include NAME" name, relative to
@@ -181,6 +184,14 @@ namespace tread
 
     /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;
+
+    /// Yield stress of the rail in shear, Pa; 0: not known.
+    double shear_strength() const
+    {
+      return damage.shear_strength > 0. ? damage.shear_strength : rail.material.yield_stress / std::sqrt(3.);
+    }
+    /// What surfaces lose, with its parameters; null: nothing.
+    std::shared_ptr<const WearLaw> wear_law() const;
 
     TrackParameters    track_parameters() const;
     RailBaseParameters rail_base_parameters() const;

@@ -5,6 +5,7 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
 #include <tread/analysis/stress_peaks.h>
+#include <tread/analysis/surface_damage.h>
 #include <tread/base/archive.h>
 #include <tread/contact/contact.h>
 #include <tread/dynamics/explicit_dynamics.h>
@@ -186,6 +187,8 @@ namespace tread
     void add_doubts(std::vector<std::string> &warnings) const;
     /// @returns lines about the largest stresses for the screen.
     std::string add_recorded(Summary &summary, RunFolder &folder) const;
+    /// Tables and figures of what friction did to the surfaces.
+    void        add_damage(Summary &summary, RunFolder &folder) const;
     std::string add_peaks(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
@@ -200,19 +203,20 @@ namespace tread
     bool   interval_ended(const double interval) const;
     double memory_of_cells_and_nodes() const; // bytes, of all ranks
 
-    const Scene                 &scene;
-    MPI_Comm                     comm;
-    Mesh                         mesh;
-    Solid                        solid;
-    std::vector<RollingWheel>    wheels; ///< of fixed number
-    ExplicitDynamics             dynamics;
-    Contact                      contact;
-    std::unique_ptr<Supports>    supports;                ///< none: the rail's bottom stays in shape
-    std::unique_ptr<RailBase>    rail_base;               ///< none: without supports that is held
-    std::unique_ptr<RailSeats>   seats;                   ///< none: no supports are recorded
-    std::unique_ptr<StressStrip> strip;                   ///< none: no table
-    std::unique_ptr<CellProbes>  probes;                  ///< none: no table
-    std::unique_ptr<StressPeaks> rail_peaks, wheel_peaks; ///< none: no tables
+    const Scene                   &scene;
+    MPI_Comm                       comm;
+    Mesh                           mesh;
+    Solid                          solid;
+    std::vector<RollingWheel>      wheels; ///< of fixed number
+    ExplicitDynamics               dynamics;
+    Contact                        contact;
+    std::unique_ptr<Supports>      supports;                ///< none: the rail's bottom stays in shape
+    std::unique_ptr<RailBase>      rail_base;               ///< none: without supports that is held
+    std::unique_ptr<RailSeats>     seats;                   ///< none: no supports are recorded
+    std::unique_ptr<StressStrip>   strip;                   ///< none: no table
+    std::unique_ptr<CellProbes>    probes;                  ///< none: no table
+    std::unique_ptr<StressPeaks>   rail_peaks, wheel_peaks; ///< none: no tables
+    std::unique_ptr<SurfaceDamage> damage;                  ///< none: no tables
 
     const std::optional<double> between_pieces; ///< of a rail of slices, y (m)
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_analysis_surface_damage_h
+#define tread_analysis_surface_damage_h
+
+#include <tread/analysis/surface_heat.h>
+#include <tread/analysis/wear_law.h>
+#include <tread/base/archive.h>
+#include <tread/contact/contact.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace tread
+{
+  struct SurfaceDamageParameters
+  {
+    double                         interval; ///< between looks at pressure and temperature, s
+    std::shared_ptr<const WearLaw> wear;     ///< null: none
+    /// sqrt(conductivity density heat capacity) of slave and masters, J/(m^2 K sqrt(s)).
+    double slave_effusivity, master_effusivity;
+    double master_share; ///< of the heat of friction that flows into the masters
+  };
+
+  /// What rolling has done to a place of a surface, in the reference configuration, SI units.
+  struct SurfacePlace
+  {
+    double along, y;        ///< x of a rail, m; angle about the axle of a wheel, rad
+    double area;            ///< of the surface that the node stands for, m^2
+    double friction_work;   ///< per area, J/m^2
+    double slip_distance;   ///< of the other surface over it, m
+    double max_pressure;    ///< Pa
+    double max_shear;       ///< Pa
+    double passages;        ///< number of times that it came into contact
+    double max_temperature; ///< largest rise by friction, K
+    double wear_depth;      ///< m
+  };
+
+  /// What friction does to both surfaces, by their nodes: work, slip and wear are summed over all steps, so
+  /// that the work over the surface is that of the ledger. A pair's work counts for its slave node, and for
+  /// the masters' nodes under it in the shares in which its impulse goes to them. Pressure and shear stress
+  /// are nodal impulses over the nodes' areas.
+  ///
+  /// Heat flows straight into the depth (@see SurfaceHeat), in fixed shares. Both surfaces meet with the same
+  /// history of heat but for the slip, so that shares in the ratio of the effusivities give both one
+  /// temperature.
+  class SurfaceDamage
+  {
+  public:
+    SurfaceDamage(Contact &contact, unsigned int slave_body, const SurfaceDamageParameters &parameters);
+
+    /// To be called after each step. Collective.
+    void add_step(double time_step);
+
+    /// The wheels are new ones.
+    void forget_masters();
+
+    /// The nodes of a body that were ever loaded, of all ranks, in the order of place. Collective.
+    /// @param along the first coordinate at a reference position
+    std::vector<SurfacePlace> places(unsigned int body, const std::function<double(const Vector3 &)> &along);
+
+    /// Of a body: volume lost (m^3), and the largest rise of temperature (K). Collective.
+    double wear_volume(unsigned int body);
+    double max_temperature(unsigned int body);
+
+    /// Store or restore the state. Collective.
+    void serialize(Archive &archive);
+
+  private:
+    /// Of a surface node. Sums are this rank's shares of them; the rest is known on the node's own rank.
+    struct Node
+    {
+      double        work = 0., slip = 0., wear = 0.; ///< J, m^3, m^3
+      double        heat     = 0.;                   ///< since the last look, J
+      double        pressure = 0., shear = 0.;       ///< largest, Pa
+      double        passages     = 0.;
+      std::uint64_t loaded_until = 0;  ///< look; 0: never
+      double        temperature  = 0.; ///< largest rise, K
+    };
+    struct Hot
+    {
+      SurfaceHeat::Memory memory{};
+      std::uint64_t       until = 0; ///< look until which the memory is kept
+    };
+    struct Stored
+    {
+      unsigned int node;
+      Node         state;
+      bool         is_hot;
+      Hot          hot;
+    };
+
+    void   take(const PairRecord &record);
+    void   look(double time_step);
+    void   note_contact(Node &node) const;
+    void   heat_up();
+    double share_of(unsigned int body) const
+    {
+      return body == slave_body ? 1. - parameters.master_share : parameters.master_share;
+    }
+    double effusivity_of(unsigned int body) const
+    {
+      return body == slave_body ? parameters.slave_effusivity : parameters.master_effusivity;
+    }
+    /// Nodes with sums and the rest complete, on all ranks. Collective.
+    std::vector<Node> complete();
+
+    Contact                     &contact;
+    unsigned int                 slave_body;
+    SurfaceDamageParameters      parameters;
+    int                          rank;
+    std::vector<double>          area;  ///< by surface node, m^2
+    std::vector<Node>            nodes; ///< by surface node
+    std::map<unsigned int, Hot>  hot;   ///< of this rank's own
+    std::unique_ptr<SurfaceHeat> heat;  ///< made when the time step is known
+    std::uint64_t                steps_since_look = 0, looks = 0;
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_sections_damage_h
+#define tread_scene_sections_damage_h
+
+#include <tread/analysis/wear_law.h>
+#include <tread/scene/section.h>
+
+#include <optional>
+#include <string>
+
+namespace tread
+{
+  /// Section `Damage`: what is recorded of friction on both surfaces, and the laws for wear and heat.
+  struct DamageSection
+  {
+    bool                  record        = false;
+    std::string           wear_law      = "none"; ///< a name of wear_laws()
+    double                conductivity  = 50.;    ///< W/(m K)
+    double                heat_capacity = 450.;   ///< J/(kg K)
+    std::optional<double> wheel_share;            ///< of the heat; none: so that both have one temperature
+    double                shear_strength = 0.;    ///< Pa; 0: from the rail's yield stress
+
+    void declare(dealii::ParameterHandler &handler);
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/surface_damage.h>
+#include <tread/base/gathered.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    /// Integrals of the bilinear shape functions over the faces around each node, in the reference
+    /// configuration.
+    std::vector<double> nodal_areas(const ContactSurfaces &surfaces)
+    {
+      const double        near = 0.5 - 0.5 / std::sqrt(3.), far = 1. - near;
+      std::vector<double> area(surfaces.nodes.size(), 0.);
+      for (const ContactSurfaces::Face &face : surfaces.faces)
+        {
+          std::array<Vector3, 4> p;
+          for (unsigned int a = 0; a < 4; ++a)
+            p[a] = surfaces.nodes[face.nodes[a]].reference;
+          for (const double s : {near, far})
+            for (const double t : {near, far})
+              {
+                const Vector3 along  = (1. - t) * (p[1] - p[0]) + t * (p[2] - p[3]),
+                              across = (1. - s) * (p[3] - p[0]) + s * (p[2] - p[1]);
+                const double weight  = 0.25 * norm(cross(along, across));
+                const double shape[] = {(1. - s) * (1. - t), s * (1. - t), s * t, (1. - s) * t};
+                for (unsigned int a = 0; a < 4; ++a)
+                  area[face.nodes[a]] += weight * shape[a];
+              }
+        }
+      return area;
+    }
+  } // namespace
+
+
+  SurfaceDamage::SurfaceDamage(Contact                       &contact,
+                               const unsigned int             slave_body,
+                               const SurfaceDamageParameters &parameters)
+    : contact(contact)
+    , slave_body(slave_body)
+    , parameters(parameters)
+    , rank(dealii::Utilities::MPI::this_mpi_process(contact.surfaces.comm))
+    , area(nodal_areas(contact.surfaces))
+    , nodes(contact.surfaces.nodes.size())
+  {
+    contact.record_pairs([this](const PairRecord &record) { take(record); });
+  }
+
+
+  void SurfaceDamage::take(const PairRecord &record)
+  {
+    const PairRecord::Totals &t = record.totals;
+    const double              wear =
+      parameters.wear ? parameters.wear->volume({t.friction, t.sliding, t.distance, t.duration, record.area})
+                                   : 0.;
+    const auto add = [&](Node &node, const double share) {
+      node.work += share * t.friction;
+      node.slip += share * record.area * t.distance;
+      node.wear += share * wear;
+      node.heat += share * t.friction;
+    };
+    add(nodes[record.slave], 1.);
+    for (const PairRecord::Share &master : record.masters)
+      add(nodes[master.node], master.share);
+  }
+
+
+  void SurfaceDamage::add_step(const double time_step)
+  {
+    contact.add_step_to_record(time_step);
+    if (++steps_since_look * time_step >= parameters.interval)
+      look(time_step);
+  }
+
+
+  void SurfaceDamage::look(const double time_step)
+  {
+    contact.hand_over_record();
+    ++looks;
+    contact.visit_impulses([&](const unsigned int i, const double normal, const double tangential) {
+      Node        &node     = nodes[i];
+      const double per_area = 1. / (area[i] * time_step);
+      node.pressure         = std::max(node.pressure, per_area * normal);
+      node.shear            = std::max(node.shear, per_area * tangential);
+      note_contact(node);
+    });
+    // All looks are as many steps apart.
+    if (!heat)
+      heat = std::make_unique<SurfaceHeat>(steps_since_look * time_step);
+    steps_since_look = 0;
+    heat_up();
+  }
+
+
+  void SurfaceDamage::note_contact(Node &node) const
+  {
+    // A place that bounces within as long as a cell takes to pass has come into contact once.
+    constexpr std::uint64_t together = 4; // looks
+    node.passages += node.loaded_until == 0 || looks - node.loaded_until > together;
+    node.loaded_until = looks;
+  }
+
+
+  void SurfaceDamage::heat_up()
+  {
+    struct Flow
+    {
+      unsigned int node;
+      double       heat;
+    };
+    std::vector<Flow> of_rank;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (nodes[i].heat != 0.)
+        {
+          of_rank.push_back({i, nodes[i].heat});
+          nodes[i].heat = 0.;
+        }
+    std::map<unsigned int, double> flows;
+    for (const Flow &flow : gathered(of_rank, contact.surfaces.comm))
+      if (contact.surfaces.nodes[flow.node].owner == rank)
+        flows[flow.node] += flow.heat;
+    for (const auto &[i, energy] : flows)
+      {
+        note_contact(nodes[i]); // between two looks
+        Hot               &here = hot[i];
+        const unsigned int body = contact.surfaces.nodes[i].body;
+        if (here.until + 1 < looks)
+          heat->rest(here.memory, (looks - 1 - here.until) * heat->interval());
+        here.until        = looks;
+        const double flux = share_of(body) * energy / (area[i] * heat->interval());
+        nodes[i].temperature =
+          std::max(nodes[i].temperature, heat->flow(here.memory, flux) / effusivity_of(body));
+      }
+  }
+
+
+  std::vector<SurfaceDamage::Node> SurfaceDamage::complete()
+  {
+    contact.hand_over_record();
+    std::vector<double> numbers;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const Node &node = nodes[i];
+        const bool  own  = contact.surfaces.nodes[i].owner == rank;
+        for (const double number : {node.work, node.slip, node.wear})
+          numbers.push_back(number);
+        for (const double number : {node.pressure, node.shear, node.passages, node.temperature})
+          numbers.push_back(own ? number : 0.);
+      }
+    dealii::Utilities::MPI::sum(numbers, contact.surfaces.comm, numbers);
+    std::vector<Node> all(nodes.size());
+    auto              number = numbers.begin();
+    for (Node &node : all)
+      for (double *of_node : {&node.work, &node.slip, &node.wear, &node.pressure, &node.shear, &node.passages,
+                              &node.temperature})
+        *of_node = *number++;
+    return all;
+  }
+
+
+  std::vector<SurfacePlace> SurfaceDamage::places(const unsigned int                            body,
+                                                  const std::function<double(const Vector3 &)> &along)
+  {
+    const std::vector<Node>   all = complete();
+    std::vector<SurfacePlace> list;
+    for (unsigned int i = 0; i < all.size(); ++i)
+      {
+        const Node &node = all[i];
+        const auto &at   = contact.surfaces.nodes[i];
+        if (at.body == body && (node.passages > 0. || node.work != 0.))
+          list.push_back({along(at.reference), at.reference[1], area[i], node.work / area[i], node.slip / area[i],
+                          node.pressure, node.shear, node.passages, node.temperature, node.wear / area[i]});
+      }
+    std::sort(list.begin(), list.end(), [](const SurfacePlace &a, const SurfacePlace &b) {
+      return a.along != b.along ? a.along < b.along : a.y < b.y;
+    });
+    return list;
+  }
+
+
+  double SurfaceDamage::wear_volume(const unsigned int body)
+  {
+    double                  volume = 0.;
+    const std::vector<Node> all    = complete();
+    for (unsigned int i = 0; i < all.size(); ++i)
+      if (contact.surfaces.nodes[i].body == body)
+        volume += all[i].wear;
+    return volume;
+  }
+
+
+  double SurfaceDamage::max_temperature(const unsigned int body)
+  {
+    double                  highest = 0.;
+    const std::vector<Node> all     = complete();
+    for (unsigned int i = 0; i < all.size(); ++i)
+      if (contact.surfaces.nodes[i].body == body)
+        highest = std::max(highest, all[i].temperature);
+    return highest;
+  }
+
+
+  void SurfaceDamage::forget_masters()
+  {
+    contact.hand_over_record();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (contact.surfaces.nodes[i].body != slave_body)
+        {
+          nodes[i] = Node();
+          hot.erase(i);
+        }
+  }
+
+
+  void SurfaceDamage::serialize(Archive &archive)
+  {
+    std::vector<Stored> of_rank;
+    if (!archive.restores())
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        if (nodes[i].work != 0. || nodes[i].heat != 0. || nodes[i].passages > 0.)
+          {
+            const auto found = hot.find(i);
+            of_rank.push_back({i, nodes[i], found != hot.end(), found != hot.end() ? found->second : Hot()});
+          }
+    // The sums go on where the first rank has them; the rest is the node's own rank's.
+    for (const Stored &stored : archive.records(of_rank))
+      {
+        if (stored.node >= nodes.size())
+          throw Archive::OtherLayout();
+        Node &node = nodes[stored.node];
+        if (rank == 0)
+          {
+            node.work += stored.state.work;
+            node.slip += stored.state.slip;
+            node.wear += stored.state.wear;
+            node.heat += stored.state.heat;
+          }
+        if (contact.surfaces.nodes[stored.node].owner == rank)
+          {
+            node.pressure     = std::max(node.pressure, stored.state.pressure);
+            node.shear        = std::max(node.shear, stored.state.shear);
+            node.loaded_until = std::max(node.loaded_until, stored.state.loaded_until);
+            node.passages     = std::max(node.passages, stored.state.passages);
+            node.temperature  = std::max(node.temperature, stored.state.temperature);
+            if (stored.is_hot)
+              hot[stored.node] = stored.hot;
+          }
+      }
+    double interval = heat ? heat->interval() : 0.;
+    archive.same(steps_since_look, looks, interval);
+    if (archive.restores() && interval > 0.)
+      heat = std::make_unique<SurfaceHeat>(interval);
+  }
+} // namespace tread

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/wear_law.h>
+#include <tread/scene/sections/damage.h>
+
+namespace tread
+{
+  void DamageSection::declare(dealii::ParameterHandler &handler)
+  {
+    using dealii::Patterns::Double;
+    Section section(handler, "Damage");
+
+    section.add(
+      "Record", record,
+      "true: rail_surface_damage.csv and wheel_surface_damage.csv have, for each place of both surfaces, "
+      "frictional work, slip, largest pressure and shear stress, passages, flash temperature and "
+      "wear of all steps; doc/damage.md.");
+    section.choose("Wear law", wear_law, wear_laws(),
+                   "What a surface loses where the other one slides over it.");
+    declare_wear_laws(handler);
+    section.add("Thermal conductivity (W per m K)", conductivity,
+                "Of wheel and rail, for the flash temperature.", Double(1e-3, 1e4));
+    section.add("Heat capacity (J per kg K)", heat_capacity,
+                "Of wheel and rail, likewise; with 'Density (kg per m3)', not scaled.", Double(1e-3, 1e6));
+    section.add(
+      "Heat share of the wheel", wheel_share, "automatic",
+      "Of the heat of friction, the rest flows into the rail. automatic: so that both surfaces have one "
+      "temperature, half for like steels.",
+      Double(0., 1.));
+    section.add("Shear strength (MPa)", shear_strength,
+                "Yield stress in shear of the rail, for the surface fatigue index. 0: 'Rail/Yield stress "
+                "(MPa)' over the "
+                "root of 3 where that is given, else there is no index.",
+                Double(0., 1e5));
+  }
+} // namespace tread

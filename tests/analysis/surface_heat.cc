@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Heat that flows into a half-space, and the laws of wear, against closed forms.
+#include <tread/analysis/archard_wear.h>
+#include <tread/analysis/surface_heat.h>
+#include <tread/analysis/work_wear.h>
+#include <tread/reference/fatigue.h>
+
+#include "check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace tread;
+
+namespace
+{
+  constexpr double pi = std::numbers::pi;
+
+  /// Carslaw and Jaeger 1959, section 2.9: effusivity times the rise at t under a unit flux from 0 to `end`.
+  double pulse(const double t, const double end)
+  {
+    return 2. / std::sqrt(pi) * (std::sqrt(t) - std::sqrt(std::max(0., t - end)));
+  }
+
+  void constant_flux(tests::Check &check)
+  {
+    const double        interval = 3e-6;
+    const SurfaceHeat   heat(interval);
+    SurfaceHeat::Memory memory{};
+    double              worst = 0., late = 0.;
+    for (unsigned int n = 1; n <= 200000; ++n)
+      {
+        const double off           = std::abs(heat.flow(memory, 1.) / pulse(n * interval, 1e9) - 1.);
+        (n <= 2000 ? worst : late) = std::max(n <= 2000 ? worst : late, off);
+      }
+    // The trapezoidal rule leaves exp(-pi^2/1.2) of the kernel.
+    check.below("constant flux, 2000 intervals, relative", worst, 3e-4);
+    check.below("200000 intervals, relative", late, 5e-4);
+  }
+
+  void band(tests::Check &check)
+  {
+    const double        interval = 1e-5, end = 40 * interval;
+    const SurfaceHeat   heat(interval);
+    SurfaceHeat::Memory flowing{}, resting{};
+    for (unsigned int n = 0; n < 40; ++n)
+      {
+        heat.flow(flowing, 2.);
+        heat.flow(resting, 2.);
+      }
+    for (unsigned int n = 1; n <= 60; n += 7)
+      check.relative("Jaeger's band source, " + std::to_string(n) + " intervals behind it",
+                     heat.flow(flowing, 0.), 2. * pulse(end + n * interval, end), 1e-3);
+    heat.rest(resting, 59 * interval);
+    check.relative("rest instead of empty intervals", heat.flow(resting, 0.),
+                   2. * pulse(end + 60 * interval, end), 1e-3);
+  }
+
+  /// Flux of a patch that slides, a semicircle over its length: the largest rise against the convolution with
+  /// the exact kernel.
+  void ellipse(tests::Check &check)
+  {
+    constexpr unsigned int n = 60, fine = 200;
+    const double           duration = 4e-4, interval = duration / n;
+    const auto             flux = [&](const double t) {
+      return std::sqrt(std::max(0., 1. - std::pow(2. * t / duration - 1., 2)));
+    };
+    double exact = 0.;
+    for (unsigned int k = 1; k <= n; ++k)
+      {
+        // With the substitution s = sqrt(t - tau): 2 int flux(t - s^2) ds.
+        const double t = k * interval, ds = std::sqrt(t) / (fine * n);
+        double       sum = 0.;
+        for (unsigned int i = 0; i < fine * n; ++i)
+          sum += 2. * ds * flux(t - std::pow((i + 0.5) * ds, 2));
+        exact = std::max(exact, sum / std::sqrt(pi));
+      }
+    const SurfaceHeat   heat(interval);
+    SurfaceHeat::Memory memory{};
+    double              largest = 0.;
+    for (unsigned int k = 0; k < n; ++k)
+      largest = std::max(largest, heat.flow(memory, flux((k + 0.5) * interval)));
+    check.relative("semicircle of flux: largest rise", largest, exact, 1.5e-3); // 60 intervals
+  }
+
+  void wear(tests::Check &check)
+  {
+    WearLaw::Sliding sliding;
+    sliding.work     = 12.;
+    sliding.normal   = 40.;
+    sliding.distance = 2e-3;
+    sliding.duration = 1e-3;
+    sliding.area     = 1e-6;
+    check.relative("Archard: 1e-4 x 40 J / 2.8 GPa, mm3", 1e9 * ArchardWear(1e-4, 2.8e9).volume(sliding),
+                   40e-4 / 2.8, 1e-12);
+    check.relative("3 mm3 per kJ, mm3", 1e9 * WorkWear(3e-12).volume(sliding), 36e-3, 1e-12);
+  }
+
+  void fatigue(tests::Check &check)
+  {
+    // 0.3 - 2 pi 6 8 200 / (3 100000) of N and mm
+    check.relative("surface fatigue index", reference::surface_fatigue_index(0.3, 6e-3, 8e-3, 200e6, 1e5),
+                   0.3 - 2. * pi * 6. * 8. * 200. / 3e5, 1e-12);
+    // It is 0 where the mean shear stress of sliding at full friction, 1.5 times it in the middle, is the
+    // strength.
+    const double a = 5e-3, b = 7e-3, strength = 300e6, force = 9e4;
+    const double friction = strength / (1.5 * force / (pi * a * b));
+    check.absolute("nought where friction reaches the strength in the middle of a sliding patch",
+                   reference::surface_fatigue_index(friction, a, b, strength, force), 0., 1e-12);
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  constant_flux(check);
+  band(check);
+  ellipse(check);
+  wear(check);
+  fatigue(check);
+}
