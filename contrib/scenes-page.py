@@ -48,6 +48,7 @@ GROUPS = (
      ("crossing-force.png", "crossing/uk-56E1-passage.prm at several speeds, beside a mass on the half-space's force at rest")),
     ("Wheels that are not round", "flat/*.prm", ("wheel-flat.md",),
      ("wheel-flat-force.png", "flat/scanned-flat.prm at several speeds, beside a mass on a Hertz spring on a beam")),
+    ("Test rigs", "rigs/*.prm", ("twin-disc.md",), None),
     ("What rolling does to the surfaces", "damage/*.prm", ("damage.md",),
      ("damage.png", "damage/wear-passage.prm: work of friction, slip, temperature, wear and pressure by place")),
     ("Half-spaces: Kalker's case and its relatives", "verification/*.prm", ("verification.md", "track.md"),

@@ -65,6 +65,9 @@ namespace tread
     /// More than is not sprung on any wheel of a railway, beside a sprung mass that is less. [kg]
     constexpr double largest_unsprung_mass = 4e3;
 
+    /// Radius of the smallest wheels on railways, m.
+    constexpr double smallest_wheel = 0.15;
+
     /// Across the track: a wheelset that hunts over all of its play has some tenths. [m/s]
     constexpr double largest_lateral_speed = 2.;
 
@@ -131,7 +134,9 @@ namespace tread
     std::vector<std::string> list;
     for (const Parameter &parameter : changed_values())
       for (const Usual &usual : usual_values)
-        if (parameter.path == usual.path)
+        // Wheels of test rigs are as light as they are small.
+        if (parameter.path == usual.path &&
+            (wheel.radius >= smallest_wheel || parameter.path != "Wheel/Mass (kg)"))
           {
             const double value = std::strtod(parameter.value.c_str(), nullptr);
             if (value != 0. && std::isfinite(value) && (value < usual.least || value > usual.largest))

@@ -21,7 +21,7 @@ from tread.patches import Patch
 from tread.runs import Run
 
 try:
-    from tread.pictures import contact_points, impact, mesh, patch as patch_pictures, plastic
+    from tread.pictures import contact_points, damage, impact, mesh, patch as patch_pictures, plastic
 except ImportError:  # without matplotlib
     impact = None
 
@@ -295,6 +295,9 @@ class Studies(InFolder):
         for figure, value in (("normal_force_N", 123.5), ("max(force_N)", 9.), ("min(force_N)", -7.), ("last(force_N)", 6.), ("max(strip.csv:von_mises_MPa)", 700.),
                               ("min(strip.csv:von_mises_MPa)", 300.), ("at(strip.csv:von_mises_MPa:x_mm)", 20.), ("dynamic(force_N)", -8.5), ("frequency(force_N)", 310.)):
             self.assertEqual(studies.figure_of(member, figure), value, figure)
+        nested = {"patches": [{"x_m": 1.}, {"x_m": 2.}], "reference": {"creepage": {"half-space": {"value": 3.}}}}
+        self.assertEqual([studies.figure_in(nested, name) for name in ("patches/2/x_m", "reference/creepage/half-space/value", "patches/3/x_m", "patches/x_m", "reference/none/value")],
+                         [2., 3., None, None, None])
         self.assertTrue(math.isnan(studies.figure_of(member, "frequency(still_N)")))
 
     def test_words_and_numbers(self):
@@ -422,6 +425,11 @@ class Pictured(InFolder):
         np.testing.assert_allclose(x, [0, 1, np.nan, 2, 3])
         np.testing.assert_allclose(values, [5, 6, np.nan, 7, 8])
         self.assertEqual(len(contact_points.broken(table, np.arange(4.), ("other",))[0]), 4)
+
+    def test_damage_across_the_path(self):
+        table = {"y_mm": np.array([1.02, 0.98, 2., 1.]), "work": np.array([3., 5., 7., 4.])}
+        y, largest = damage.largest_across(table, "work")
+        self.assertEqual((y.tolist(), largest.tolist()), ([1., 2.], [5., 7.]))
 
     def test_peaks(self):
         force = np.array([0., 5., 4., 4.5, 1., 3., 2., 2.9, 0.])

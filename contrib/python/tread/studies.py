@@ -245,8 +245,19 @@ def natural(text: str) -> int:
 
 
 def any_number(name: str) -> str:
-    """The name of a figure or column without the number of its wheel, support or cell."""
-    return re.sub(r"(?<=_)\d+(?=_)", "#", name)
+    """The name of a figure or column without the number of its wheel, support, cell or patch; what is compared with what is one name for all."""
+    return re.sub(r"^reference/[^/]+/[^/]+/", "reference/#/#/", re.sub(r"(?<=[_/])\d+(?=[_/])", "#", name))
+
+
+def figure_in(summary: Mapping[str, object], name: str) -> object:
+    """What a key of summary.json has, with / between the names of sections and the numbers of lists, from 1; None: nothing."""
+    value: object = summary
+    for part in name.split("/"):
+        if isinstance(value, list):
+            value = value[int(part) - 1] if part.isdecimal() and 1 <= int(part) <= len(value) else None
+        else:
+            value = value.get(part) if isinstance(value, Mapping) else None
+    return value
 
 
 def split_together(text: str) -> tuple[str, ...]:
@@ -405,9 +416,10 @@ def figure_of(run: Member, figure: str) -> float:
     """A number. @raises DataError"""
     kind = re.fullmatch(r"(\w+)\((.+)\)", figure)
     if kind is None:
-        if not isinstance(run.summary.get(figure), (int, float)):
+        value = figure_in(run.summary, figure)
+        if not isinstance(value, (int, float)):
             raise DataError(f"{run.name}: summary.json has no figure '{figure}'")
-        return float(run.summary[figure])
+        return float(value)
     if kind[1] in ("max", "min", "last", "at"):
         names = kind[2].split(":")
         table = names.pop(0) if len(names) > 1 else "history.csv"
