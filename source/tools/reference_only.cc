@@ -6,6 +6,7 @@
 #include <tread/reference/transient.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
+#include <tread/scene/steady_damage.h>
 #include <tread/tools/reference_only.h>
 
 #include <deal.II/base/mpi.h>
@@ -260,6 +261,7 @@ namespace tread
     folder.write("parameters.prm", scene.parameters_of_run());
     const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
     folder.write_patch("patch.csv", nodes);
+    write_steady_damage(scene, nodes, scene.motion.speed * (1. + answer.creepage), folder, summary);
     folder.write_surface(nodes, half_space.element_size);
     folder.join_pictures();
     folder.write("subsurface.csv", subsurface);

@@ -5,6 +5,7 @@
 #include <tread/output/run_folder.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
+#include <tread/scene/steady_damage.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/tools/wheelset_reference.h>
@@ -51,6 +52,8 @@ namespace tread
     folder.remove_results();
     folder.write("parameters.prm", scene.parameters_of_run());
     folder.write_patch("patch.csv", placed.table_nodes());
+    write_steady_damage(scene, placed.table_nodes(), given_angular_velocity(scene) * scene.wheel.radius,
+                        folder, summary);
     profiles.write(folder);
     folder.write("summary.json", summary.text());
 

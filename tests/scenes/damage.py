@@ -95,6 +95,21 @@ with tempfile.TemporaryDirectory() as folder:
                    1.6 * math.sqrt(7850 / 7000), 2e-3)
     check.relative("and a fifth into the wheel", columns(path("shared"), WHEEL)["max_flash_temperature_K"].max() / wheel["max_flash_temperature_K"].max(), 0.4, 2e-3)
 
+    # By half-space theory alone: a row for each line along the path.
+    for scene, name in ((WEAR, "line"), (HEAT, "hot line")):
+        run(program, scene, path(name), more=["--reference-only"])
+    line = columns(path("line"), RAIL)
+    check.below("work across the path, elements and cells, largest difference over the largest",
+                np.abs(row["friction_work_J_per_m2"] - np.interp(row["y_mm"], line["y_mm"], line["friction_work_J_per_m2"], left=0., right=0.)).max()
+                / line["friction_work_J_per_m2"].max(), 0.025)
+    check.relative("slip over the width, mm2", 1e3 * np.trapz(line["slip_distance_m"], line["y_mm"]), 1e3 * np.trapz(row["slip_distance_m"], row["y_mm"]), 0.08)
+    for key, of_run, limit in (("max_pressure_Pa", row["max_pressure_Pa"].max(), 0.02), ("max_shear_Pa", row["max_shear_Pa"].max(), 0.05)):
+        check.relative(f"the same of {key}", line[key].max(), of_run, limit)
+    check.relative("Archard's depth, nm", 1e9 * line["wear_depth_m"].max(), 1e9 * 1e-4 / 2800e6 * line["friction_work_J_per_m2"].max() / 0.5, 1e-4)
+    check.relative("flash temperature of the rail, K", columns(path("hot line"), RAIL)["max_flash_temperature_K"].max(), 152.47, 4e-3)
+    check.relative("and of the wheel, K", columns(path("hot line"), WHEEL)["max_flash_temperature_K"].max(), 149.99, 4e-3)
+    check.that("wheelsets have it too", "max_flash_temperature_K" in run(program, "curves/two-patches.prm", path("wheelset"), ["Damage/Record=true"], more=["--reference-only"]))
+
     # What has no effect is said.
     unused = run(program, WEAR, path("unused"), [*COARSE, "Motion/Rolled distance (mm)=1", "Damage/Record=false"])
     check.that("a law without a record", any("'Damage/Wear law'" in line for line in unused["unused_parameters"]))
