@@ -163,23 +163,36 @@ namespace tread
   }
 
 
+  std::vector<SurfacePlace> SurfaceDamage::by_node()
+  {
+    std::vector<SurfacePlace> list;
+    const std::vector<Node>   all = complete();
+    for (unsigned int i = 0; i < all.size(); ++i)
+      {
+        const Node    &node = all[i];
+        const Vector3 &at   = contact.surfaces.nodes[i].reference;
+        list.push_back({at[0], at[1], area[i], node.work / area[i], node.slip / area[i], node.pressure,
+                        node.shear, node.passages, node.temperature, node.wear / area[i]});
+      }
+    return list;
+  }
+
+
   std::vector<SurfacePlace> SurfaceDamage::places(const unsigned int                            body,
                                                   const std::function<double(const Vector3 &)> &along)
   {
-    const std::vector<Node>   all = complete();
-    std::vector<SurfacePlace> list;
-    for (unsigned int i = 0; i < all.size(); ++i)
-      {
-        const Node &node = all[i];
-        const auto &at   = contact.surfaces.nodes[i];
-        if (at.body == body && (node.passages > 0. || node.work != 0.))
-          list.push_back({along(at.reference), at.reference[1], area[i], node.work / area[i], node.slip / area[i],
-                          node.pressure, node.shear, node.passages, node.temperature, node.wear / area[i]});
-      }
-    std::sort(list.begin(), list.end(), [](const SurfacePlace &a, const SurfacePlace &b) {
+    std::vector<SurfacePlace> list = by_node(), loaded;
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (const ContactSurfaces::Node &at = contact.surfaces.nodes[i];
+          at.body == body && (list[i].passages > 0. || list[i].friction_work != 0.))
+        {
+          loaded.push_back(list[i]);
+          loaded.back().along = along(at.reference);
+        }
+    std::sort(loaded.begin(), loaded.end(), [](const SurfacePlace &a, const SurfacePlace &b) {
       return a.along != b.along ? a.along < b.along : a.y < b.y;
     });
-    return list;
+    return loaded;
   }
 
 

@@ -111,6 +111,27 @@ namespace tread
       return fields;
     }
 
+    const Scalars<SurfacePlace> &damage_fields()
+    {
+      using P = SurfacePlace;
+      static const Scalars<P> fields{{"friction_work_J_per_m2",
+                                      [](const P &p) {
+                                        return p.friction_work;
+                                      }},
+                                     {"slip_distance_m",
+                                      [](const P &p) {
+                                        return p.slip_distance;
+                                      }},
+                                     {"max_flash_temperature_K",
+                                      [](const P &p) {
+                                        return p.max_temperature;
+                                      }},
+                                     {"wear_depth_m", [](const P &p) {
+                                        return p.wear_depth;
+                                      }}};
+      return fields;
+    }
+
     void add_point(Picture &picture, const Vector3 place)
     {
       for (unsigned int d = 0; d < 3; ++d)
@@ -291,6 +312,7 @@ namespace tread
   void RunFolder::write_surface(const ExplicitDynamics                    &dynamics,
                                 const Contact                             &contact,
                                 const std::vector<StressRecovery::Stress> &stresses,
+                                const std::vector<SurfacePlace>           &damage,
                                 const unsigned int                         body)
   {
     const Mesh                &mesh = dynamics.mesh;
@@ -323,6 +345,17 @@ namespace tread
       values.push_back(of_nodes[node]);
     add_surface_fields(picture, values, true, states);
     add_fields(picture, points.nodes, true, {}, stress_fields(stresses, 7));
+    if (!damage.empty())
+      {
+        std::vector<SurfacePlace> of_mesh(mesh.nodes.size());
+        for (unsigned int i = 0; i < damage.size(); ++i)
+          if (const int node = contact.surfaces.nodes[i].local; node >= 0)
+            of_mesh[node] = damage[i];
+        std::vector<SurfacePlace> at_points;
+        for (const unsigned int node : points.nodes)
+          at_points.push_back(of_mesh[node]);
+        add_fields(picture, at_points, true, {}, damage_fields());
+      }
     add_picture("surface", picture, dynamics.state.time);
   }
 

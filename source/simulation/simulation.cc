@@ -387,7 +387,8 @@ namespace tread
 
   void Simulation::write_surface(RunFolder &folder) const
   {
-    folder.write_surface(dynamics, contact, nodal_stresses().at_present(), rail_body);
+    folder.write_surface(dynamics, contact, nodal_stresses().at_present(),
+                         damage ? damage->by_node() : std::vector<SurfacePlace>(), rail_body);
   }
 
 

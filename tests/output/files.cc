@@ -409,7 +409,7 @@ namespace
     dynamics.start();
     dynamics.step();
     dynamics.state.time = slips ? 2e-3 : 1e-3; // one instant has one picture
-    folder.write_surface(dynamics, contact, nodal_stresses(mesh), 0);
+    folder.write_surface(dynamics, contact, nodal_stresses(mesh), {}, 0);
     auto fields = picture(folder.path(slips ? "surface-0001.vtu" : "surface-0000.vtu"));
 
     const std::string name = slips ? "contact that slips: " : "contact that adheres: ";

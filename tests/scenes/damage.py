@@ -9,6 +9,7 @@ import tempfile
 
 import numpy as np
 
+from tread.vtu import read_pieces
 from tread_runner import Check, arguments_of, execute_often, run, run_stopped, table
 
 program = sys.argv[1]
@@ -69,6 +70,11 @@ with tempfile.TemporaryDirectory() as folder:
         ("rail", *(lambda t, k: (np.unique(t), np.array([k[t == p].sum() for p in np.unique(t)])))(rail["x_mm"], rail["friction_work_J_per_m2"])),
         ("wheel", *(lambda t, k: (np.unique(t), np.array([k[t == p].sum() for p in np.unique(t)])))(np.round(along, 6), wheel["friction_work_J_per_m2"])))}
     check.relative("wheel beside rail: work of a row", sides["wheel"], sides["rail"], 0.02)
+
+    # ParaView's fields of the rail, at the solution instant: the largest are those of places that are passed.
+    fields = [fields for _, _, fields in read_pieces(os.path.join(path("one"), "surface-0000.vtu"))]
+    for key in ("friction_work_J_per_m2", "slip_distance_m", "max_flash_temperature_K", "wear_depth_m"):
+        check.relative(f"picture: largest {key}", max(float(piece[key].max()) for piece in fields), rail[key].max(), 1e-6)
 
     # On three ranks, and stopped and resumed.
     run(program, WEAR, path("three"), rolled, ranks=3)

@@ -56,6 +56,9 @@ namespace tread
     /// The wheels are new ones.
     void forget_masters();
 
+    /// Of each surface node, by its number, on all ranks; `along` is x. Collective.
+    std::vector<SurfacePlace> by_node();
+
     /// The nodes of a body that were ever loaded, of all ranks, in the order of place. Collective.
     /// @param along the first coordinate at a reference position
     std::vector<SurfacePlace> places(unsigned int body, const std::function<double(const Vector3 &)> &along);

@@ -144,9 +144,11 @@ namespace tread
                       const std::map<unsigned int, const WheelHub *> &hubs);
 
     /// Write a body's contact surface with pressure, shear, slip, state and stress. Collective.
+    /// @param damage by surface node; empty: none
     void write_surface(const ExplicitDynamics                    &dynamics,
                        const Contact                             &contact,
                        const std::vector<StressRecovery::Stress> &stresses,
+                       const std::vector<SurfacePlace>           &damage,
                        const unsigned int                         body);
 
     /// Write the square elements of a half-space solution with the same fields. Collective.
