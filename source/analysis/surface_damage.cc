@@ -169,10 +169,11 @@ namespace tread
     const std::vector<Node>   all = complete();
     for (unsigned int i = 0; i < all.size(); ++i)
       {
-        const Node    &node = all[i];
-        const Vector3 &at   = contact.surfaces.nodes[i].reference;
-        list.push_back({at[0], at[1], area[i], node.work / area[i], node.slip / area[i], node.pressure,
-                        node.shear, node.passages, node.temperature, node.wear / area[i]});
+        const Node    &node     = all[i];
+        const Vector3 &at       = contact.surfaces.nodes[i].reference;
+        const double   per_area = area[i] > 0. ? 1. / area[i] : 0.; // of a node whose faces are all left out
+        list.push_back({at[0], at[1], area[i], per_area * node.work, per_area * node.slip, node.pressure,
+                        node.shear, node.passages, node.temperature, per_area * node.wear});
       }
     return list;
   }
