@@ -81,13 +81,16 @@ namespace tread
   void SurfaceDamage::look(const double time_step)
   {
     contact.hand_over_record();
+    contact.complete_normals();
+    constexpr double least = 1e4; // Pa; round-off of the coupling leaves less beside the patch
     ++looks;
     contact.visit_impulses([&](const unsigned int i, const double normal, const double tangential) {
       Node        &node     = nodes[i];
       const double per_area = 1. / (area[i] * time_step);
       node.pressure         = std::max(node.pressure, per_area * normal);
       node.shear            = std::max(node.shear, per_area * tangential);
-      note_contact(node);
+      if (per_area * normal > least)
+        note_contact(node);
     });
     // All looks are as many steps apart.
     if (!heat)
@@ -99,8 +102,9 @@ namespace tread
 
   void SurfaceDamage::note_contact(Node &node) const
   {
-    // A place that bounces within as long as a cell takes to pass has come into contact once.
-    constexpr std::uint64_t together = 4; // looks
+    // At the sides of the patch the wheel's nodes are now under a pair and now not: what comes back within as
+    // long as ten cells take to pass has come into contact once.
+    constexpr std::uint64_t together = 40; // looks
     node.passages += node.loaded_until == 0 || looks - node.loaded_until > together;
     node.loaded_until = looks;
   }
@@ -172,8 +176,10 @@ namespace tread
         const Node    &node     = all[i];
         const Vector3 &at       = contact.surfaces.nodes[i].reference;
         const double   per_area = area[i] > 0. ? 1. / area[i] : 0.; // of a node whose faces are all left out
+        // What touched between the last two looks did so once.
+        const double passages = std::max(node.passages, node.work != 0. ? 1. : 0.);
         list.push_back({at[0], at[1], area[i], per_area * node.work, per_area * node.slip, node.pressure,
-                        node.shear, node.passages, node.temperature, per_area * node.wear});
+                        node.shear, passages, node.temperature, per_area * node.wear});
       }
     return list;
   }
@@ -219,15 +225,17 @@ namespace tread
   }
 
 
-  void SurfaceDamage::forget_masters()
+  void SurfaceDamage::begin_passage()
   {
     contact.hand_over_record();
+    hot.clear();
     for (unsigned int i = 0; i < nodes.size(); ++i)
-      if (contact.surfaces.nodes[i].body != slave_body)
-        {
+      {
+        nodes[i].heat         = 0.;
+        nodes[i].loaded_until = 0;
+        if (contact.surfaces.nodes[i].body != slave_body)
           nodes[i] = Node();
-          hot.erase(i);
-        }
+      }
   }
 
 

@@ -378,9 +378,15 @@ namespace tread
   }
 
 
+  void Contact::complete_normals()
+  {
+    gather_strips(problem.constraints);
+  }
+
+
   void Contact::complete_state()
   {
-    gather_strips(problem.constraints); // for their normals
+    complete_normals();
     gather_strips(pair_friction.coefficient);
     gather_strips(previous_impulse);
     gather_strips(slid);

@@ -113,8 +113,11 @@ namespace tread
               normal += terms[k].coefficient * along;
               tangential += terms[k].coefficient * (p - along * n);
             }
-          if (normal != 0.)
-            visit(involved[node.node], std::abs(normal), norm(tangential));
+          // Normals point into the master. The dual functions pull at some of its nodes beside the patch.
+          const double pressing =
+            surfaces.nodes[involved[node.node]].body == parameters.slave_body ? -normal : normal;
+          if (pressing > 0.)
+            visit(involved[node.node], pressing, norm(tangential));
         }
   }
 

@@ -29,9 +29,10 @@ namespace tread
   {
     // Longer ones before those that they end with.
     for (const std::string unit :
-         {"J_per_m2", "deg",     "K",       "rad_per_s", "m_per_s2", "m_per_s", "N_per_m", "m_per_N", "per_m",
-          "per_s",    "percent", "degrees", "bytes",     "MPa",      "Pa",      "Hz",      "mm2",     "mm",
-          "um",       "m2",      "rad",     "Nm",        "m",        "N",       "J",       "W",       "s"})
+         {"J_per_m2", "m3",      "deg",   "K",     "rad_per_s", "m_per_s2", "m_per_s",
+          "N_per_m",  "m_per_N", "per_m", "per_s", "percent",   "degrees",  "bytes",
+          "MPa",      "Pa",      "Hz",    "mm2",   "mm",        "um",       "m2",
+          "rad",      "Nm",      "m",     "N",     "J",         "W",        "s"})
       if (heading.size() > unit.size() + 1 &&
           heading.compare(heading.size() - unit.size() - 1, std::string::npos, "_" + unit) == 0)
         return unit;
@@ -518,48 +519,55 @@ namespace tread
   Columns<SurfacePlace> surface_damage_columns(const bool of_wheel)
   {
     using R = SurfacePlace;
-    return {of_wheel ? Column<R>{"angle", "deg",
-                                 "About the axle, from where the wheel stands on the rail at the start; "
-                                 "positive: comes to the rail later",
-                                 [](const R &r) {
-                                   return r.along;
-                                 }}
-                     : Column<R>{"x", "mm", "Along the rail, without load",
-                                 [](const R &r) {
-                                   return r.along;
-                                 }},
-            {"y", "mm", "Across, without load; 0 at the middle of the rail's top",
-             [](const R &r) {
-               return r.y;
-             }},
-            {"area", "m2", "Of the surface that this node stands for: its share of the faces around it", [](const R &r) { return r.area; }},
-            {"friction_work", "J_per_m2", "Work of friction so far",
-             [](const R &r) {
-               return r.friction_work;
-             }},
-            {"slip_distance", "m", "Way that the other surface has slid over it",
-             [](const R &r) {
-               return r.slip_distance;
-             }},
-            {"max_pressure", "Pa", "Largest pressure",
-             [](const R &r) {
-               return r.max_pressure;
-             }},
-            {"max_shear", "Pa", "Largest shear stress of friction",
-             [](const R &r) {
-               return r.max_shear;
-             }},
-            {"passages", "", "How often it came into contact",
-             [](const R &r) {
-               return r.passages;
-             }},
-            {"max_flash_temperature", "K", "Largest rise of temperature by the heat of friction",
-             [](const R &r) {
-               return r.max_temperature;
-             }},
-            {"wear_depth", "m", "Lost by 'Damage/Wear law'", [](const R &r) {
-               return r.wear_depth;
-             }}};
+    return {
+      of_wheel ? Column<R>{"angle", "deg",
+                           "About the axle, from where the wheel stands on the rail at the start; "
+                           "positive: comes to the rail later",
+                           [](const R &r) {
+                             return r.along;
+                           }}
+               : Column<R>{"x", "mm", "Along the rail, without load",
+                           [](const R &r) {
+                             return r.along;
+                           }},
+      {"y", "mm",
+       "Across, without load; 0 at the middle of the rail's top, over slices at the middle of the track",
+       [](const R &r) {
+         return r.y;
+       }},
+      {"area", "m2",
+       "Of the surface that this node stands for: its share of the faces around it; by half-space theory "
+       "that of the line on a metre of way",
+       [](const R &r) {
+         return r.area;
+       }},
+      {"friction_work", "J_per_m2", "Work of friction so far",
+       [](const R &r) {
+         return r.friction_work;
+       }},
+      {"slip_distance", "m", "Way that the other surface has slid over it",
+       [](const R &r) {
+         return r.slip_distance;
+       }},
+      {"max_pressure", "Pa", "Largest pressure",
+       [](const R &r) {
+         return r.max_pressure;
+       }},
+      {"max_shear", "Pa", "Largest shear stress of friction",
+       [](const R &r) {
+         return r.max_shear;
+       }},
+      {"passages", "", "How often it came into contact",
+       [](const R &r) {
+         return r.passages;
+       }},
+      {"max_flash_temperature", "K", "Largest rise of temperature by the heat of friction",
+       [](const R &r) {
+         return r.max_temperature;
+       }},
+      {"wear_depth", "m", "Lost by 'Damage/Wear law'", [](const R &r) {
+         return r.wear_depth;
+       }}};
   }
 
 

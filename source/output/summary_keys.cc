@@ -78,8 +78,8 @@ namespace tread
        "strength (MPa)'"},
       {"max_flash_temperature_K",
        "Largest rise of temperature by the heat of friction, of rail and wheels, in all steps"},
-      {"wear_volume_m3",
-       "Volume that the rail has lost by 'Damage/Wear law'; the wheels together lose as much"}};
+      {"wear_volume_m3", "Volume that the rail has lost by 'Damage/Wear law', in all passages; in each the "
+                         "wheels together lose as much"}};
 
     /// Of the first wheel alone.
     const Keys first_wheel{

@@ -29,7 +29,7 @@ namespace tread
       return list;
     }
 
-    /// Spacing of elements along a row, m.
+    /// Spacing of elements along the rows, m: all are alike.
     double spacing_of(const std::vector<std::vector<PatchNode>> &rows)
     {
       double spacing = 1e300;
@@ -61,7 +61,7 @@ namespace tread
           entered           = element.position[0];
           const double slip = element.adhesion ? 0. : element.slip_speed() * time,
                        flux = element.adhesion ? 0. : element.shear_size() * element.slip_speed();
-          place.area        = element.area;
+          place.area        = element.area / spacing; // on a metre of way
           place.friction_work += flux * time;
           place.slip_distance += slip;
           place.max_pressure = std::max(place.max_pressure, element.pressure);
@@ -97,25 +97,50 @@ namespace tread
   }
 
 
-  void write_steady_damage(const Scene                  &scene,
-                           const std::vector<PatchNode> &elements,
-                           const double                  wheel_speed,
-                           const RunFolder              &folder,
-                           Summary                      &summary)
+  std::string doubt_of_temperature(const double rise)
+  {
+    constexpr double hot = 1000.; // K, where steel has lost its strength, and friction with it
+    return rise > hot
+             ? format(
+                 "a flash temperature of %.0f K is none that steel stands: friction falls before, and heat "
+                 "changes steel from some 700 K on",
+                 rise)
+             : "";
+  }
+
+
+  void write_steady_damage(const Scene                    &scene,
+                           const std::vector<PassedPatch> &patches,
+                           const RunFolder                &folder,
+                           Summary                        &summary,
+                           std::vector<std::string>       &warnings)
   {
     if (!scene.damage.record)
       return;
     const SurfaceDamageParameters p = surface_damage_parameters(scene);
-    const auto rail = steady_damage(elements, scene.motion.speed, p.wear.get(), 1. - p.master_share,
-                                    p.slave_effusivity),
-               wheel =
-                 steady_damage(elements, wheel_speed, p.wear.get(), p.master_share, p.master_effusivity);
+    std::vector<SurfacePlace>     rail, wheel;
+    double                        hottest = 0.;
+    const auto add = [&](std::vector<SurfacePlace> &surface, const std::vector<SurfacePlace> &of_patch) {
+      for (const SurfacePlace &place : of_patch)
+        {
+          surface.push_back(place);
+          hottest = std::max(hottest, place.max_temperature);
+        }
+    };
+    for (const PassedPatch &patch : patches)
+      {
+        require(patch.wheel_speed > 0.,
+                "'Damage/Record' needs a wheel whose surface passes the patch, which it does "
+                "not with the angular velocity or creepage of 'Motion'");
+        add(rail, steady_damage(patch.elements, scene.motion.speed, p.wear.get(), 1. - p.master_share,
+                                p.slave_effusivity));
+        add(wheel, steady_damage(patch.elements, patch.wheel_speed, p.wear.get(), p.master_share,
+                                 p.master_effusivity));
+      }
     folder.write_surface_damage("rail_surface_damage.csv", rail);
     folder.write_surface_damage("wheel_surface_damage.csv", wheel);
-    double hottest = 0.;
-    for (const std::vector<SurfacePlace> *surface : {&rail, &wheel})
-      for (const SurfacePlace &place : *surface)
-        hottest = std::max(hottest, place.max_temperature);
     summary.set("max_flash_temperature_K", hottest);
+    if (const std::string doubt = doubt_of_temperature(hottest); !doubt.empty())
+      warnings.push_back(doubt);
   }
 } // namespace tread

@@ -5,6 +5,7 @@
 #include <tread/output/quality.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/steady_damage.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/simulation.h>
 
@@ -394,7 +395,7 @@ namespace tread
   }
 
 
-  void Simulation::add_damage(Summary &summary, RunFolder &folder) const
+  void Simulation::add_damage(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const
   {
     if (!damage)
       return;
@@ -411,6 +412,8 @@ namespace tread
         hottest = std::max(hottest, damage->max_temperature(wheel.body));
       }
     summary.set("max_flash_temperature_K", hottest);
+    if (const std::string doubt = doubt_of_temperature(hottest); !doubt.empty())
+      warnings.push_back(doubt);
     if (scene.wear_law())
       summary.set("wear_volume_m3", damage->wear_volume(rail_body));
   }
@@ -642,7 +645,7 @@ namespace tread
       warnings.push_back(
         format("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
                rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
-    add_damage(summary, folder);
+    add_damage(summary, folder, warnings);
     const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     const std::string plastic_strain = add_plastic_strain(
       summary, dynamics, wheels.front().body,

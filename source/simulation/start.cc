@@ -213,7 +213,7 @@ namespace tread
     if (rail_base)
       rail_base->place();
     if (damage)
-      damage->forget_masters();
+      damage->begin_passage();
     contact.scale_impulses(0.);
     forget_solution();
     torque_released  = false;

@@ -250,7 +250,6 @@ namespace tread
     if (!scene.is_round())
       warnings.push_back("the wheel is taken as round: tread --positions solves wheels that are not");
     profiles.summarise(summary);
-    summary.set("warnings", warnings);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
@@ -261,7 +260,9 @@ namespace tread
     folder.write("parameters.prm", scene.parameters_of_run());
     const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
     folder.write_patch("patch.csv", nodes);
-    write_steady_damage(scene, nodes, scene.motion.speed * (1. + answer.creepage), folder, summary);
+    write_steady_damage(scene, {{nodes, scene.motion.speed * (1. + answer.creepage)}}, folder, summary,
+                        warnings);
+    summary.set("warnings", warnings);
     folder.write_surface(nodes, half_space.element_size);
     folder.join_pictures();
     folder.write("subsurface.csv", subsurface);

@@ -42,7 +42,6 @@ namespace tread
     summary.set("solutions", contact.turns);
     summary.set("patches", patches_as_json(contact.patches, rail_y));
     profiles.summarise(summary);
-    summary.set("warnings", warnings);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
@@ -52,8 +51,11 @@ namespace tread
     folder.remove_results();
     folder.write("parameters.prm", scene.parameters_of_run());
     folder.write_patch("patch.csv", placed.table_nodes());
-    write_steady_damage(scene, placed.table_nodes(), given_angular_velocity(scene) * scene.wheel.radius,
-                        folder, summary);
+    std::vector<PassedPatch> passed;
+    for (const WheelPatch &patch : contact.patches)
+      passed.push_back({placed.table_nodes(patch), given_angular_velocity(scene) * patch.rolling_radius});
+    write_steady_damage(scene, passed, folder, summary, warnings);
+    summary.set("warnings", warnings);
     profiles.write(folder);
     folder.write("summary.json", summary.text());
 

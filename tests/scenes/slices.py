@@ -54,7 +54,7 @@ with tempfile.TemporaryDirectory() as folder:
     with open(path("section.txt"), "rb") as file:
         check.that("its slices are among the files, once", list(read)[1:] == ["Rail/Slices", "Rail/Slices: section.txt"] and read["Rail/Slices: section.txt"]["crc32"] == zlib.crc32(file.read()))
     known = input_of(arguments_of(CURVE, [], path("listed"))[0], {"Rail/Slices": path("same.slcs")})["files"]
-    check.that("and of what decides about a study's run", {path("same.slcs"), path("section.txt")} <= set(known))
+    check.that("and of what decides about a study's run", {path("same.slcs"), path("same.slcs") + ": section.txt"} <= set(known))
 
     # Wing and nose at rest. Five cells lie over the width of the nose's patch.
     given = {float(row["y_mm"]) > 755.: row for row in rows_of(GIVEN) if (row["s_mm"], row["y_ws_mm"]) == ("160", "3.52")}

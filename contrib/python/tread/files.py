@@ -191,7 +191,7 @@ def input_of(scene: str, settings: Mapping[str, object]) -> dict:
         for part in [path] + slices_named_in(path):
             if os.path.isfile(part):
                 with open(part, "rb") as stream:
-                    files[name if part == path else part] = hashlib.sha256(stream.read()).hexdigest()
+                    files[name if part == path else f"{name}: {os.path.relpath(part, os.path.dirname(path) or '.')}"] = hashlib.sha256(stream.read()).hexdigest()
     return {"settings": {name: str(value) for name, value in settings.items()}, "scene": texts, "files": files}
 
 

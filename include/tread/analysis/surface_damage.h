@@ -53,8 +53,8 @@ namespace tread
     /// To be called after each step. Collective.
     void add_step(double time_step);
 
-    /// The wheels are new ones.
-    void forget_masters();
+    /// New wheels roll over the rail, which has cooled down.
+    void begin_passage();
 
     /// Of each surface node, by its number, on all ranks; `along` is x. Collective.
     std::vector<SurfacePlace> by_node();

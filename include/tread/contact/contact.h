@@ -199,8 +199,11 @@ namespace tread
     /// Hand over what there is now.
     void hand_over_record();
 
-    /// The impulse of the last step on each surface node of this rank's own that couples: its part along the
-    /// pairs' normals and the length of the rest, both positive, N s.
+    /// Distribute to all ranks the normals of pairs, each of which only some follow. Collective.
+    void complete_normals();
+
+    /// The impulse of the last step on each surface node of this rank's own that is pressed: its part along
+    /// the pairs' normals into the body, positive, and the length of the rest, N s. @pre complete_normals()
     void visit_impulses(
       const std::function<void(unsigned int node, double normal, double tangential)> &visit) const;
 

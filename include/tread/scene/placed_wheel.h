@@ -89,6 +89,7 @@ namespace tread
     /// The elements in contact of the half-space's answer, x from the wheelset's middle, tractions and slip
     /// in contact axes.
     std::vector<PatchNode> table_nodes() const;
+    std::vector<PatchNode> table_nodes(const WheelPatch &patch) const; ///< of one patch
 
     /// The main patch as an ellipse of its length and width, at another normal force in proportion (N).
     reference::HertzEllipse ellipse(const double vertical_force) const;

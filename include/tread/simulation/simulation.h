@@ -188,7 +188,7 @@ namespace tread
     /// @returns lines about the largest stresses for the screen.
     std::string add_recorded(Summary &summary, RunFolder &folder) const;
     /// Tables and figures of what friction did to the surfaces.
-    void        add_damage(Summary &summary, RunFolder &folder) const;
+    void        add_damage(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
     std::string add_peaks(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it.
     void   check_rim() const;
