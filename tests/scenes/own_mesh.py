@@ -51,8 +51,8 @@ with tempfile.TemporaryDirectory() as folder:
     history = table(path("joint"), "history.csv")
     largest = max(history["normal_force_N"])
     place = 1e3 * history["position_m"][history["normal_force_N"].index(largest)]
-    # Two masses of 600 and 460 kg that meet with 1.30 m/s on Hertz's spring: 970 kN; wheel and bars give way besides.
-    check.that(f"blow of {1e-3 * largest:.0f} kN, of 970 by a simple model, and more than half of it", 485e3 < largest < 970e3)
+    # Two masses of 600 and 460 kg that meet with 1.30 m/s on Hertz's spring (contrib/plot/joint-force.py): 761 kN. Wheel and bars give way besides, most at the edge.
+    check.that(f"blow of {1e-3 * largest:.0f} kN, of 761 by a simple model, and more than half of it", 380e3 < largest < 761e3)
     check.that(f"at {place:.1f} mm, where the step is met", -20. < place < 5.)
     check.below("energy residual over what is dissipated", joint["energy_residual_of_dissipated"], 0.01)
     continuous = run(program, JOINT, path("continuous"), [*coarse, "Rail/Mesh file=continuous.msh"])
@@ -74,7 +74,7 @@ with tempfile.TemporaryDirectory() as folder:
         ([*mesh("none.msh")], "'Rail/Mesh file': "),
         (["Rail/Shape=mesh"], "'Rail/Shape' mesh needs a file: 'Rail/Mesh file'"),
         ([f"Rail/Mesh file={path('same.msh')}"], "'Rail/Mesh file' needs 'Rail/Shape' mesh"),
-        ([*mesh("same.msh"), "Motion/Rolled distance (mm)=60"], "has a contact surface for x from -46 to 42.6 mm"),
+        ([*mesh("same.msh"), "Motion/Start (mm)=-6", "Motion/Rolled distance (mm)=60"], "has a contact surface for x from -46 to 42.6 mm"),
         ([*mesh("same.msh"), "Defect/Shape=dip", "Defect/Length (mm)=10", "Defect/Depth (mm)=0.1"], "'Defect/Shape' dip is laid on a rail of the program's own"),
         ([*mesh("same.msh"), "Track/Foundation=one-layer", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], "must be rigid or co-running"),
         ([*mesh("same.msh"), "Wheelset/Lateral shift (mm)=0"], "'Rail/Shape' mesh is for an upright wheel"),
@@ -83,7 +83,7 @@ with tempfile.TemporaryDirectory() as folder:
     for settings, words in faults:
         said = refusal(BLOCK, [*short, *settings])
         check.that(f"refused: {said[-1] if said else ''}", any(words in line for line in said) and len([line for line in said if not line.startswith('WARNING')]) == 1)
-    for settings, words in ((["Motion/Start (mm)=0"], "where a wheel begins: move 'Motion/Start (mm)' away from the gap"),
+    for settings, words in ((["Motion/Start (mm)=-4"], "where a wheel begins: move 'Motion/Start (mm)' away from the gap"),
                             (["Scene/Quasi-static=true", "Scene/Density scale=4"], "a 'Rail/Mesh file' whose running surface changes along the path by a gap")):
         said = refusal(JOINT, [*coarse, *settings])
         check.that(f"refused: {said[-1] if said else ''}", any(words in line for line in said))
