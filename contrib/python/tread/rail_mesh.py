@@ -102,10 +102,10 @@ def gmsh(mesh: Mesh, version: str) -> str:
     lines += [str(i + 1) for i in range(len(mesh.points))] + [f"{p[0]:.12g} {p[1]:.12g} {p[2]:.12g}" for p in mesh.points]
     lines += ["$EndNodes", "$Elements", f"{len(names) + 1} {n_faces + len(mesh.cells)} 1 {n_faces + len(mesh.cells)}"]
     count = 0
-    for dimension, entity, kind, rows in [(2, number, 3, [corners(mesh, *face) for face in mesh.faces[name]]) for number, name in names] + \
-            [(3, 1, 5, [[i + 1 for i in cell] for cell in mesh.cells])]:
-        lines.append(f"{dimension} {entity} {kind} {len(rows)}")
-        for nodes in rows:
+    blocks = [(2, number, 3, [corners(mesh, *face) for face in mesh.faces[name]]) for number, name in names] + [(3, 1, 5, [[i + 1 for i in cell] for cell in mesh.cells])]
+    for dimension, entity, kind, block in blocks:
+        lines.append(f"{dimension} {entity} {kind} {len(block)}")
+        for nodes in block:
             count += 1
             lines.append(f"{count} {' '.join(map(str, nodes))}")
     return "\n".join(lines + ["$EndElements", ""])
