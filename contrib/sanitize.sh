@@ -23,11 +23,12 @@ effort=${TREAD_EFFORT:-1}
 readers=(
   "supports 120" "settings 50" "scene 50" "parameters 250" "defect 4000" "simpack 4000" "miniprof 4000" "batch 250"
   "archive 10000" "two-columns 4000" "map 10000" "slices 4000" "deviation 4000" "guidance 10000"
+  "gmsh 6000" "abaqus 6000" "ls-dyna 6000"
 )
 
 tests=(
-  reference_hertz reference_track reference_gap material_elastic material_plastic geometry_profiles geometry_surfaces
-  bodies_shapes mesh_profile_block mesh_whole_rail solid_patch solid_rotation solid_lanes solid_plastic contact_coulomb_solver
+  reference_hertz reference_track reference_gap material_elastic material_plastic geometry_profiles geometry_surfaces geometry_facet_surface
+  bodies_shapes mesh_file mesh_profile_block mesh_whole_rail solid_patch solid_rotation solid_lanes solid_plastic contact_coulomb_solver
   contact_patch_test contact_momentum contact_incline dynamics_conservation dynamics_levels dynamics_cells track_ranks
   analysis_spectrum analysis_contact_patch checkpoint_members
 )

@@ -83,6 +83,8 @@ namespace tread
                 double       longest = 0.;
                 for (const unsigned int l : cell->line_indices())
                   longest = std::max(longest, cell->line(l)->diameter() / (is_along_path(l) ? stretch : 1.));
+                if (wanted <= body.even_size)
+                  longest = std::ldexp(body.even_edge, -cell->level());
                 if (longest > tolerance * wanted)
                   {
                     cell->set_refine_flag();

@@ -86,6 +86,8 @@ namespace tread
 
     Body make_rail(const Scene &scene, const FineZones &zones)
     {
+      if (scene.rail_mesh())
+        return make_mesh_rail(scene.rail_mesh(), zones);
       const RailTop top{scene.rail_height(), scene.rail.angle()};
       if (scene.rail.is_block())
         {

@@ -153,7 +153,11 @@ namespace tread
 
   void Scene::check_surfaces() const
   {
-    const double from = path_begin(last_wheel()) - rail.margin, to = meshed_end() + rail.margin;
+    if (rail_mesh())
+      check_mesh_rail();
+    // A mesh ends where its own surface does, which has no margin of its own.
+    const double margin = rail_mesh() ? 0. : rail.margin;
+    const double from = path_begin(last_wheel()) - margin, to = meshed_end() + margin;
     require(rail_begin() <= from + round_off && rail_end() >= to - round_off,
             "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(rail_begin()) + " to " +
               text_in_mm(rail_end()) + " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " +
@@ -185,7 +189,7 @@ namespace tread
                 " mm beside its middle, in the patch under the static load or beside it, from y = " +
                 text_in_mm(patch_extent().begin) + " to " + text_in_mm(patch_extent().end) +
                 " mm: measure a wider head, or change 'Measured head shift (mm)'");
-    if (!rail.is_block())
+    if (!rail.is_block() && !rail_mesh())
       {
         const double reach = rail.standard_profile().head_point(RailHead().contact_half_width)[0];
         require(std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= reach,
@@ -293,7 +297,7 @@ namespace tread
             text_in_mm(made.y_middle) + " and whose width is " + text_in_mm(made.width) +
             ": make 'Peak stress/Half width (mm)' larger than " + text_in_mm(peak_half_width()));
       }
-    const double widest = std::min(rail.half_width(), wheel.half_width());
+    const double widest = std::min(rail_half_width(), wheel.half_width());
     require(peak_stress.half_width <= widest, "'Peak stress/Half width (mm)' " +
                                                 text_in_mm(peak_stress.half_width) +
                                                 " exceeds that of rail or wheel, " + text_in_mm(widest));
@@ -317,9 +321,9 @@ namespace tread
                                          " is too large for a patch with a semi-axis of " + text_in_mm(a) +
                                          " mm along the path, whose force it would make ripple; at most " +
                                          text_in_mm(longest));
-    require(rail.margin >= 3. * a, "'Rail/Margin (mm)' " + text_in_mm(rail.margin) +
-                                     " lets the wheel leave the rail; at least three semi-axes, " +
-                                     text_in_mm(3. * a));
+    require(rail.is_meshed() || rail.margin >= 3. * a,
+            "'Rail/Margin (mm)' " + text_in_mm(rail.margin) +
+              " lets the wheel leave the rail; at least three semi-axes, " + text_in_mm(3. * a));
     require(wheel.is_full() || wheel.sector_margin >= 3. * a,
             "'Wheel/Sector margin (mm)' " + text_in_mm(wheel.sector_margin) +
               " lets the contact leave the sector; at least three semi-axes, " + text_in_mm(3. * a));
@@ -327,16 +331,16 @@ namespace tread
 
     // Around the finest cells there is room for at least one more.
     const double beside = std::abs(path_y());
-    require(beside + fine_half_width() <= rail.half_width() - finest,
+    require(beside + fine_half_width() <= rail_half_width() - finest,
             "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
               (beside > 0. ? " about y = " + text_in_mm(path_y()) + " mm" : "") +
               " must be below the half width of the rail; at most " +
-              text_in_mm(rail.half_width() - finest - beside));
+              text_in_mm(rail_half_width() - finest - beside));
     require(beside + fine_half_width() <= wheel.half_width() - finest,
             "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
               " must be below half of the wheel's width; at most " +
               text_in_mm(wheel.half_width() - finest - beside));
-    const double thickness = std::min(rail.thickness(), wheel.thickness());
+    const double thickness = std::min(rail_thickness(), wheel.thickness());
     require((mesh.fine_layers + 1) * finest <= thickness * (1. + 1e-9),
             "'Mesh/Fine layers' " + std::to_string(mesh.fine_layers) + " of 'Mesh/Finest cell (mm)' " +
               text_in_mm(finest) + " do not fit into rail and wheel; at most " +
@@ -370,6 +374,10 @@ namespace tread
       "be off");
     if (!track.has_supports())
       return;
+    require(!rail.is_meshed(),
+            "'Track/Foundation' " + name_of(track.foundation) +
+              " needs a rail with a foot of the program's own: with 'Rail/Shape' mesh it must be "
+              "rigid or co-running");
     require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
                                              " needs a rail with a foot: 'Rail/Shape' cannot be head");
     track.check();
@@ -449,8 +457,8 @@ namespace tread
           of_wheel
             ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside, -wheel.sector_margin,
                                       motion.meshed_distance() + wheel.sector_margin}
-            : MaterialSection::Meshed{(is_positioned() ? wheel.thickness() : rail.thickness()),
-                                      (is_positioned() ? wheel.half_width() : rail.half_width()) - beside,
+            : MaterialSection::Meshed{(is_positioned() ? wheel.thickness() : rail_thickness()),
+                                      (is_positioned() ? wheel.half_width() : rail_half_width()) - beside,
                                       rail_begin(), rail_end()});
       }
   }
@@ -468,6 +476,9 @@ namespace tread
       needs_inertia("'Defect/Shape' " + defect.shape);
     if (!is_round())
       needs_inertia("'Wheel/Deviation'");
+    if (has_uneven_mesh())
+      needs_inertia("a 'Rail/Mesh file' whose running surface changes along the path by " +
+                    uneven_in_words());
     if (track.foundation != Foundation::rigid)
       needs_inertia("'Track/Foundation' " + name_of(track.foundation));
     const double largest_ratio = element_named(solid.element).largest_poisson_ratio;
@@ -572,7 +583,8 @@ namespace tread
   {
     // A smooth twin has the length of the defect, and the inertia of the run that it is for.
     const bool has_defect = shapes->defect || defect.length > 0.;
-    return general.quasi_static && !has_defect && is_round() && track.foundation == Foundation::rigid;
+    return general.quasi_static && !has_defect && is_round() && !has_uneven_mesh() &&
+           track.foundation == Foundation::rigid;
   }
 
 

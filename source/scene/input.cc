@@ -460,6 +460,8 @@ namespace tread
     take(file, settings);
     shapes = make_path();
     rail.check();
+    require(!rail.is_meshed(),
+            "'Rail/Shape' mesh has no section for a wheelset in its track: give a profile or slices");
     wheel.check();
   }
 
@@ -467,6 +469,10 @@ namespace tread
   void Scene::read(const std::string &file, const std::vector<std::string> &settings, const SceneUse use)
   {
     take(file, settings);
+    require(
+      !rail.is_meshed() || !is_positioned(),
+      "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and 'Motion/Angular velocity "
+      "(rad per s)' must be left out");
     // A wheelset in a given position has no point of first contact by an upright wheel.
     if (is_positioned())
       shapes = make_path();

@@ -71,7 +71,9 @@ namespace tread
             {
               const double dx = p[0] - axle, dz = p[2] - scene.axle_height();
               return is_in(wheel ? radius * std::atan2(dx, -dz) : p[0], p[1] - scene.path_y(),
-                           wheel ? radius - std::hypot(dx, dz) : -scene.in_rail_axes(p)[2]);
+                           wheel               ? radius - std::hypot(dx, dz)
+                             : scene.rail_mesh() ? scene.depth_in_rail(p)
+                                                 : -scene.in_rail_axes(p)[2]);
             }
           const PlacedWheel &placed = scene.placed_wheel();
           return std::any_of(placed.patches().begin(), placed.patches().end(), [&](const WheelPatch &patch) {

@@ -47,8 +47,9 @@ namespace tread
     for (const auto &[name, file] :
          {std::pair("Wheel/Tread profile", wheel.tread_profile),
           std::pair("Wheel/Deviation", wheel.deviation), std::pair("Rail/Measured head", rail.measured_head),
-          std::pair("Rail/Slices", rail.slices), std::pair("Defect/Profile file", defect.profile_file),
-          std::pair("Guidance/File", guidance.file), std::pair("Track/Support file", track.support_file)})
+          std::pair("Rail/Slices", rail.slices), std::pair("Rail/Mesh file", rail.mesh_file),
+          std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
+          std::pair("Track/Support file", track.support_file)})
       if (const std::string path = located(file);
           !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
         {
@@ -81,7 +82,7 @@ namespace tread
     const auto made = make_path();
     made->defect    = defect.make(located(defect.profile_file));
     shape_wheel(*made);
-    shape_rail(*made);
+    rail.is_meshed() ? shape_mesh_rail(*made) : shape_rail(*made);
     made->contact           = tread::first_contact(made->surfaces, made->path_begin);
     shapes                  = made;
     made->patch             = patch_under_load(made->islands);
@@ -371,7 +372,7 @@ namespace tread
     if (is_round())
       return of_round;
     constexpr double of_body = 0.75; // of its half width, beside which there must be room for coarser cells
-    const double     widest  = of_body * std::min(rail.half_width(), wheel.half_width()) - std::abs(path_y());
+    const double     widest  = of_body * std::min(rail_half_width(), wheel.half_width()) - std::abs(path_y());
     return std::max(of_round, std::min(of_round + reach_of(largest_deviation()).end, widest));
   }
 
@@ -485,7 +486,21 @@ namespace tread
 
   double Scene::rail_end() const
   {
+    if (rail_mesh())
+      return rail_mesh()->surface.along().end;
     return rail.length > 0. ? rail_begin() + rail.length : meshed_end() + rail.margin;
+  }
+
+
+  double Scene::rail_half_width() const
+  {
+    return rail.is_meshed() ? surfaces().half_width : rail.half_width();
+  }
+
+
+  double Scene::rail_thickness() const
+  {
+    return rail_mesh() ? rail_mesh()->thickness(path_begin(), first_contact().y) : rail.thickness();
   }
 
 
@@ -517,6 +532,6 @@ namespace tread
 
   bool Scene::has_fitted_lateral_radius() const
   {
-    return surfaces().tread_offset || rail.angle() != 0. || !rail.measured_head.empty();
+    return surfaces().tread_offset || rail.angle() != 0. || !rail.measured_head.empty() || rail.is_meshed();
   }
 } // namespace tread

@@ -83,6 +83,11 @@ namespace tread
       }
     else if (!scene.track.runs_along())
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
+    if (scene.rail_mesh())
+      {
+        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
+        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
+      }
     for (RollingWheel &wheel : wheels)
       dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
     if (scene.track.runs_along())

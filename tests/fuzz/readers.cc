@@ -8,6 +8,7 @@
 #include <tread/geometry/measured_line.h>
 #include <tread/geometry/rail_slices.h>
 #include <tread/geometry/wheel_deviation.h>
+#include <tread/mesh/mesh_rail.h>
 #include <tread/scene/scene.h>
 #include <tread/scene/wheelset_motion.h>
 #include <tread/tools/batch_files.h>
@@ -124,6 +125,22 @@ namespace tread::fuzz
           {
             const WheelDeviation::Value value = scan.at(angle, y);
             require_finite(value.dz + value.by_angle + value.by_y);
+          }
+    }
+
+    void read_mesh(const std::string &file)
+    {
+      const MeshRail            rail(read_mesh_file(file, 1e-3));
+      const FacetSurface::Range along = rail.surface.along(), lateral = rail.surface.lateral();
+      for (const double u : {-0.1, 0., 0.3, 0.5, 1., 1.1})
+        for (const double v : {-0.1, 0., 0.2, 0.7, 1., 1.1})
+          {
+            const double x = (1. - u) * along.begin + u * along.end,
+                         y = (1. - v) * lateral.begin + v * lateral.end;
+            if (const auto height = rail.surface.height(x, y))
+              require_finite(*height);
+            const FacetSurface::Facet facet = rail.surface.facet(x, y);
+            require_finite(facet.z + facet.smooth_above);
           }
     }
 
@@ -282,14 +299,23 @@ namespace tread::fuzz
 
   const std::vector<Reader> &readers()
   {
-    static const std::vector<Reader> list{
-      {"parameters", ".prm", read_parameters}, {"scene", ".prm", read_scene},
-      {"settings", ".txt", read_settings},     {"simpack", ".prr", read_profile},
-      {"miniprof", ".ban", read_profile},      {"two-columns", ".txt", read_profile},
-      {"defect", ".txt", read_defect},         {"map", ".csv", read_map},
-      {"slices", ".csv", read_slices},         {"deviation", ".csv", read_deviation},
-      {"guidance", ".csv", read_guidance},     {"supports", ".csv", read_supports},
-      {"batch", ".csv", read_batch},           {"archive", "", read_archive}};
+    static const std::vector<Reader> list{{"parameters", ".prm", read_parameters},
+                                          {"scene", ".prm", read_scene},
+                                          {"settings", ".txt", read_settings},
+                                          {"simpack", ".prr", read_profile},
+                                          {"miniprof", ".ban", read_profile},
+                                          {"two-columns", ".txt", read_profile},
+                                          {"defect", ".txt", read_defect},
+                                          {"map", ".csv", read_map},
+                                          {"slices", ".csv", read_slices},
+                                          {"deviation", ".csv", read_deviation},
+                                          {"guidance", ".csv", read_guidance},
+                                          {"supports", ".csv", read_supports},
+                                          {"batch", ".csv", read_batch},
+                                          {"archive", "", read_archive},
+                                          {"gmsh", ".msh", read_mesh},
+                                          {"abaqus", ".inp", read_mesh},
+                                          {"ls-dyna", ".k", read_mesh}};
     return list;
   }
 

@@ -65,6 +65,7 @@ OTHER = (
     ("doc/half-space-library.md", "#include", "C: the test install.half_space compiles it"),
     ("doc/half-space-library.md", "tread_half_space_case", "C: the test install.half_space compiles the like"),
     ("doc/half-space-library.md", "find_package", "CMake: the test install.half_space"),
+    ("doc/own-mesh.md", "radius", "a file of Gmsh, which is not installed for tests"),
     ("doc/parameters.md", "subsection", "a piece of a parameter file"),
     ("doc/track.md", "support,", "the head of a table"),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -20,6 +21,14 @@ class Rail:
     mass: float = 450.
     stiffness: float = 100e6
     damping: float = 60e3
+
+
+class AtRest(Protocol):
+    """Contact force (N) over the place along the way and the height of the axle over its radius (m), and the height under the load."""
+
+    def height(self, place: float) -> float: ...
+
+    def __call__(self, place: float, height: float) -> float: ...
 
 
 @dataclass(frozen=True)
@@ -57,7 +66,7 @@ def force_of_rest(rail: str, shift_mm: float, load: float, begin_mm: float, end_
     return Force(1e-3 * places, 1e-3 * heights, 1e-3 * offsets, forces.reshape(len(places), len(offsets)))
 
 
-def pass_over(force: Force, rail: Rail, speed: float, begin: float, end: float, load: float, mass: float,
+def pass_over(force: AtRest, rail: Rail, speed: float, begin: float, end: float, load: float, mass: float,
               step: float = 5e-6) -> tuple[np.ndarray, np.ndarray]:
     """(places, contact force): explicit steps from rest under the load, the wheel rising with the way. @param mass of the wheel under the constant `load`"""
     slope = (force.height(begin + 2e-3) - force.height(begin)) / 2e-3

@@ -19,7 +19,8 @@ namespace tread
     free    = 0, ///< no traction
     contact = 1, ///< may touch another body
     support = 2, ///< held: by the foundation (rail) or by the rigid hub (wheel)
-    end     = 3  ///< cut faces at both ends of a rail or of a wheel sector
+    end     = 3, ///< cut faces at both ends of a rail or of a wheel sector
+    side    = 4  ///< keeps its y: a plane of symmetry along the rail, of meshes from files
   };
 
   /// A body before refinement: coarse hexahedra, and the rules by which the octree
@@ -39,6 +40,11 @@ namespace tread
 
     /// Largest admissible edge length at a point (chart coordinates).
     std::function<double(const dealii::Point<3> &)> wanted_cell_size;
+
+    /// Cells that should not be larger than even_size are refined as if all coarse cells had edges of
+    /// even_edge: with unlike edges they would have several levels, and hanging nodes in the midst of a
+    /// contact. 0: by their own edges (m).
+    double even_size = 0., even_edge = 0.;
 
     /// Factor by which a cell may be longer along the path than the wanted size, at its centre (chart
     /// coordinates); edges along the path join the vertices 2i and 2i+1 of a cell. Null: 1.

@@ -3,6 +3,7 @@
 #define tread_scene_scene_h
 
 #include <tread/geometry/running_surfaces.h>
+#include <tread/mesh/mesh_rail.h>
 #include <tread/scene/files_read.h>
 #include <tread/scene/islands.h>
 #include <tread/scene/placed_wheel.h>
@@ -236,6 +237,20 @@ namespace tread
       return shapes->rail_begin;
     }
     double rail_end() const;
+    /// Half the width of the rail's top, where the wheel begins, and the thickness of what is meshed there,
+    /// m.
+    double rail_half_width() const;
+    double rail_thickness() const;
+    /// The rail from 'Rail/Mesh file'. Null: it has another shape.
+    const std::shared_ptr<const MeshRail> &rail_mesh() const
+    {
+      return shapes->rail_mesh;
+    }
+    /// Whether the running surface of that rail has other heights, or ends, somewhere along the path.
+    bool has_uneven_mesh() const
+    {
+      return shapes->unevenness > 0.;
+    }
     /// Position in the rail's own axes, which are inclined with it.
     dealii::Point<3> in_rail_axes(const dealii::Point<3> &p) const;
 
@@ -271,10 +286,11 @@ namespace tread
     {
       return shapes->largest_deviation;
     }
-    /// Whether rolling may become steady: a round wheel on a rail without a defect.
+    /// Whether rolling may become steady: a round wheel on a rail without a defect that is the same all the
+    /// way.
     bool rolls_smoothly() const
     {
-      return !has_defect() && is_round();
+      return !has_defect() && is_round() && !has_uneven_mesh();
     }
     /// Whether forces vary along the path by the nature of the scene: a defect, a wheel that is not round, or
     /// discrete supports.
@@ -366,7 +382,9 @@ namespace tread
       std::function<double(double, double)> rail_height;
       std::string                           deviation; ///< of the wheel from round, in words
       double                                largest_deviation = 0.;
-      std::shared_ptr<const Defect>         defect; ///< null: none
+      std::shared_ptr<const Defect>         defect;          ///< null: none
+      std::shared_ptr<const MeshRail>       rail_mesh;       ///< null: the rail has another shape
+      double                                unevenness = 0.; ///< of that rail along the path, m
       FirstContact                          contact;
       PatchExtent                           patch;
       std::vector<Island>                   islands; ///< of that patch
@@ -395,13 +413,17 @@ namespace tread
     /// Of a wheelset of which one wheel is looked at.
     void check_other_wheel() const;
     void check_surfaces() const;
-    void check_defect() const;
-    void check_peak_stress() const;
-    void check_mesh() const;
-    void check_sector() const;
-    void check_track() const;
-    void check_overhang() const;
-    void check_plasticity() const;
+    /// What check_surfaces() asks of a rail from a mesh file.
+    void check_mesh_rail() const;
+    /// The change of its running surface, for messages.
+    std::string uneven_in_words() const;
+    void        check_defect() const;
+    void        check_peak_stress() const;
+    void        check_mesh() const;
+    void        check_sector() const;
+    void        check_track() const;
+    void        check_overhang() const;
+    void        check_plasticity() const;
     /// Check that scaled density, mass damping and levels of time steps are used only where they are
     /// admissible.
     void check_numerics() const;
@@ -434,6 +456,11 @@ namespace tread
     /// largest_deviation(), looked for.
     double deviation_on_the_way() const;
     void   shape_rail(Shapes &made) const;
+    /// Surfaces of a rail from a mesh file.
+    void shape_mesh_rail(Shapes &made) const;
+    /// By how much the smooth surface differs from its section at the start, along the path and over the
+    /// patch's width: 0 where it is the same within the error of the fit.
+    double unevenness(const Shapes &made) const;
     /// @param islands of the patch, found with it
     PatchExtent patch_under_load(std::vector<Island> &islands) const;
 

@@ -17,7 +17,19 @@ namespace tread
       {RailShape::slices, "slices",
        "blocks behind the surfaces of a rail that changes along the way, on which a wheel in a position "
        "rolls; "
-       "doc/crossing.md."}};
+       "doc/crossing.md."},
+      {RailShape::mesh, "mesh",
+       "a mesh of hexahedra of one's own, with names for its running surface and for what is held; "
+       "doc/own-mesh.md."}};
+    return list;
+  }
+
+
+  template <>
+  const std::vector<Choice<LengthUnit>> &choices()
+  {
+    static const std::vector<Choice<LengthUnit>> list{{LengthUnit::millimetre, "mm", ""},
+                                                      {LengthUnit::metre, "m", ""}};
     return list;
   }
 
@@ -96,6 +108,12 @@ namespace tread
                 Double(-3000., 3000.));
     section.add("Slices z (mm)", slices_z, "Where z = 0 of the slices lies, over the tops of the rails.",
                 Double(-1000., 1000.));
+    section.add("Mesh file", mesh_file,
+                "File of 'Shape' mesh, x along the path and z up: .msh of Gmsh (ASCII, 2.2 or 4.1), .inp of "
+                "Abaqus or .k of LS-DYNA. Its faces are named contact, support, end or symmetry; "
+                "doc/own-mesh.md. The path lies at y = 0 or beside it, as the wheel has it.",
+                Anything());
+    section.choose("Mesh unit", mesh_unit, "Of the lengths in 'Mesh file'.");
     section.choose("Inclination", inclination,
                    "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
                    "same slope touches it on the "
@@ -182,6 +200,12 @@ namespace tread
     require(!is_sliced() || (measured_head.empty() && inclination == RailInclination::none),
             "'Rail/Slices' take the place of a profile: 'Rail/Measured head' must be empty and 'Inclination' "
             "none");
+    require(is_meshed() != mesh_file.empty(), is_meshed() ? "'Rail/Shape' mesh needs a file: 'Rail/Mesh file'"
+                                                          : "'Rail/Mesh file' needs 'Rail/Shape' mesh");
+    require(
+      !is_meshed() || (measured_head.empty() && inclination == RailInclination::none),
+      "'Rail/Mesh file' takes the place of a profile: 'Rail/Measured head' must be empty and 'Inclination' "
+      "none");
     if (!is_block())
       return;
     require(crown_radius > 0.5 * block_width, "'Rail/Crown radius (mm)' " + text_in_mm(crown_radius) +

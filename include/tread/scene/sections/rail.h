@@ -13,11 +13,22 @@ namespace tread
     head,
     full_section,
     block,
-    slices
+    slices,
+    mesh
   };
 
   template <>
   const std::vector<Choice<RailShape>> &choices();
+
+  /// Of the lengths in a mesh file.
+  enum class LengthUnit
+  {
+    millimetre,
+    metre
+  };
+
+  template <>
+  const std::vector<Choice<LengthUnit>> &choices();
 
   enum class ProfileName
   {
@@ -55,11 +66,13 @@ namespace tread
     RailShape        shape       = RailShape::head;
     ProfileName      profile     = ProfileName::rail_54e1;
     RailInclination  inclination = RailInclination::none;
-    std::string      measured_head;          ///< file; empty: a new rail
-    ProfilePlacement head_placement;         ///< of that file
-    std::string      slices;                 ///< file of a rail that changes along the way
-    double           slices_place = 0.;      ///< along them at x = 0
-    double slices_y = 0.75, slices_z = 0.;   ///< of their y = 0 and z = 0, from the middle of the track
+    std::string      measured_head;             ///< file; empty: a new rail
+    ProfilePlacement head_placement;            ///< of that file
+    std::string      slices;                    ///< file of a rail that changes along the way
+    double           slices_place = 0.;         ///< along them at x = 0
+    double      slices_y = 0.75, slices_z = 0.; ///< of their y = 0 and z = 0, from the middle of the track
+    std::string mesh_file;                      ///< of a rail that the user has meshed
+    LengthUnit  mesh_unit = LengthUnit::millimetre;
     std::optional<double> begin;             ///< x of the first end; none: automatic
     double                length       = 0.; ///< 0: from margin to margin
     double                crown_radius = 0.3, block_width = 0.12, block_height = 0.06;
@@ -72,6 +85,10 @@ namespace tread
     {
       return shape == RailShape::slices;
     }
+    bool is_meshed() const
+    {
+      return shape == RailShape::mesh;
+    }
     bool is_block() const
     {
       return shape == RailShape::block;
@@ -80,7 +97,7 @@ namespace tread
     RailProfile standard_profile() const;
     /// The top leans to the gauge side, y < 0, by this, rad.
     double angle() const;
-    /// Of what is meshed: half its width at the top, and its thickness there.
+    /// Of a head, a full section or a block: half its width at the top, and its thickness there.
     double half_width() const;
     double thickness() const;
     /// From the base to the top, without a measured head or a defect.

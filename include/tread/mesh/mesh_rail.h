@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_mesh_mesh_rail_h
+#define tread_mesh_mesh_rail_h
+
+#include <tread/geometry/facet_surface.h>
+#include <tread/mesh/body.h>
+#include <tread/mesh/fine_zone.h>
+#include <tread/mesh/mesh_file.h>
+
+#include <memory>
+
+namespace tread
+{
+  /// A rail from a file, and the running surface that its faces `contact` describe. x along the path, z up.
+  struct MeshRail
+  {
+    MeshFile     mesh;
+    FacetSurface surface;
+
+    /// @throws InputError
+    explicit MeshRail(const MeshFile &file);
+
+    /// Of the material below the running surface at x, y, down to the lowest vertex, m.
+    double thickness(const double x, const double y) const;
+  };
+
+  /// The rail with its cells refined about the fine zones. New nodes lie on the straight sides of the coarse
+  /// cells, and near the running surface are lifted by what that is above the facets: all of it at the
+  /// surface, none from the depth of a coarse face's edge on. Vertices of the file stay where they are at the
+  /// surface.
+  Body make_mesh_rail(const std::shared_ptr<const MeshRail> &rail, const FineZones &zones);
+} // namespace tread
+
+#endif

@@ -1,0 +1,526 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Meshes in files of keywords: Abaqus (.inp) and LS-DYNA (.k). What is no mesh, such as materials and steps,
+// is passed over.
+#include <tread/base/text_file.h>
+#include <tread/mesh/mesh_file.h>
+
+#include "mesh_file_words.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace tread
+{
+  namespace
+  {
+    using Entries = std::vector<std::string>;
+
+    /// ElementsByNumber by their numbers, of which sets are made.
+    struct ElementsByNumber
+    {
+      std::map<long, std::size_t>              hexahedra; // place in the mesh
+      std::map<long, MeshInput::Quadrilateral> quadrilaterals;
+
+      void check_free(const long number, const unsigned int line) const
+      {
+        if (hexahedra.count(number) + quadrilaterals.count(number) > 0)
+          throw TextError(line, "element " + std::to_string(number) + " is there already");
+      }
+    };
+
+    /// A line with a keyword: its name in capitals, and parameters by their names in capitals.
+    struct KeywordLine
+    {
+      std::string                        name;
+      std::map<std::string, std::string> parameters;
+
+      std::string parameter(const std::string &wanted) const
+      {
+        const auto found = parameters.find(wanted);
+        return found == parameters.end() ? "" : found->second;
+      }
+    };
+
+    std::string in_capitals(std::string text)
+    {
+      for (char &c : text)
+        if (c >= 'a' && c <= 'z')
+          c -= 'a' - 'A';
+      return text;
+    }
+
+    KeywordLine keyword_in(const std::string &line)
+    {
+      const Entries words = entries_of(line, ',');
+      KeywordLine   keyword{in_capitals(mesh_words::trimmed(words[0])).substr(1), {}};
+      for (std::size_t i = 1; i < words.size(); ++i)
+        {
+          const auto equals = words[i].find('=');
+          keyword.parameters[in_capitals(mesh_words::trimmed(words[i].substr(0, equals)))] =
+            equals == std::string::npos ? "" : mesh_words::trimmed(words[i].substr(equals + 1));
+        }
+      return keyword;
+    }
+
+    void refuse_keyword(const unsigned int line, const std::string &keyword, const std::string &instead)
+    {
+      throw TextError(line, "*" + keyword + " is not read: " + instead);
+    }
+
+
+    class AbaqusReader
+    {
+    public:
+      MeshInput read(const std::vector<std::string> &lines)
+      {
+        for (const std::string &text : lines)
+          {
+            ++line;
+            if (text.compare(0, 2, "**") == 0 || text.find_first_not_of(" \t\r") == std::string::npos)
+              continue;
+            if (text[0] == '*')
+              begin(keyword_in(text));
+            else
+              take(text);
+          }
+        check_complete();
+        for (const Surface &surface : surfaces)
+          add_surface(surface);
+        for (const auto &[name, set] : elements_of)
+          add_set(name, set);
+        return std::move(mesh);
+      }
+
+    private:
+      struct Set
+      {
+        unsigned int      line;
+        bool              is_named; ///< by a set of its own, and not only where its elements are listed
+        std::vector<long> members;
+      };
+      /// Faces by their number S1 to S6 of an element, or of a set of them.
+      struct Surface
+      {
+        std::string                                                     name;
+        unsigned int                                                    line;
+        std::vector<std::tuple<std::string, std::string, unsigned int>> faces;
+      };
+
+      void check_complete() const
+      {
+        if (!pending.empty())
+          throw TextError(line, "ends within an element: the file is cut off");
+      }
+
+      void begin(const KeywordLine &now)
+      {
+        check_complete();
+        keyword = now;
+        for (const char *moves : {"INCLUDE", "SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"})
+          if (now.name == moves)
+            refuse_keyword(line, now.name, "write all nodes and elements with their numbers, in one file");
+        if (now.name == "INSTANCE" && n_instances++ > 0)
+          refuse_keyword(line, now.name,
+                         "write one mesh of all parts, with numbers of its own ('flat' input)");
+        if (now.name == "ELEMENT")
+          check_type(in_capitals(now.parameter("TYPE")));
+        if (now.name == "SURFACE")
+          {
+            if (const std::string kind = in_capitals(now.parameter("TYPE"));
+                !kind.empty() && kind != "ELEMENT")
+              refuse_keyword(line, "SURFACE of the type " + kind,
+                             "name faces of elements, S1 to S6, or a set of nodes");
+            surfaces.push_back({now.parameter("NAME"), line, {}});
+          }
+        if (now.name == "NSET")
+          mesh.named(now.parameter("NSET"), line);
+        if (now.name == "ELSET")
+          set_of(now.parameter("ELSET"), true);
+      }
+
+      void check_type(const std::string &type)
+      {
+        const auto begins = [&](const std::string &text) {
+          return type.compare(0, text.size(), text) == 0;
+        };
+        const auto is_one_of = [&](const std::vector<std::string> &list) {
+          return std::find(list.begin(), list.end(), type) != list.end();
+        };
+        is_hexahedron    = begins("C3D8");
+        is_quadrilateral = is_one_of({"S4", "S4R", "S4RS", "CPS4", "CPS4R", "CPE4", "CPE4R", "M3D4", "M3D4R",
+                                      "SFM3D4", "SFM3D4R", "R3D4"});
+        if (is_hexahedron || is_quadrilateral || is_one_of({"T3D2", "B31", "MASS"}))
+          return;
+        const bool second = begins("C3D20") || begins("C3D27") || begins("C3D10") || begins("C3D15") ||
+                            begins("S8") || begins("CPS8");
+        throw TextError(line,
+                        "has elements of the type '" + type + "'" +
+                          (begins("C3D4") || begins("C3D10")   ? ", which are tetrahedra"
+                           : begins("C3D6") || begins("C3D15") ? ", which are prisms"
+                                                               : "") +
+                          ": " +
+                          (second && !begins("C3D10") && !begins("C3D15") ? mesh_words::make_first_order
+                                                                          : mesh_words::make_hexahedra));
+      }
+
+      Set &set_of(const std::string &name, const bool is_named)
+      {
+        Set &set = elements_of.try_emplace(mesh_words::lower(name), Set{line, is_named, {}}).first->second;
+        set.is_named = set.is_named || is_named;
+        return set;
+      }
+
+      /// A line of data below the keyword.
+      void take(const std::string &text)
+      {
+        if (keyword.name == "NODE")
+          take_node(entries_of(text, ','));
+        else if (keyword.name == "ELEMENT" && (is_hexahedron || is_quadrilateral))
+          take_element(entries_of(text, ','));
+        else if (keyword.name == "NSET")
+          take_members(entries_of(text, ','), mesh.named(keyword.parameter("NSET"), line).nodes,
+                       [&](const std::string &name) {
+                         const std::vector<long> copied = mesh.named(name, line).nodes;
+                         return copied;
+                       });
+        else if (keyword.name == "ELSET")
+          take_members(entries_of(text, ','), set_of(keyword.parameter("ELSET"), true).members,
+                       [&](const std::string &name) {
+                         const std::vector<long> copied = set_of(name, false).members;
+                         return copied;
+                       });
+        else if (keyword.name == "SURFACE")
+          take_faces(entries_of(text, ','));
+      }
+
+      void take_node(const Entries &words)
+      {
+        if (words.size() < 4)
+          throw TextError(line, "has " + std::to_string(words.size()) +
+                                  " entries; a node has a number, x, y and z");
+        mesh.add_node(mesh_words::whole(words[0], line),
+                      {mesh_words::value(words[1], line), mesh_words::value(words[2], line),
+                       mesh_words::value(words[3], line)},
+                      line);
+        if (const std::string name = keyword.parameter("NSET"); is_known_boundary(name))
+          mesh.named(name, line).nodes.push_back(mesh_words::whole(words[0], line));
+      }
+
+      /// ElementsByNumber may go on, on the next line.
+      void take_element(const Entries &words)
+      {
+        for (const std::string &word : words)
+          if (!word.empty())
+            pending.push_back(word);
+        const std::size_t n = is_hexahedron ? 9 : 5;
+        if (pending.size() < n)
+          return;
+        if (pending.size() > n)
+          throw TextError(line, "has " + std::to_string(pending.size()) +
+                                  " entries in place of an element's " + std::to_string(n));
+        const long number = mesh_words::whole(pending[0], line);
+        elements.check_free(number, line);
+        const Entries nodes(pending.begin() + 1, pending.end());
+        pending.clear();
+        if (is_hexahedron)
+          {
+            elements.hexahedra[number] = mesh.hexahedra.size();
+            mesh.hexahedra.push_back({mesh_words::numbers<8>(nodes, line), line});
+          }
+        else
+          elements.quadrilaterals[number] = {mesh_words::numbers<4>(nodes, line), line};
+        if (const std::string name = keyword.parameter("ELSET"); !name.empty())
+          set_of(name, false).members.push_back(number);
+      }
+
+      /// Numbers, names of other sets, or first, last and step.
+      void take_members(const Entries                                               &words,
+                        std::vector<long>                                           &members,
+                        const std::function<std::vector<long>(const std::string &)> &of_set)
+      {
+        if (keyword.parameters.count("GENERATE") > 0)
+          {
+            if (words.size() < 2)
+              throw TextError(line, "has no first and last number of a set");
+            const long first = mesh_words::whole(words[0], line), last = mesh_words::whole(words[1], line),
+                       step = words.size() > 2 && !words[2].empty() ? mesh_words::whole(words[2], line) : 1;
+            constexpr long most = 10000000;
+            if (step < 1 || last < first || (last - first) / step > most)
+              throw TextError(line, "'" + words[0] + "' to '" + words[1] + "' is no range of numbers");
+            for (long number = first; number <= last; number += step)
+              members.push_back(number);
+            return;
+          }
+        for (const std::string &word : words)
+          if (!word.empty())
+            {
+              if (number_in(word))
+                members.push_back(mesh_words::whole(word, line));
+              else
+                for (const long number : of_set(word))
+                  members.push_back(number);
+            }
+      }
+
+      void take_faces(const Entries &words)
+      {
+        if (words.empty() || words[0].empty())
+          throw TextError(line, "names no element and no set of a surface");
+        surfaces.back().faces.emplace_back(words[0], words.size() > 1 ? in_capitals(words[1]) : "", line);
+      }
+
+      static bool is_known_boundary(const std::string &name)
+      {
+        for (long number = 1; number <= 4; ++number)
+          if (mesh_words::lower(name) == mesh_words::name_of_number(number))
+            return true;
+        return false;
+      }
+
+      void add_surface(const Surface &surface)
+      {
+        MeshInput::Named &named = mesh.named(surface.name, surface.line);
+        for (const auto &[of, face, at] : surface.faces)
+          {
+            std::vector<long> members;
+            if (number_in(of))
+              members.push_back(mesh_words::whole(of, at));
+            else if (const auto set = elements_of.find(mesh_words::lower(of)); set != elements_of.end())
+              members = set->second.members;
+            else
+              throw TextError(at, "there is no set '" + of + "'");
+            for (const long number : members)
+              add_face(named, number, face, at);
+          }
+      }
+
+      void add_face(MeshInput::Named  &named,
+                    const long         number,
+                    const std::string &face,
+                    const unsigned int at)
+      {
+        if (const auto found = elements.quadrilaterals.find(number); found != elements.quadrilaterals.end())
+          return named.faces.push_back(found->second);
+        const auto found = elements.hexahedra.find(number);
+        if (found == elements.hexahedra.end())
+          throw TextError(at,
+                          "there is no element " + std::to_string(number) + " of which faces can be named");
+        if (face.size() != 2 || face[0] != 'S' || face[1] < '1' || face[1] > '6')
+          throw TextError(at, "'" + face + "' is no face of a hexahedron; S1 to S6 are");
+        MeshInput::Quadrilateral quadrilateral{{}, at};
+        for (unsigned int v = 0; v < 4; ++v)
+          quadrilateral.nodes[v] = mesh.hexahedra[found->second].nodes[faces_of_hexahedron[face[1] - '1'][v]];
+        named.faces.push_back(quadrilateral);
+      }
+
+      /// Sets of quadrilaterals are boundaries, those of hexahedra volumes.
+      void add_set(const std::string &name, const Set &set)
+      {
+        const bool has_volume = std::any_of(set.members.begin(), set.members.end(), [&](const long number) {
+          return elements.hexahedra.count(number) > 0;
+        });
+        if (has_volume)
+          return mesh.volumes.push_back(name);
+        if (!set.is_named && !is_known_boundary(name))
+          return;
+        for (const long number : set.members)
+          if (const auto found = elements.quadrilaterals.find(number); found != elements.quadrilaterals.end())
+            mesh.named(name, set.line).faces.push_back(found->second);
+      }
+
+      MeshInput                  mesh;
+      ElementsByNumber           elements;
+      std::map<std::string, Set> elements_of;
+      std::vector<Surface>       surfaces;
+      KeywordLine                keyword;
+      Entries                    pending; ///< entries of an element that goes on
+      bool                       is_hexahedron = false, is_quadrilateral = false;
+      unsigned int               n_instances = 0, line = 0;
+    };
+
+
+    /// Fields of a line of LS-DYNA: of fixed widths, or separated by commas. Empty ones at the end are left
+    /// out.
+    Entries fields_of(const std::string &text, const std::vector<unsigned int> &widths)
+    {
+      Entries words;
+      if (text.find(',') != std::string::npos)
+        words = entries_of(text, ',');
+      else
+        for (std::size_t at = 0, i = 0; i < widths.size() && at < text.size(); at += widths[i++])
+          words.push_back(mesh_words::trimmed(text.substr(at, widths[i])));
+      while (!words.empty() && words.back().empty())
+        words.pop_back();
+      return words;
+    }
+
+    class LsDynaReader
+    {
+    public:
+      MeshInput read(const std::vector<std::string> &lines)
+      {
+        for (const std::string &text : lines)
+          {
+            ++line;
+            if (text[0] == '$' || (text.find_first_not_of(" \t\r") == std::string::npos && !awaits_title))
+              continue;
+            if (text[0] != '*')
+              take(text);
+            else if (in_capitals(text).compare(0, 4, "*END") == 0)
+              break;
+            else
+              begin(keyword_in(text));
+          }
+        if (!first_half.empty())
+          throw TextError(line, "ends within an element: the file is cut off");
+        for (const auto &[part, quadrilateral] : shells)
+          {
+            const auto title = titles.find(part);
+            mesh
+              .named(title != titles.end() ? title->second.first : "part " + std::to_string(part),
+                     title != titles.end() ? title->second.second : quadrilateral.line)
+              .faces.push_back(quadrilateral);
+          }
+        for (const auto &[part, title] : titles)
+          if (std::find(parts.begin(), parts.end(), part) != parts.end())
+            mesh.volumes.push_back(title.first);
+        return std::move(mesh);
+      }
+
+    private:
+      void begin(const KeywordLine &now)
+      {
+        if (!first_half.empty())
+          throw TextError(line, "begins within an element: the file is cut off");
+        keyword = now.name;
+        if (keyword.compare(0, 7, "INCLUDE") == 0 || keyword == "NODE_TRANSFORM")
+          refuse_keyword(line, keyword, "write all nodes and elements in one file, where they are");
+        if (keyword.find("LONG=Y") != keyword.npos || in_capitals(now.parameter("LONG")) == "Y" ||
+            (!keyword.empty() && keyword.back() == '+'))
+          refuse_keyword(line, keyword, "write fields of the usual width, or commas");
+        const bool is_set =
+          keyword.compare(0, 8, "SET_NODE") == 0 || keyword.compare(0, 11, "SET_SEGMENT") == 0;
+        constexpr const char *title     = "_TITLE";
+        const auto            at        = keyword.rfind(title);
+        const bool            has_title = is_set && at != std::string::npos;
+        if (has_title)
+          keyword = keyword.substr(0, at);
+        if (is_set && keyword != "SET_NODE_LIST" && keyword != "SET_NODE" && keyword != "SET_SEGMENT")
+          refuse_keyword(line, keyword,
+                         "list the nodes or segments: *SET_NODE_LIST_TITLE, *SET_SEGMENT_TITLE");
+        awaits_title  = has_title || keyword == "PART";
+        awaits_number = is_set || keyword == "PART";
+        name.clear();
+      }
+
+      void take(const std::string &text)
+      {
+        if (awaits_title)
+          {
+            name         = mesh_words::trimmed(text);
+            awaits_title = false;
+          }
+        else if (awaits_number)
+          take_number(text);
+        else if (keyword == "NODE")
+          take_node(fields_of(text, {8, 16, 16, 16}));
+        else if (keyword == "ELEMENT_SOLID")
+          take_solid(text);
+        else if (keyword == "ELEMENT_SHELL")
+          {
+            const Entries words = fields_of(text, {8, 8, 8, 8, 8, 8});
+            require_entries(words, 6, "an element");
+            shells.push_back({mesh_words::whole(words[1], line),
+                              {mesh_words::numbers<4>({words.begin() + 2, words.end()}, line), line}});
+          }
+        else if (keyword == "SET_NODE_LIST" || keyword == "SET_NODE")
+          for (const std::string &word : fields_of(text, std::vector<unsigned int>(8, 10)))
+            {
+              if (const long number = mesh_words::whole(word, line); number != 0)
+                mesh.named(name, line).nodes.push_back(number);
+            }
+        else if (keyword == "SET_SEGMENT")
+          {
+            const Entries words = fields_of(text, std::vector<unsigned int>(4, 10));
+            require_entries(words, 4, "a segment");
+            mesh.named(name, line).faces.push_back({mesh_words::numbers<4>(words, line), line});
+          }
+      }
+
+      void require_entries(const Entries &words, const std::size_t n, const std::string &what) const
+      {
+        if (words.size() < n)
+          throw TextError(line, "has " + std::to_string(words.size()) + " entries; " + what + " has " +
+                                  std::to_string(n));
+      }
+
+      /// The number of a set or of a part, on the line behind its title.
+      void take_number(const std::string &text)
+      {
+        const Entries words = fields_of(text, {10});
+        require_entries(words, 1, "a set or a part");
+        const long number = mesh_words::whole(words[0], line);
+        awaits_number     = false;
+        if (keyword == "PART")
+          titles[number] = {name.empty() ? std::to_string(number) : name, line};
+        else
+          {
+            name = name.empty() ? mesh_words::name_of_number(number) : name;
+            mesh.named(name, line);
+          }
+      }
+
+      void take_node(const Entries &words)
+      {
+        require_entries(words, 4, "a node");
+        mesh.add_node(mesh_words::whole(words[0], line),
+                      {mesh_words::value(words[1], line), mesh_words::value(words[2], line),
+                       mesh_words::value(words[3], line)},
+                      line);
+      }
+
+      /// All on one line, or the nodes on a second one.
+      void take_solid(const std::string &text)
+      {
+        Entries words = fields_of(text, std::vector<unsigned int>(10, 8));
+        if (first_half.empty() && words.size() == 2)
+          {
+            first_half = words;
+            return;
+          }
+        words.insert(words.begin(), first_half.begin(), first_half.end());
+        first_half.clear();
+        require_entries(words, 10, "an element");
+        const long number = mesh_words::whole(words[0], line), part = mesh_words::whole(words[1], line);
+        elements.check_free(number, line);
+        elements.hexahedra[number] = mesh.hexahedra.size();
+        if (std::find(parts.begin(), parts.end(), part) == parts.end())
+          parts.push_back(part);
+        mesh.hexahedra.push_back({mesh_words::numbers<8>({words.begin() + 2, words.end()}, line), line});
+      }
+
+      MeshInput                                              mesh;
+      ElementsByNumber                                       elements;
+      std::vector<std::pair<long, MeshInput::Quadrilateral>> shells; // and their parts
+      std::vector<long>                                      parts;  // of hexahedra
+      std::map<long, std::pair<std::string, unsigned int>>   titles; // of parts, and their lines
+      std::string                                            keyword, name;
+      Entries                                                first_half; // number and part of a solid
+      bool                                                   awaits_title = false, awaits_number = false;
+      unsigned int                                           line = 0;
+    };
+  } // namespace
+
+
+  MeshInput read_abaqus(const std::vector<std::string> &lines)
+  {
+    return AbaqusReader().read(lines);
+  }
+
+
+  MeshInput read_ls_dyna(const std::vector<std::string> &lines)
+  {
+    return LsDynaReader().read(lines);
+  }
+} // namespace tread

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A rail from the user's own mesh: its surface as the scene asks for it, and what it must have.
+#include <tread/scene/half_space_case.h>
+#include <tread/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    /// Contact is looked for up to here on each side, m.
+    constexpr double contact_half_width = 25e-3;
+
+    /// Where the rail has no surface, as in the gap of a joint, it is this far below its section at the
+    /// start, m.
+    constexpr double no_rail = 0.1;
+
+    /// A surface that differs by less from its section at the start is the same, with the error of a fit to
+    /// coarse faces: a hundredth of what a loaded contact gives way, m.
+    constexpr double round_off_of_fit = 1e-6;
+
+    /// Places of the surface that are looked at are so far apart, m.
+    constexpr double step_along = 0.5e-3, step_across = 1e-3;
+
+    /// Tables of a run count heights from z = 0, where the tops of other rails lie; a top may lie this far
+    /// from it, m.
+    constexpr double highest_top = 10e-3;
+
+    /// What rails measure, m: others are meshes in another unit.
+    constexpr double least_width = 5e-3, largest_width = 1., least_height = 5e-3, largest_height = 3.,
+                     least_length = 20e-3, largest_length = 200.;
+
+    std::string from_to_in_mm(const double begin, const double end)
+    {
+      return text_in_mm(begin) + " to " + text_in_mm(end) + " mm";
+    }
+
+    /// @throws InputError
+    void require_size_of_rail(const MeshRail &rail, const LengthUnit unit)
+    {
+      const auto require_between = [&](const std::string &what, const double size, const double least,
+                                       const double largest) {
+        require(size >= least && size <= largest,
+                "'" + rail.mesh.file + "' is " + text_in_mm(size) + " mm " + what + ", where rails have " +
+                  text_in_mm(least) + " to " + text_in_mm(largest) + ": 'Rail/Mesh unit' is " +
+                  name_of(unit) + "; is the file in " + (unit == LengthUnit::metre ? "mm" : "m") + "?");
+      };
+      const auto along = rail.surface.along(), across = rail.surface.lateral();
+      const auto up = rail.mesh.range(2);
+      require_between("long", along.end - along.begin, least_length, largest_length);
+      require_between("wide on its running surface", across.end - across.begin, least_width, largest_width);
+      require_between("high", up.end - up.begin, least_height, largest_height);
+    }
+  } // namespace
+
+
+  void Scene::shape_mesh_rail(Shapes &made) const
+  {
+    rail.check();
+    const double unit = rail.mesh_unit == LengthUnit::millimetre ? 1e-3 : 1.;
+    try
+      {
+        made.rail_mesh = std::make_shared<const MeshRail>(read_mesh_file(located(rail.mesh_file), unit));
+        require_size_of_rail(*made.rail_mesh, rail.mesh_unit);
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(std::string("'Rail/Mesh file': ") + error.what());
+      }
+    require(!made.defect,
+            "'Defect/Shape' " + defect.shape +
+              " is laid on a rail of the program's own: with 'Rail/Shape' mesh it must be none, and the "
+              "mesh has its own shape");
+    const FacetSurface       &surface = made.rail_mesh->surface;
+    const double              start   = made.path_begin;
+    const FacetSurface::Range across  = surface.across(start, 0.);
+    constexpr double          inside  = 1e-6; // m
+    made.rail_begin                   = surface.along().begin;
+    require(std::min(-across.begin, across.end) >= 0.5 * least_width,
+            "'Rail/Mesh file': '" + located(rail.mesh_file) + "' has no contact surface about y = 0 at x = " +
+              text_in_mm(start) + " mm, where the wheel begins" +
+              (across.begin < across.end ? ", but from y = " + from_to_in_mm(across.begin, across.end) : "") +
+              "; it is there for x from " + from_to_in_mm(surface.along().begin, surface.along().end) +
+              ": move the mesh, or 'Motion/Start (mm)'");
+    const double z = *surface.height(start, 0.);
+    require(std::abs(z) <= highest_top, "'Rail/Mesh file': '" + located(rail.mesh_file) +
+                                          "' has its top at z = " + text_in_mm(z) +
+                                          " mm at y = 0 where the wheel "
+                                          "begins, x = " +
+                                          text_in_mm(start) + " mm; tops of rails lie at z = 0, within " +
+                                          text_in_mm(highest_top) + " mm: move the mesh");
+    made.surfaces.half_width = std::min({contact_half_width, -across.begin - inside, across.end - inside});
+    made.surfaces.rail_top   = [mesh       = made.rail_mesh, start,
+                              half_width = made.surfaces.half_width](const double y) {
+      const double              on_rail = std::clamp(y, -half_width, half_width);
+      const FacetSurface::Facet facet   = mesh->surface.facet(start, on_rail);
+      return facet.z + facet.smooth_above - std::abs(y - on_rail);
+    };
+    made.unevenness = unevenness(made);
+    if (made.unevenness > 0.)
+      made.surfaces.defect = [mesh = made.rail_mesh, top = made.surfaces.rail_top](const double x,
+                                                                                   const double y) {
+        const auto height = mesh->surface.height(x, y);
+        return height ? *height - top(y) : -no_rail;
+      };
+  }
+
+
+  double Scene::unevenness(const Shapes &made) const
+  {
+    // As wide as patches are.
+    constexpr double widest     = 10e-3;
+    const double     half_width = std::min(made.surfaces.half_width, widest);
+    const auto       known      = made.rail_mesh->surface.along();
+    const double     from       = std::max(known.begin, made.path_begin - distance_behind(last_wheel())),
+                 to             = std::min(known.end, made.path_begin + motion.meshed_distance());
+    const int n_along           = std::ceil(std::max(0., to - from) / step_along),
+              n_across          = std::ceil(half_width / step_across);
+    double largest              = 0.;
+    for (int i = 0; i <= n_along; ++i)
+      for (int j = -n_across; j <= n_across; ++j)
+        {
+          const double x = from + i * (to - from) / std::max(n_along, 1), y = half_width * j / n_across;
+          const auto   height = made.rail_mesh->surface.height(x, y);
+          largest = std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(y)) : no_rail);
+        }
+    return largest > round_off_of_fit ? largest : 0.;
+  }
+
+
+  std::string Scene::uneven_in_words() const
+  {
+    return shapes->unevenness < no_rail ? text_in_mm(shapes->unevenness) + " mm" : "a gap";
+  }
+
+
+  void Scene::check_mesh_rail() const
+  {
+    const FacetSurface &surface = rail_mesh()->surface;
+    const std::string   file    = "'Rail/Mesh file': '" + located(rail.mesh_file) + "' ";
+    const double        a = hertz(*this, static_load()).semi_axis_x, from = path_begin(last_wheel()) - 3. * a,
+                 to = meshed_end() + 3. * a;
+    require(surface.along().begin <= from && surface.along().end >= to,
+            file + "has a contact surface for x from " +
+              from_to_in_mm(surface.along().begin, surface.along().end) +
+              "; the path and three semi-axes of the patch at both ends are from " + from_to_in_mm(from, to) +
+              ": mesh a longer rail, or change 'Motion/Start (mm)' and 'Rolled distance (mm)'");
+    require(std::abs(first_contact().y) < 0.99 * surfaces().half_width,
+            file + "and the wheel touch at y = " + text_in_mm(first_contact().y) +
+              " mm, at the edge of the contact surface, which is known up to " +
+              text_in_mm(surfaces().half_width) + " mm at both sides where the wheel begins");
+    require(std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
+            file + "has a contact surface up to " + text_in_mm(surfaces().half_width) +
+              " mm at both sides where the wheel begins, and the patch under the static load is from y = " +
+              from_to_in_mm(patch_extent().begin, patch_extent().end) + ": name more of it 'contact'");
+    // At every wheel's start there is a rail under it: not a gap.
+    for (unsigned int wheel = 0; wheel < n_wheels(); ++wheel)
+      for (double x = path_begin(wheel) - a; x <= path_begin(wheel) + a; x += step_along)
+        require(surface.height(x, first_contact().y).has_value(),
+                file + "has no contact surface at x = " + text_in_mm(x) +
+                  " mm, y = " + text_in_mm(first_contact().y) +
+                  " mm, where a wheel begins: move 'Motion/Start (mm)' away from the gap");
+  }
+} // namespace tread

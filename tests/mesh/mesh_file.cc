@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Meshes from files: all formats give the same cells and names, as deal.II reads those that it can; what
+// cannot be used is refused with its place; and the body that is made of one.
+#include <tread/base/input_error.h>
+#include <tread/mesh/mesh_rail.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include "check.h"
+#include "refined_body.h"
+#include "temporary_folder.h"
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+using namespace tread;
+using dealii::Point;
+
+namespace
+{
+  // Two cubes of 10 mm along x, in mm. Nodes i + 3 (j + 2 k) + 1.
+  const std::string places[12] = {"0 -5 -10", "10 -5 -10", "20 -5 -10", "0 5 -10", "10 5 -10", "20 5 -10",
+                                  "0 -5 0",   "10 -5 0",   "20 -5 0",   "0 5 0",   "10 5 0",   "20 5 0"};
+
+  std::string with_commas(std::string text)
+  {
+    for (std::size_t at = text.find(' '); at != text.npos; at = text.find(' '))
+      text.replace(at, 1, ",");
+    return text;
+  }
+
+  std::string gmsh_old()
+  {
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n2 1 \"contact\"\n2 2 "
+                       "\"support\"\n2 3 \"end\"\n2 4 "
+                       "\"symmetry\"\n3 7 \"rail steel\"\n$EndPhysicalNames\n$Nodes\n12\n";
+    for (unsigned int i = 0; i < 12; ++i)
+      text += std::to_string(i + 1) + " " + places[i] + "\n";
+    return text + "$EndNodes\n$Elements\n9\n1 1 2 0 1 7 8\n2 3 2 1 1 7 8 11 10\n3 3 2 1 1 8 9 12 11\n4 3 2 2 "
+                  "2 1 2 5 4\n5 3 2 2 2 2 3 6 5\n"
+                  "6 3 2 3 3 1 4 10 7\n7 3 2 4 4 1 2 8 7\n8 5 2 7 7 1 2 5 4 7 8 11 10\n9 5 2 7 7 2 3 6 5 8 9 "
+                  "12 11\n$EndElements\n";
+  }
+
+  std::string gmsh_new()
+  {
+    std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n2 1 \"contact\"\n2 2 "
+                       "\"support\"\n2 3 \"end\"\n2 4 "
+                       "\"symmetry\"\n3 7 \"rail steel\"\n$EndPhysicalNames\n$Entities\n1 1 4 1\n1 0 0 0 "
+                       "0\n1 0 -5 0 20 -5 0 0 0\n21 0 -5 0 20 "
+                       "5 0 1 1 1 1\n22 0 -5 -10 20 5 -10 1 2 0\n23 0 -5 -10 0 5 0 1 3 0\n24 0 -5 -10 10 -5 "
+                       "0 1 4 0\n1 0 -5 -10 20 5 0 1 7 4 "
+                       "21 22 23 24\n$EndEntities\n$Nodes\n2 12 1 12\n2 21 0 1\n7\n0 -5 0\n3 1 0 11\n";
+    for (unsigned int i = 0; i < 12; ++i)
+      text += i == 6 ? "" : std::to_string(i + 1) + "\n";
+    for (unsigned int i = 0; i < 12; ++i)
+      text += i == 6 ? "" : places[i] + "\n";
+    return text +
+           "$EndNodes\n$Elements\n6 9 1 9\n1 1 1 1\n1 7 8\n2 21 3 2\n2 7 8 11 10\n3 8 9 12 11\n2 22 3 2\n4 1 "
+           "2 5 4\n5 2 3 6 5\n2 23 3 1\n6 "
+           "1 4 10 7\n2 24 3 1\n7 1 2 8 7\n3 1 5 2\n8 1 2 5 4 7 8 11 10\n9 2 3 6 5 8 9 12 11\n$EndElements\n";
+  }
+
+  std::string abaqus()
+  {
+    std::string text = "*Heading\n a title\n** remark\n*Node\n";
+    for (unsigned int i = 0; i < 12; ++i)
+      text += std::to_string(i + 1) + ", " + with_commas(places[i]) + "\n";
+    return text + "*Element, type=C3D8R, elset=steel\n1, 1,2,5,4,7,\n8,11,10\n2, "
+                  "2,3,6,5,8,9,12,11\n*Element, type=S4, elset=Surface3\n11, "
+                  "1,4,10,7\n*Elset, elset=end\n11\n*Elset, elset=all, generate\n1,2,1\n*Surface, "
+                  "type=ELEMENT, name=Contact\nall, S2\n*Nset, "
+                  "nset=support, generate\n1,6,1\n*Surface, name=symmetry\n1, S3\n*Material, "
+                  "name=steel\n*Elastic\n 210000., 0.3\n";
+  }
+
+  std::string ls_dyna()
+  {
+    std::string text =
+      "$ remark\n*KEYWORD\n*NODE\n$#   nid               x               y               z\n";
+    for (unsigned int i = 0; i < 12; ++i)
+      {
+        std::istringstream in(places[i]);
+        double             p[3];
+        in >> p[0] >> p[1] >> p[2];
+        char line[80];
+        std::snprintf(line, sizeof line, "%8u%16.6f%16.6f%16.6f\n", i + 1, p[0], p[1], p[2]);
+        text += line;
+      }
+    return text + "*PART\nrail steel\n         1         1         1\n*PART\nend\n         2         1       "
+                  "  1\n*ELEMENT_SOLID\n       1       1       1       2       "
+                  "5       4       7       8      11      10\n       2       1\n       2       3       6     "
+                  "  5       8       9      12      "
+                  "11\n*ELEMENT_SHELL\n      11       2       1       4      10       "
+                  "7\n*SET_SEGMENT_TITLE\ncontact\n         1\n         7         8        11    "
+                  "    10\n         8         9        12        11\n*SET_NODE_LIST_TITLE\nsupport\n         "
+                  "2\n         1         2         3         4         5  "
+                  "       6\n*SET_SEGMENT_TITLE\nsymmetry\n         4\n         1         2         8        "
+                  " 7\n*MAT_ELASTIC\n1,7.85e-9\n*END\n";
+  }
+
+  void check_formats(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    for (const auto &[name, text] : {std::pair("old.msh", gmsh_old()), std::pair("new.msh", gmsh_new()),
+                                     std::pair("a.inp", abaqus()), std::pair("a.k", ls_dyna())})
+      {
+        const std::string                what = std::string(name) + ": ";
+        const MeshFile                   mesh = read_mesh_file(folder.write(name, text), 1e-3);
+        std::map<Boundary, unsigned int> n;
+        double                           contact_z = 0.;
+        for (const NamedFace &face : mesh.faces)
+          {
+            ++n[face.boundary];
+            for (const unsigned int v : face.vertices)
+              contact_z += face.boundary == Boundary::contact ? std::abs(mesh.vertices[v][2]) : 0.;
+          }
+        check.absolute(what + "cells", mesh.cells.size(), 2., 0.);
+        check.absolute(what + "vertices", mesh.vertices.size(), 12., 0.);
+        check.that(what + "contact, support, end, symmetry",
+                   n[Boundary::contact] == 2 && n[Boundary::support] == 2 && n[Boundary::end] == 1 &&
+                     n[Boundary::side] == 1);
+        check.below(what + "height of the contact surface, mm", 1e3 * contact_z, 1e-9);
+        check.relative(what + "length, mm", 1e3 * (mesh.range(0).end - mesh.range(0).begin), 20., 1e-12);
+        check.that(what + "volume's name",
+                   mesh.volumes.size() >= 1 && (mesh.volumes[0] == "rail steel" || mesh.volumes[0] == "all"));
+        double volume = 0.;
+        for (const auto &cell : mesh.cells)
+          volume += dealii::GridTools::cell_measure<3>(mesh.vertices, cell.vertices);
+        check.relative(what + "volume in deal.II's order, cm3", 1e6 * volume, 2., 1e-12);
+      }
+    // In m, and the names by number where there are none.
+    std::string    numbers = gmsh_old();
+    const auto     at      = numbers.find("$Physical");
+    const MeshFile in_m =
+      read_mesh_file(folder.write("numbers.msh", numbers.erase(at, numbers.find("$Nodes") - at)), 1.);
+    check.relative("in m: length, m", in_m.range(0).end, 20., 1e-12);
+    check.absolute("named by numbers: faces", in_m.faces.size(), 6., 0.);
+    // deal.II's own reader of the same files.
+    for (const char *name : {"old.msh", "new.msh"})
+      {
+        dealii::Triangulation<3> theirs;
+        dealii::GridIn<3>        in(theirs);
+        std::ifstream            stream(folder.path + "/" + name);
+        in.read_msh(stream);
+        const MeshFile ours = read_mesh_file(folder.path + "/" + name, 1.);
+        double         off  = 0.;
+        for (const Point<3> &p : ours.vertices)
+          {
+            double nearest = 1e300;
+            for (const Point<3> &q : theirs.get_vertices())
+              nearest = std::min(nearest, p.distance(q));
+            off = std::max(off, nearest);
+          }
+        check.absolute(std::string(name) + " by deal.II: cells", ours.cells.size(), theirs.n_active_cells(),
+                       0.);
+        check.below(std::string(name) + " by deal.II: vertices off, mm", off, 1e-12);
+      }
+  }
+
+  /// Texts of a file with one place changed, and words of the line that refuses it.
+  struct Fault
+  {
+    std::string name, file, from, to, words;
+  };
+
+  std::string replaced(std::string text, const std::string &from, const std::string &to)
+  {
+    const auto at = text.find(from);
+    if (at == text.npos)
+      throw std::logic_error("the text has no '" + from + "'");
+    return text.replace(at, from.size(), to);
+  }
+
+  void check_refused(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    const std::string        old = "old.msh", now = "new.msh", inp = "a.inp", k = "a.k";
+    const std::vector<Fault> faults{
+      {"tetrahedron", old, "9 5 2 7 7 2 3 6 5 8 9 12 11", "9 4 2 7 7 2 3 6 8",
+       "line 37: is a tetrahedron: only hexahedra"},
+      {"prism", old, "9 5 2 7 7 2 3 6 5 8 9 12 11", "9 6 2 7 7 2 3 6 8 9 12", "line 37: is a prism"},
+      {"pyramid", old, "9 5 2 7 7", "9 7 2 7 7", "is a pyramid"},
+      {"second order", old, "9 5 2 7 7", "9 12 2 7 7",
+       "second order: only hexahedra with 8 nodes are read; mesh with first order"},
+      {"triangle", now, "2 23 3 1\n6 1 4 10 7", "2 23 2 1\n6 1 4 10", "is a triangle"},
+      {"no hexahedra", now, "3 1 5 2\n8 1 2 5 4 7 8 11 10\n9 2 3 6 5 8 9 12 11\n", "3 1 5 0\n",
+       "has no hexahedra"},
+      {"inside out", old, "1 2 5 4 7 8 11 10", "7 8 11 10 1 2 5 4",
+       "line 36: has a hexahedron that is inside out"},
+      {"twisted", old, "1 2 5 4 7 8 11 10", "1 2 4 5 7 8 11 10", "turned over or flat"},
+      {"wedge", old, "1 2 5 4 7 8 11 10", "1 2 5 4 7 8 10 10", "one node twice"},
+      {"node without a cell", old, "$Nodes\n12\n", "$Nodes\n13\n99 1 2 3\n",
+       "line 14: node 99 belongs to no hexahedron"},
+      {"node twice", old, "12 20 5 0", "11 20 5 0", "node 11 is there already"},
+      {"no such node", old, "8 9 12 11\n$EndE", "8 9 13 11\n$EndE", "there is no node 13"},
+      {"unknown name", old, "\"contact\"", "\"contcat\"",
+       "line 6: 'contcat' is no name of a boundary; those are contact, support, end, symmetry and free"},
+      {"no contact", old, "\"contact\"", "\"free\"", "has no faces named 'contact'"},
+      {"no support", old, "\"support\"", "\"free\"",
+       "has no faces named 'support': name the faces that are held so, by a physical surface (Gmsh) or a "
+       "set; it has 'contact', 'free'"},
+      {"unknown number", old, "2 3 2 1 1 7 8 11 10", "2 3 2 55 1 7 8 11 10", "'55' is no name"},
+      {"face within", old, "6 3 2 3 3 1 4 10 7", "6 3 2 3 3 2 5 11 8",
+       "line 34: has a face of 'end' that is between two hexahedra"},
+      {"face of nothing", old, "6 3 2 3 3 1 4 10 7", "6 3 2 3 3 1 4 11 8", "no face of a hexahedron"},
+      {"face of two names", old, "6 3 2 3 3 1 4 10 7", "6 3 2 3 3 7 8 11 10", "both 'contact' and 'end'"},
+      {"end that is not across", old, "7 3 2 4 4 1 2 8 7", "7 3 2 3 4 1 2 8 7",
+       "not at right angles to x: its nodes"},
+      {"binary", now, "4.1 0 8", "4.1 1 8", "line 2: is a binary file: write it as ASCII"},
+      {"version", now, "4.1 0 8", "4 0 8", "has the version 4; 2.2 and 4.1 are read"},
+      {"cut off", now, "8 1 2 5 4 7 8 11 10\n9 2 3 6 5 8 9 12 11\n$EndElements\n", "8 1 2 5 4 7 8 11 10\n", "cut off"},
+      {"cut off among the nodes", old, "$EndNodes", "$Comments", "the file is cut off"},
+      {"no number", old, "10 -5 -10", "10 -5 ten", "line 15: 'ten' is no number"},
+      {"no mesh", old, "$MeshFormat", "solid", "a section's name"},
+      {"Abaqus: tetrahedra", inp, "C3D8R", "C3D4",
+       "line 17: has elements of the type 'C3D4', which are tetrahedra"},
+      {"Abaqus: second order", inp, "C3D8R", "C3D20R", "mesh with first order"},
+      {"Abaqus: another file", inp, "*Heading", "*Include, input=x", "*INCLUDE is not read"},
+      {"Abaqus: face", inp, "all, S2", "all, S7", "'S7' is no face"},
+      {"Abaqus: set", inp, "all, S2", "every, S2", "there is no set 'every'"},
+      {"Abaqus: name", inp, "nset=support", "nset=foot", "'foot' is no name of a boundary"},
+      {"Abaqus: element twice", inp, "2, 2,3,6,5,8,9,12,11", "1, 2,3,6,5,8,9,12,11",
+       "element 1 is there already"},
+      {"Abaqus: range", inp, "1,6,1", "1,6,0", "no range of numbers"},
+      {"LS-DYNA: another file", k, "*MAT_ELASTIC", "*INCLUDE\n", "*INCLUDE is not read"},
+      {"LS-DYNA: wide fields", k, "*KEYWORD", "*KEYWORD LONG=Y", "is not read"},
+      {"LS-DYNA: generated set", k, "*SET_NODE_LIST_TITLE", "*SET_NODE_GENERAL_TITLE", "list the nodes"},
+      {"LS-DYNA: tetrahedron", k, "       8       9      12      11", "       8       8       8       8",
+       "one node twice"},
+    };
+    const std::map<std::string, std::string> texts{{old, gmsh_old()},
+                                                   {now, gmsh_new()},
+                                                   {inp, abaqus()},
+                                                   {k, ls_dyna()}};
+    for (const Fault &fault : faults)
+      {
+        const std::string file =
+                            folder.write(fault.file, replaced(texts.at(fault.file), fault.from, fault.to)),
+                          text = tests::complaint<InputError>([&] { read_mesh_file(file, 1e-3); });
+        check.that(fault.name + ": \"" + text + "\"", text.find(fault.words) != text.npos &&
+                                                        text.find('\n') == text.npos &&
+                                                        text.find(file) != text.npos);
+      }
+    check.that("a file that is not there", tests::complaint<InputError>([&] {
+                                             read_mesh_file(folder.path + "/no.msh", 1.);
+                                           }).find("cannot be read") != std::string::npos);
+    check.that("another ending", tests::complaint<InputError>([&] {
+                                   read_mesh_file("a.vtk", 1.);
+                                 }).find("no format that is read") != std::string::npos);
+
+    // Two cubes with nodes of their own between them.
+    std::string apart = replaced(gmsh_old(), "9 5 2 7 7 2 3 6 5 8 9 12 11", "9 5 2 7 7 22 3 6 25 28 9 12 31");
+    apart = replaced(apart, "$Nodes\n12\n", "$Nodes\n16\n22 10 -5 -10\n25 10 5 -10\n28 10 -5 0\n31 10 5 0\n");
+    apart = replaced(replaced(apart, "1 8 9 12 11", "1 28 9 12 31"), "2 2 3 6 5", "2 22 3 6 25");
+    const std::string text =
+      tests::complaint<InputError>([&] { read_mesh_file(folder.write("apart.msh", apart), 1e-3); });
+    check.that("nodes at one place: \"" + text + "\"",
+               text.find("nodes 2 and 22 lie at one place, 10, -5, -10 mm") != text.npos);
+  }
+
+  /// A cell may list its nodes from any corner: the first edge lies along x, the last along z.
+  void check_alignment(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    const MeshFile mesh = read_mesh_file(
+      folder.write("turned.msh", replaced(gmsh_old(), "1 2 5 4 7 8 11 10", "1 4 10 7 2 5 11 8")), 1e-3);
+    for (const auto &cell : mesh.cells)
+      {
+        const auto edge = [&](const unsigned int to) {
+          return 1e3 * (mesh.vertices[cell.vertices[to]] - mesh.vertices[cell.vertices[0]]);
+        };
+        check.absolute("edge along x, mm", edge(1)[0], 10., 1e-12);
+        check.absolute("edge along y, mm", edge(2)[1], 10., 1e-12);
+        check.absolute("edge along z, mm", edge(4)[2], 10., 1e-12);
+      }
+  }
+
+  /// A block with a crown of 300 mm on coarse cells of 10 mm, refined about a path.
+  void check_body(tests::Check &check)
+  {
+    constexpr double radius = 0.3;
+    const auto       crown  = [](const double y) {
+      return std::sqrt(radius * radius - y * y) - radius;
+    };
+    dealii::Triangulation<3> block;
+    dealii::GridGenerator::subdivided_hyper_rectangle(block, {8, 8, 4}, Point<3>(-0.04, -0.04, -0.04),
+                                                      Point<3>(0.04, 0.04, 0.));
+    MeshFile file;
+    file.file = "block";
+    dealii::SubCellData ignored;
+    std::tie(file.vertices, file.cells, ignored) = dealii::GridTools::get_coarse_mesh_description(block);
+    for (Point<3> &p : file.vertices)
+      p[2] += crown(p[1]) * (1. + p[2] / 0.04);
+    static constexpr unsigned int top[4] = {4, 5, 7, 6}, bottom[4] = {0, 2, 3, 1};
+    for (unsigned int c = 0; c < file.cells.size(); ++c)
+      for (const auto &[corners, boundary] :
+           {std::pair(top, Boundary::contact), std::pair(bottom, Boundary::support)})
+        {
+          NamedFace face{{}, c, boundary};
+          double    depth = 0.;
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              face.vertices[v] = file.cells[c].vertices[corners[v]];
+              depth +=
+                std::abs(file.vertices[face.vertices[v]][2] -
+                         (boundary == Boundary::contact ? crown(file.vertices[face.vertices[v]][1]) : -0.04));
+            }
+          if (depth < 1e-9)
+            file.faces.push_back(face);
+        }
+    FineZone zone;
+    zone.finest_cell_size = 0.7e-3;
+    zone.x_begin          = -8e-3;
+    zone.x_end            = 8e-3;
+    zone.half_width       = 5e-3;
+    const auto  rail      = std::make_shared<const MeshRail>(file);
+    const Body  body      = make_mesh_rail(rail, zone);
+    tests::Mesh mesh;
+    tests::refine(body, mesh);
+    const tests::Measured m = tests::measure(body, mesh, zone.finest_cell_size, [&](const Point<3> &p) {
+      return zone.distance(p[0], p[1], rail->surface.facet(p[0], p[1]).z - p[2]) <= 0.;
+    });
+    check.that("Jacobians at vertices and Gauss points > 0", m.min_jacobian > 0.);
+    check.that("cells in the fine zone", m.n_fine >= 25 * 16 * 2);
+    // Without the lift they are as far below the crown as 40 um.
+    check.below("nodes off the crown, nm",
+                1e9 * tests::off_surface(mesh, Boundary::contact,
+                                         [&](const Point<3> &p) { return p[2] - crown(p[1]); }),
+                5.);
+    check.relative("support, cm2", 1e4 * m.areas.at(2), 64., 1e-12);
+    check.relative("contact, cm2", 1e4 * m.areas.at(1), 1e4 * 0.08 * 2. * radius * std::asin(0.04 / radius),
+                   1e-4);
+    check.relative("thickness, mm", 1e3 * rail->thickness(0., 0.), 40., 1e-12);
+  }
+} // namespace
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  const tests::TemporaryFolder folder;
+  check_formats(check, folder);
+  check_refused(check, folder);
+  check_alignment(check, folder);
+  check_body(check);
+}

@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rails from mesh files: a block beside the program's own, in all formats and on cells that lie in any way; a joint; files and parameters that do not fit."""
+
+import os
+import sys
+import tempfile
+
+from tread import rail_mesh
+from tread.runs import arguments_of, execute, must_end_well
+from tread_runner import Check, run, table
+
+program = sys.argv[1]
+check = Check()
+BLOCK, JOINT = "verification/half-space-1.3-mu0.30.prm", "joint/insulated-joint.prm"
+
+
+def lines(begin, end, size):
+    """Rows of this size from 0 on; the last one takes up the rest, as the program has it for these lengths."""
+    side = lambda length: [size * i for i in range(int(length / size))] + [length]
+    return [-x for x in side(-begin)[:0:-1]] + side(end)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    size = 10.4  # eight cells of 1.3 mm
+    x, y, z = lines(-46., 42.6, size), lines(-31.2, 31.2, size), [-x for x in lines(0., 31.2, size)[::-1]]
+    block = ["Rail/Block width (mm)=62.4", "Rail/Block height (mm)=31.2", "Rail/Begin (mm)=-46", "Rail/Length (mm)=88.6", "Rail/Margin (mm)=30"]
+    short = ["Motion/Rolled distance (mm)=6", "Wheel/Sector thickness (mm)=31.2", "Wheel/Sector width (mm)=62.4", "Wheel/Sector margin (mm)=40",
+             "Mesh/Coarsest cell (mm)=11", "Output/Write volume=false"]
+    mesh = lambda name: ["Rail/Shape=mesh", f"Rail/Mesh file={path(name)}"]
+
+    # On the same lines it is the program's own block.
+    rail_mesh.write(rail_mesh.bar(x, y, z, 300.), path("same.msh"))
+    own = run(program, BLOCK, path("own"), [*short, *block])
+    same = run(program, BLOCK, path("same"), [*short, *mesh("same.msh")])
+    check.absolute("cells", same["cells"], own["cells"], 0)
+    for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "pressure_semi_axis_x_m", "pressure_semi_axis_y_m"):
+        check.relative(f"same lines: {key}", same[key], own[key], 5e-4)
+    files = {file["parameter"]: file for file in same["files"]}
+    check.absolute("bytes of the mesh among the files of the run", files["Rail/Mesh file"]["bytes"], os.path.getsize(path("same.msh")), 0)
+    # On cells that lie in any way the contact has other nodes: as far apart as two meshes are.
+    rail_mesh.write(rail_mesh.perturbed(x, y, z, 300., 0.15), path("any.inp"))
+    moved = run(program, BLOCK, path("any"), [*short, *mesh("any.inp")])
+    for key, allowed in (("normal_force_N", 3e-3), ("longitudinal_force_N", 0.02), ("max_pressure_Pa", 0.01), ("creepage", 2e-3), ("pressure_semi_axis_x_m", 5e-3)):
+        check.relative(f"cells that lie in any way: {key}", moved[key], own[key], allowed)
+
+    # A joint: the wheel meets the step with the kink of its path, 47 mrad, and a continuous bar keeps its force.
+    coarse = ["Mesh/Finest cell (mm)=2.4", "Mesh/Fine half width (mm)=20", "Motion/Start (mm)=-14", "Motion/Rolled distance (mm)=26", "Output/Write volume=false"]
+    joint = run(program, JOINT, path("joint"), coarse)
+    history = table(path("joint"), "history.csv")
+    largest = max(history["normal_force_N"])
+    place = 1e3 * history["position_m"][history["normal_force_N"].index(largest)]
+    # Two masses of 600 and 460 kg that meet with 1.30 m/s on Hertz's spring (contrib/plot/joint-force.py): 761 kN. Wheel and bars give way besides, most at the edge.
+    check.that(f"blow of {1e-3 * largest:.0f} kN, of 761 by a simple model, and more than half of it", 380e3 < largest < 761e3)
+    check.that(f"at {place:.1f} mm, where the step is met", -20. < place < 5.)
+    check.below("energy residual over what is dissipated", joint["energy_residual_of_dissipated"], 0.01)
+    continuous = run(program, JOINT, path("continuous"), [*coarse, "Rail/Mesh file=continuous.msh"])
+    forces = table(path("continuous"), "history.csv")["normal_force_N"]
+    check.below("ripple of the force on a bar without a joint", (max(forces) - min(forces)) / sum(forces) * len(forces), 0.02)
+
+    # What is refused, and what is said to have no effect.
+    def refusal(scene, settings):
+        return execute([*arguments_of(scene, settings, path("refused")), "--dry-run"], program=program).stderr.strip().splitlines()
+
+    with open(path("same.msh"), encoding="utf-8") as file:
+        text = file.read()
+    rail_mesh.write(rail_mesh.bar(x, lines(-2., 2., 2.), z, 300.), path("narrow.k"))
+    rail_mesh.write(rail_mesh.bar(x, [value + 40. for value in y], z, 300.), path("beside.msh"))
+    faults = (
+        ([*mesh("same.msh"), "Rail/Mesh unit=m"], "where rails have"),
+        ([*mesh("narrow.k")], "wide on its running surface, where rails have 5 to 1000"),
+        ([*mesh("beside.msh")], "has no contact surface about y = 0 at x = -6 mm"),
+        ([*mesh("none.msh")], "'Rail/Mesh file': "),
+        (["Rail/Shape=mesh"], "'Rail/Shape' mesh needs a file: 'Rail/Mesh file'"),
+        ([f"Rail/Mesh file={path('same.msh')}"], "'Rail/Mesh file' needs 'Rail/Shape' mesh"),
+        ([*mesh("same.msh"), "Motion/Start (mm)=-6", "Motion/Rolled distance (mm)=60"], "has a contact surface for x from -46 to 42.6 mm"),
+        ([*mesh("same.msh"), "Defect/Shape=dip", "Defect/Length (mm)=10", "Defect/Depth (mm)=0.1"], "'Defect/Shape' dip is laid on a rail of the program's own"),
+        ([*mesh("same.msh"), "Track/Foundation=one-layer", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], "must be rigid or co-running"),
+        ([*mesh("same.msh"), "Wheelset/Lateral shift (mm)=0"], "'Rail/Shape' mesh is for an upright wheel"),
+        ([*mesh("same.msh"), "Rail/Inclination=1:40"], "'Rail/Mesh file' takes the place of a profile"),
+    )
+    for settings, words in faults:
+        said = refusal(BLOCK, [*short, *settings])
+        check.that(f"refused: {said[-1] if said else ''}", any(words in line for line in said) and len([line for line in said if not line.startswith('WARNING')]) == 1)
+    for settings, words in ((["Motion/Start (mm)=-4"], "where a wheel begins: move 'Motion/Start (mm)' away from the gap"),
+                            (["Scene/Quasi-static=true", "Scene/Density scale=4"], "a 'Rail/Mesh file' whose running surface changes along the path by a gap")):
+        said = refusal(JOINT, [*coarse, *settings])
+        check.that(f"refused: {said[-1] if said else ''}", any(words in line for line in said))
+    warnings = must_end_well(execute([*arguments_of(BLOCK, [*short, *mesh("same.msh"), "Rail/Begin (mm)=-46", "Rail/Profile=60E1"], path("warned")), "--dry-run"], program=program))
+    for name in ("Rail/Block width (mm)", "Rail/Begin (mm)", "Rail/Margin (mm)", "Rail/Profile"):
+        check.that(f"said to have no effect: {name}", f"'{name}' has no effect" in warnings.stdout + warnings.stderr)
+
+check.exit()
