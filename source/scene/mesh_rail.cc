@@ -10,9 +10,6 @@ namespace tread
 {
   namespace
   {
-    /// Contact is looked for up to here on each side, m.
-    constexpr double contact_half_width = 25e-3;
-
     /// Where the rail has no surface, as in the gap of a joint, it is this far below its section at the
     /// start, m.
     constexpr double no_rail = 0.1;
@@ -91,7 +88,7 @@ namespace tread
                                           "begins, x = " +
                                           text_in_mm(start) + " mm; tops of rails lie at z = 0, within " +
                                           text_in_mm(highest_top) + " mm: move the mesh");
-    made.surfaces.half_width = std::min({contact_half_width, -across.begin - inside, across.end - inside});
+    made.surfaces.half_width = std::min({running_half_width, -across.begin - inside, across.end - inside});
     made.surfaces.rail_top   = [mesh       = made.rail_mesh, start,
                               half_width = made.surfaces.half_width](const double y) {
       const double              on_rail = std::clamp(y, -half_width, half_width);

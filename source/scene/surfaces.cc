@@ -21,9 +21,6 @@ namespace tread
 {
   namespace
   {
-    /// Contact is looked for, and a measured tread is needed, up to here on each side (m).
-    constexpr double running_half_width = 25e-3;
-
     /// A measured head must reach this far at each side, m.
     constexpr double least_half_head = 12e-3;
 

@@ -7,6 +7,9 @@
 
 namespace tread
 {
+  /// Contact of an upright wheel is looked for, and a measured tread is needed, up to here on each side (m).
+  constexpr double running_half_width = 25e-3;
+
   /// Tread and running surface of an upright wheel over a rail, y = 0 on the rail top's middle line and on
   /// the tread's running circle. Lengths in m.
   struct RunningSurfaces
