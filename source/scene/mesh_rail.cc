@@ -26,8 +26,8 @@ namespace tread
     constexpr double highest_top = 10e-3;
 
     /// What rails measure, m: others are meshes in another unit.
-    constexpr double least_width = 5e-3, largest_width = 1., least_height = 5e-3, largest_height = 3.,
-                     least_length = 20e-3, largest_length = 200.;
+    constexpr double narrowest_rail = 5e-3, widest_rail = 1., lowest_rail = 5e-3, highest_rail = 3.,
+                     shortest_rail = 20e-3, longest_rail = 200.;
 
     std::string from_to_in_mm(const double begin, const double end)
     {
@@ -46,9 +46,9 @@ namespace tread
       };
       const auto along = rail.surface.along(), across = rail.surface.lateral();
       const auto up = rail.mesh.range(2);
-      require_between("long", along.end - along.begin, least_length, largest_length);
-      require_between("wide on its running surface", across.end - across.begin, least_width, largest_width);
-      require_between("high", up.end - up.begin, least_height, largest_height);
+      require_between("long", along.end - along.begin, shortest_rail, longest_rail);
+      require_between("wide on its running surface", across.end - across.begin, narrowest_rail, widest_rail);
+      require_between("high", up.end - up.begin, lowest_rail, highest_rail);
     }
   } // namespace
 
@@ -75,7 +75,7 @@ namespace tread
     const FacetSurface::Range across  = surface.across(start, 0.);
     constexpr double          inside  = 1e-6; // m
     made.rail_begin                   = surface.along().begin;
-    require(std::min(-across.begin, across.end) >= 0.5 * least_width,
+    require(std::min(-across.begin, across.end) >= 0.5 * narrowest_rail,
             "'Rail/Mesh file': '" + located(rail.mesh_file) + "' has no contact surface about y = 0 at x = " +
               text_in_mm(start) + " mm, where the wheel begins" +
               (across.begin < across.end ? ", but from y = " + from_to_in_mm(across.begin, across.end) : "") +
