@@ -16,7 +16,7 @@ namespace tread
   namespace
   {
     /// A patch at a place of the axle.
-    struct Row
+    struct TouchRow
     {
       double            axle, along; ///< x of the scene; along the slices, m
       double            height;      ///< of the wheelset under the load, over its radius, m
@@ -30,27 +30,27 @@ namespace tread
       return patch.force()[2];
     }
 
-    Columns<Row> columns()
+    Columns<TouchRow> way_columns()
     {
       const auto of_patch = [](const char *name, const char *unit, const char *about, const auto &value) {
-        return Column<Row>{name, unit, about, [value](const Row &row) {
-                             return value(*row.patch);
-                           }};
+        return Column<TouchRow>{name, unit, about, [value](const TouchRow &row) {
+                                  return value(*row.patch);
+                                }};
       };
       return {{"along", "mm", "Place of the axle along the slices",
-               [](const Row &r) {
+               [](const TouchRow &r) {
                  return r.along;
                }},
               {"axle_x", "mm", "The same as x of the scene",
-               [](const Row &r) {
+               [](const TouchRow &r) {
                  return r.axle;
                }},
               {"height", "mm", "Of the wheelset's middle over the radius, under the load",
-               [](const Row &r) {
+               [](const TouchRow &r) {
                  return r.height;
                }},
               {"rigid_height", "mm", "The same where the rigid wheel touches without load",
-               [](const Row &r) {
+               [](const TouchRow &r) {
                  return r.rigid;
                }},
               of_patch("patch_x", "mm", "Reference point of the patch ahead of the axle",
@@ -65,7 +65,7 @@ namespace tread
                        [](const WheelPatch &p) { return p.rolling_radius; }),
               of_patch("vertical_force", "N", "On the wheel", vertical),
               {"load_share", "", "Of that in the vertical force of all patches",
-               [](const Row &r) {
+               [](const TouchRow &r) {
                  return r.share;
                }},
               of_patch("normal_force", "N", "On the wheel",
@@ -76,14 +76,16 @@ namespace tread
                        [](const WheelPatch &p) { return p.solution.x_end - p.solution.x_begin; }),
               of_patch("patch_width", "mm", "Across",
                        [](const WheelPatch &p) { return p.solution.y_end - p.solution.y_begin; }),
-              {"part", "", "Name of the rail's body in the slices", {}, [](const Row &r) {
+              {"part", "", "Name of the rail's body in the slices", {}, [](const TouchRow &r) {
                  return r.patch->body;
                }}};
     }
 
-    std::vector<Row> rows_of(const Scene &scene, const WheelOnRail &surfaces, const WayOverSlices &way)
+    std::vector<TouchRow> touch_rows(const Scene         &scene,
+                                     const WheelOnRail   &surfaces,
+                                     const WayOverSlices &way)
     {
-      std::vector<Row> rows;
+      std::vector<TouchRow> rows;
       for (std::size_t i = 0; i < way.axles.size(); ++i)
         {
           const double           axle     = way.axles[i];
@@ -128,7 +130,7 @@ namespace tread
 
   TableDescription table_of_contact_way()
   {
-    return describe("contact_way.csv", columns());
+    return describe("contact_way.csv", way_columns());
   }
 
 
@@ -140,7 +142,7 @@ namespace tread
     const WheelOnRail   surfaces = scene.wheel_on_rail();
     const WayOverSlices way      = way_over_slices(scene, surfaces);
     RunFolder           folder(path, comm);
-    folder.write_table("contact_way.csv", columns(), rows_of(scene, surfaces, way));
+    folder.write_table("contact_way.csv", way_columns(), touch_rows(scene, surfaces, way));
 
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
     progress.say(format("a load of %g kN over the slices, at %zu places, without friction",
