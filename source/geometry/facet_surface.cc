@@ -125,6 +125,11 @@ namespace tread
                     bins[i + n_x * j].insert(bins[i + n_x * j].end(), other.begin(), other.end());
                     any = any || !other.empty();
                   }
+        for (std::vector<std::size_t> &faces : bins) // those of several neighbours once
+          {
+            std::sort(faces.begin(), faces.end());
+            faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+          }
       }
 
     list_neighbours();

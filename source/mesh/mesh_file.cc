@@ -301,10 +301,9 @@ namespace tread
             "'" + named.name +
               "' is no name of a boundary; those are contact, support, end, symmetry and free (faces "
               "without a name are free)");
+        const std::size_t before = n_named;
         for (const MeshInput::Quadrilateral &face : named.faces)
           add_face(face, named.name);
-        if (named.nodes.empty())
-          return;
         std::set<unsigned int> members;
         for (const long number : named.nodes)
           members.insert(vertex(number, named.line));
@@ -312,6 +311,9 @@ namespace tread
           if (face.is_boundary &&
               std::all_of(key.begin(), key.end(), [&](const unsigned int v) { return members.count(v) > 0; }))
             name_face(key, face, named.name, named.line);
+        if (n_named == before && named.name != "free")
+          throw TextError(named.line, "'" + named.name +
+                                        "' names no face: nodes name a face whose four are in their set");
       }
 
       void add_face(const MeshInput::Quadrilateral &quadrilateral, const std::string &name)
@@ -332,6 +334,7 @@ namespace tread
       void name_face(const FaceKey &key, const Found &face, const std::string &name, const unsigned int line)
       {
         const auto [at, is_new] = name_of.emplace(key, name);
+        ++n_named;
         if (!is_new && at->second != name)
           throw TextError(line, "has a face that is both '" + at->second + "' and '" + name + "'");
         if (is_new && name != "free")
@@ -380,6 +383,7 @@ namespace tread
       std::vector<bool>              is_used;
       std::map<FaceKey, Found>       faces;
       std::map<FaceKey, std::string> name_of;
+      std::size_t                    n_named = 0; ///< faces so far
     };
 
     /// The first line below $MeshFormat has the version, the kind of file and a size.

@@ -80,7 +80,11 @@ namespace tread
             if (text.compare(0, 2, "**") == 0 || text.find_first_not_of(" \t\r") == std::string::npos)
               continue;
             if (text[0] == '*')
-              begin(keyword_in(text));
+              {
+                if (text.find_last_not_of(" \t\r") == text.rfind(','))
+                  throw TextError(line, "is a keyword that goes on in the next line: write it in one");
+                begin(keyword_in(text));
+              }
             else
               take(text);
           }
@@ -120,6 +124,11 @@ namespace tread
         for (const char *moves : {"INCLUDE", "SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"})
           if (now.name == moves)
             refuse_keyword(line, now.name, "write all nodes and elements with their numbers, in one file");
+        if (now.parameters.count("INPUT") > 0)
+          refuse_keyword(line, now.name + " with INPUT", "write all in one file");
+        if (const std::string system = in_capitals(now.parameter("SYSTEM"));
+            now.name == "NODE" && !system.empty() && system != "R")
+          refuse_keyword(line, "NODE with SYSTEM=" + system, "write x, y and z");
         if (now.name == "INSTANCE" && n_instances++ > 0)
           refuse_keyword(line, now.name,
                          "write one mesh of all parts, with numbers of its own ('flat' input)");
@@ -180,16 +189,24 @@ namespace tread
           take_element(entries_of(text, ','));
         else if (keyword.name == "NSET")
           take_members(entries_of(text, ','), mesh.named(keyword.parameter("NSET"), line).nodes,
-                       [&](const std::string &name) {
-                         const std::vector<long> copied = mesh.named(name, line).nodes;
-                         return copied;
+                       [&](const std::string &name) -> std::vector<long> {
+                         throw TextError(line, "names the set '" + name +
+                                                 "' in a set of nodes: write the numbers of its nodes");
                        });
         else if (keyword.name == "ELSET")
-          take_members(entries_of(text, ','), set_of(keyword.parameter("ELSET"), true).members,
-                       [&](const std::string &name) {
-                         const std::vector<long> copied = set_of(name, false).members;
-                         return copied;
-                       });
+          take_members(
+            entries_of(text, ','), set_of(keyword.parameter("ELSET"), true).members,
+            [&](const std::string &name) {
+              const auto found = elements_of.find(mesh_words::lower(name));
+              if (found == elements_of.end() || found->first == mesh_words::lower(keyword.parameter("ELSET")))
+                throw TextError(line, "names the set '" + name + "', which is " +
+                                        (found == elements_of.end() ? "not there yet" : "the same"));
+              return found->second.members;
+            });
+        else if (keyword.name == "INSTANCE")
+          throw TextError(line,
+                          "moves an instance, which is not read: write one mesh of all parts, with places "
+                          "and numbers of its own ('flat' input)");
         else if (keyword.name == "SURFACE")
           take_faces(entries_of(text, ','));
       }
@@ -320,6 +337,10 @@ namespace tread
         const bool has_volume = std::any_of(set.members.begin(), set.members.end(), [&](const long number) {
           return elements.hexahedra.count(number) > 0;
         });
+        if (has_volume && is_known_boundary(name))
+          throw TextError(set.line, "the set '" + name +
+                                      "' has hexahedra, and its name is that of a boundary: name faces, by "
+                                      "*SURFACE, a set of nodes or of quadrilaterals");
         if (has_volume)
           return mesh.volumes.push_back(name);
         if (!set.is_named && !is_known_boundary(name))

@@ -107,21 +107,24 @@ namespace tread
 
   double Scene::unevenness(const Shapes &made) const
   {
-    // As wide as patches are.
-    constexpr double widest     = 10e-3;
-    const double     half_width = std::min(made.surfaces.half_width, widest);
-    const auto       known      = made.rail_mesh->surface.along();
-    const double     from       = std::max(known.begin, made.path_begin - distance_behind(last_wheel())),
-                 to             = std::min(known.end, made.path_begin + motion.meshed_distance());
-    const int n_along           = std::ceil(std::max(0., to - from) / step_along),
-              n_across          = std::ceil(half_width / step_across);
-    double largest              = 0.;
+    // As wide and as long as patches are, about the first contact.
+    constexpr double half_patch = 10e-3;
+    const double     y          = tread::first_contact(made.surfaces, made.path_begin).y,
+                 y_begin        = std::max(-made.surfaces.half_width, y - half_patch),
+                 y_end          = std::min(made.surfaces.half_width, y + half_patch);
+    const auto   known          = made.rail_mesh->surface.along();
+    const double from  = std::max(known.begin, made.path_begin - distance_behind(last_wheel()) - half_patch),
+                 to    = std::min(known.end, made.path_begin + motion.meshed_distance() + half_patch);
+    const int n_along  = std::ceil(std::max(0., to - from) / step_along),
+              n_across = std::ceil((y_end - y_begin) / step_across);
+    double largest     = 0.;
     for (int i = 0; i <= n_along; ++i)
-      for (int j = -n_across; j <= n_across; ++j)
+      for (int j = 0; j <= n_across; ++j)
         {
-          const double x = from + i * (to - from) / std::max(n_along, 1), y = half_width * j / n_across;
-          const auto   height = made.rail_mesh->surface.height(x, y);
-          largest = std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(y)) : no_rail);
+          const double x      = from + i * (to - from) / std::max(n_along, 1),
+                       across = y_begin + (y_end - y_begin) * j / n_across;
+          const auto height   = made.rail_mesh->surface.height(x, across);
+          largest = std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(across)) : no_rail);
         }
     return largest > round_off_of_fit ? largest : 0.;
   }

@@ -185,6 +185,9 @@ namespace tread
       return "no comparison with steady rolling: there is a defect on the rail";
     if (!scene.is_round())
       return "no comparison with steady rolling: the wheel is not round";
+    if (scene.has_uneven_mesh())
+      return "no comparison with steady rolling: the running surface of 'Rail/Mesh file' changes along the "
+             "path";
     if (!(answer.force[2] > 0.))
       return "";
     if ((!scene.contact.friction_pressures.empty() || scene.contact.varies_across()) &&
