@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import blows, comparison, contact_cases, creep_table, crossing_force, differences, flat_force, hertz, limits, measured_runs, plots, schema, studies, subsurface, tables, vtu, wavelets
+from tread import blows, comparison, contact_cases, creep_table, crossing_force, differences, flat_force, hertz, limits, measured_runs, plots, rail_mesh, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
@@ -425,6 +425,22 @@ class Pictured(InFolder):
         np.testing.assert_allclose(x, [0, 1, np.nan, 2, 3])
         np.testing.assert_allclose(values, [5, 6, np.nan, 7, 8])
         self.assertEqual(len(contact_points.broken(table, np.arange(4.), ("other",))[0]), 4)
+
+    def test_damage_of_one_side(self):
+        table = {"y_mm": np.array([-1500., -1490., 3., 60.]), "friction_work_J_per_m2": np.array([5., 9., 8., 1.])}
+        self.assertEqual(damage.near_the_most_loaded(table)["y_mm"].tolist(), [-1500., -1490.])
+        table["friction_work_J_per_m2"][2] = 10.
+        self.assertEqual(damage.near_the_most_loaded(table)["friction_work_J_per_m2"].tolist(), [10., 1.])
+
+    def test_mesh_of_a_bar(self):
+        self.assertEqual(rail_mesh.even_lines(0., 10., 3.), [0., 2.5, 5., 7.5, 10.])
+        bar = rail_mesh.bar([0., 1.], [-1., 1.], [-2., 0.], 0., hold_ends=(True, False))
+        self.assertEqual(rail_mesh.named(bar), [(1, "contact"), (2, "support"), (3, "end")])
+        for name, direction, place in (("contact", 2, 0.), ("support", 2, -2.), ("end", 0, 0.)):
+            (cell, face), = bar.faces[name]
+            numbers = rail_mesh.corners(bar, cell, face)
+            self.assertEqual([bar.points[number - 1][direction] for number in numbers], 4 * [place])
+            self.assertEqual(len(set(numbers)), 4)
 
     def test_damage_across_the_path(self):
         table = {"y_mm": np.array([1.02, 0.98, 2., 1.]), "work": np.array([3., 5., 7., 4.])}

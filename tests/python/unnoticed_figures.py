@@ -255,6 +255,7 @@ KNOWN: list[tuple[str, str]] = [
     (r"differences\.figures_of\[.*\]", "names of what a test puts in: figures_test.py compares all of an answer"),
     (r"schema\.(check_scenes|make_schema|parameter_schema)", "made with the program's help: schema_test.py compares the whole with the file"),
     (r"(studies\.main|runs\.processes_below|files\.read_toml)", "an exit code, numbers of processes, a file as it is"),
+    (r"crossing_force\.AtRest\.height", "what a force at rest must have: those that have it are compared"),
 ]
 
 
