@@ -38,6 +38,15 @@ namespace tread
   } // namespace
 
 
+  double max_temperature(const std::vector<SurfacePlace> &places)
+  {
+    double highest = 0.;
+    for (const SurfacePlace &place : places)
+      highest = std::max(highest, place.max_temperature);
+    return highest;
+  }
+
+
   SurfaceDamage::SurfaceDamage(Contact                       &contact,
                                const unsigned int             slave_body,
                                const SurfaceDamageParameters &parameters)
@@ -200,28 +209,6 @@ namespace tread
       return a.along != b.along ? a.along < b.along : a.y < b.y;
     });
     return loaded;
-  }
-
-
-  double SurfaceDamage::wear_volume(const unsigned int body)
-  {
-    double                  volume = 0.;
-    const std::vector<Node> all    = complete();
-    for (unsigned int i = 0; i < all.size(); ++i)
-      if (contact.surfaces.nodes[i].body == body)
-        volume += all[i].wear;
-    return volume;
-  }
-
-
-  double SurfaceDamage::max_temperature(const unsigned int body)
-  {
-    double                  highest = 0.;
-    const std::vector<Node> all     = complete();
-    for (unsigned int i = 0; i < all.size(); ++i)
-      if (contact.surfaces.nodes[i].body == body)
-        highest = std::max(highest, all[i].temperature);
-    return highest;
   }
 
 

@@ -119,13 +119,8 @@ namespace tread
       return;
     const SurfaceDamageParameters p = surface_damage_parameters(scene);
     std::vector<SurfacePlace>     rail, wheel;
-    double                        hottest = 0.;
-    const auto add = [&](std::vector<SurfacePlace> &surface, const std::vector<SurfacePlace> &of_patch) {
-      for (const SurfacePlace &place : of_patch)
-        {
-          surface.push_back(place);
-          hottest = std::max(hottest, place.max_temperature);
-        }
+    const auto add = [](std::vector<SurfacePlace> &surface, const std::vector<SurfacePlace> &of_patch) {
+      surface.insert(surface.end(), of_patch.begin(), of_patch.end());
     };
     for (const PassedPatch &patch : patches)
       {
@@ -139,6 +134,7 @@ namespace tread
       }
     folder.write_surface_damage("rail_surface_damage.csv", rail);
     folder.write_surface_damage("wheel_surface_damage.csv", wheel);
+    const double hottest = std::max(max_temperature(rail), max_temperature(wheel));
     summary.set("max_flash_temperature_K", hottest);
     if (const std::string doubt = doubt_of_temperature(hottest); !doubt.empty())
       warnings.push_back(doubt);

@@ -402,23 +402,26 @@ namespace tread
   {
     if (!damage)
       return;
-    folder.write_surface_damage("rail_surface_damage.csv",
-                                damage->places(rail_body, [](const Vector3 &p) { return p[0]; }));
-    double hottest = damage->max_temperature(rail_body);
+    const std::vector<SurfacePlace> rail = damage->places(rail_body, [](const Vector3 &p) { return p[0]; });
+    folder.write_surface_damage("rail_surface_damage.csv", rail);
+    double hottest = max_temperature(rail);
     for (const RollingWheel &wheel : wheels)
       {
-        const Vector3 axle = wheel.hub.start();
-        folder.write_surface_damage(RunFolder::table_of_wheel("wheel_surface_damage", wheel.number),
-                                    damage->places(wheel.body, [&](const Vector3 &p) {
-                                      return std::atan2(p[0] - axle[0], axle[2] - p[2]);
-                                    }));
-        hottest = std::max(hottest, damage->max_temperature(wheel.body));
+        const Vector3                   axle   = wheel.hub.start();
+        const std::vector<SurfacePlace> places = damage->places(
+          wheel.body, [&](const Vector3 &p) { return std::atan2(p[0] - axle[0], axle[2] - p[2]); });
+        folder.write_surface_damage(RunFolder::table_of_wheel("wheel_surface_damage", wheel.number), places);
+        hottest = std::max(hottest, max_temperature(places));
       }
     summary.set("max_flash_temperature_K", hottest);
     if (const std::string doubt = doubt_of_temperature(hottest); !doubt.empty())
       warnings.push_back(doubt);
-    if (scene.wear_law())
-      summary.set("wear_volume_m3", damage->wear_volume(rail_body));
+    if (!scene.wear_law())
+      return;
+    double volume = 0.;
+    for (const SurfacePlace &place : rail)
+      volume += place.area * place.wear_depth;
+    summary.set("wear_volume_m3", volume);
   }
 
 

@@ -37,6 +37,9 @@ namespace tread
     double wear_depth;      ///< m
   };
 
+  /// The largest rise of temperature of these places, K.
+  double max_temperature(const std::vector<SurfacePlace> &places);
+
   /// What friction does to both surfaces, by their nodes: work, slip and wear are summed over all steps, so
   /// that the work over the surface is that of the ledger. A pair's work counts for its slave node, and for
   /// the masters' nodes under it in the shares in which its impulse goes to them. Pressure and shear stress
@@ -62,10 +65,6 @@ namespace tread
     /// The nodes of a body that were ever loaded, of all ranks, in the order of place. Collective.
     /// @param along the first coordinate at a reference position
     std::vector<SurfacePlace> places(unsigned int body, const std::function<double(const Vector3 &)> &along);
-
-    /// Of a body: volume lost (m^3), and the largest rise of temperature (K). Collective.
-    double wear_volume(unsigned int body);
-    double max_temperature(unsigned int body);
 
     /// Store or restore the state. Collective.
     void serialize(Archive &archive);
