@@ -5,7 +5,7 @@
 #include <tread/output/quality.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
-#include <tread/scene/steady_damage.h>
+#include <tread/scene/steady_damage_tables.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/simulation.h>
 

@@ -6,7 +6,7 @@
 #include <tread/reference/transient.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
-#include <tread/scene/steady_damage.h>
+#include <tread/scene/steady_damage_tables.h>
 #include <tread/tools/reference_only.h>
 
 #include <deal.II/base/mpi.h>

@@ -5,7 +5,7 @@
 #include <tread/output/run_folder.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
-#include <tread/scene/steady_damage.h>
+#include <tread/scene/steady_damage_tables.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/tools/wheelset_reference.h>

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_scene_steady_damage_h
-#define tread_scene_steady_damage_h
+#ifndef tread_analysis_steady_damage_h
+#define tread_analysis_steady_damage_h
 
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/surface_damage.h>
-#include <tread/output/run_folder.h>
-#include <tread/output/summary.h>
-#include <tread/scene/scene.h>
 
 #include <vector>
 
@@ -22,24 +19,6 @@ namespace tread
                                           const WearLaw                *wear,
                                           double                        heat_share,
                                           double                        effusivity);
-
-  /// A patch of a half-space solution, and how fast the wheel's surface passes it (m/s).
-  struct PassedPatch
-  {
-    std::vector<PatchNode> elements;
-    double                 wheel_speed;
-  };
-
-  /// The tables of both surfaces and the largest temperature, where 'Damage/Record' asks for them. @param
-  /// warnings that are added to @throws InputError if the wheel does not turn
-  void write_steady_damage(const Scene                    &scene,
-                           const std::vector<PassedPatch> &patches,
-                           const RunFolder                &folder,
-                           Summary                        &summary,
-                           std::vector<std::string>       &warnings);
-
-  /// What makes a flash temperature (K) doubtful; empty: nothing.
-  std::string doubt_of_temperature(double rise);
 } // namespace tread
 
 #endif
