@@ -11,6 +11,7 @@
 #include <tread/tools/print_columns.h>
 #include <tread/tools/reference_only.h>
 #include <tread/tools/sleeper_stress_files.h>
+#include <tread/tools/wear_files.h>
 #include <tread/tools/wheelset_reference.h>
 
 #include <deal.II/base/mpi.h>
@@ -34,7 +35,7 @@ namespace
   {
     std::string                 scene;
     std::vector<std::string>    settings;
-    std::string                 output, batch, positions;
+    std::string                 output, batch, positions, wear;
     tread::DynamicForceRequest  dynamic;
     tread::ModesRequest         modes;
     tread::SleeperStressRequest sleeper;
@@ -106,6 +107,10 @@ namespace
     app.add_option("--bottom", line.sleeper.bottom, "of the sleeper: fixed or ballast")->needs(seat);
     app.add_option("--cell-size", line.sleeper.cell_size_mm, "largest edge of the sleeper's cells, mm")
       ->needs(seat);
+    CLI::Option *wear =
+      app.add_option("--wear", line.wear,
+                     "table of contacts of a wheelset: wear the profiles of the scene by them, passage after "
+                     "passage, by half-space theory");
     CLI::Option *batch = app.add_option("--batch", line.batch,
                                         "table of half-space cases: solve each of its rows, on all cores");
     batch->excludes(defect)->excludes(seat);
@@ -114,6 +119,8 @@ namespace
                      "table of positions of a wheel over a rail of slices, such as a crossing: half-space "
                      "contact in each");
     positions->excludes(defect)->excludes(seat)->excludes(batch);
+    for (CLI::Option *option : {defect, seat, batch, positions, columns})
+      wear->excludes(option);
     columns->excludes(defect)->excludes(seat)->excludes(batch)->excludes(positions);
     try
       {
@@ -131,6 +138,9 @@ namespace
       }
     line.points.is_over_shift = std::any_of(over_shift.begin(), over_shift.end(),
                                             [](const CLI::Option *option) { return option->count() > 0; });
+    tread::require(line.wear.empty() ||
+                     !(line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run),
+                   "--wear excludes --reference-only, --modes, --contact-points and --dry-run");
     if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
@@ -204,7 +214,8 @@ namespace
       scene.read_surfaces(line.scene, line.settings);
     else
       scene.read(line.scene, line.settings,
-                 line.reference_only ? tread::SceneUse::half_space : tread::SceneUse::roll);
+                 line.reference_only || !line.wear.empty() ? tread::SceneUse::half_space
+                                                           : tread::SceneUse::roll);
     if (!line.print_parameters.empty())
       {
         if (speaks && line.print_parameters == "json")
@@ -221,6 +232,7 @@ namespace
       {
         const std::string held = tread::held_by_other_scene(folder_of(line.points.wanted ? "-contact-points"
                                                                       : line.reference_only ? "-reference"
+                                                                      : !line.wear.empty()  ? "-wear"
                                                                       : line.modes.wanted   ? "-modes"
                                                                                             : ""),
                                                             line.scene, scene.general.title);
@@ -238,6 +250,12 @@ namespace
           }
         else
           tread::write_contact_points(scene, line.points, folder_of("-contact-points"), comm);
+        return 0;
+      }
+    if (!line.wear.empty())
+      {
+        scene.damage.record = true; // that is what it is about
+        tread::write_profile_wear(scene, line.wear, folder_of("-wear"), line.resume, comm);
         return 0;
       }
     if (line.reference_only)

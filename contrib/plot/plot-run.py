@@ -11,6 +11,7 @@
   peaks                 with 'Peak stress/Region': that of plot-peaks.py
   section, path         the mesh, with 'Output/Write volume': those of plot-mesh.py
   contact-points        tread --contact-points
+  wear, wear-steps      tread --wear: both profiles, depths, pressure and work
 
 Lines and borders of reference_patch.csv, the half-space answer at the same forces, are drawn beside. Shaded is the extent of the
 defects. Over a defect the approach is cut to a fifth of the picture; history.csv has all of it.

@@ -256,6 +256,23 @@ namespace tread
   }
 
 
+  std::vector<PatchNode> elements_in_contact(const WheelPatch &patch)
+  {
+    std::vector<PatchNode>         nodes;
+    const reference::PlanarResult &s    = patch.solution;
+    const reference::Grid         &grid = s.grid;
+    for (std::size_t e = 0; e < grid.size(); ++e)
+      if (s.state[e] != reference::ElementState::exterior)
+        nodes.push_back({Vector3{grid.x(e % grid.n_x), grid.y(e / grid.n_x), 0., 0.},
+                         grid.element_area(),
+                         s.pressure[e],
+                         {s.shear_x[e], s.shear_y[e]},
+                         {s.slip_x[e], s.slip_y[e]},
+                         s.state[e] == reference::ElementState::adhesion});
+    return nodes;
+  }
+
+
   Vector3d WheelPatch::force() const
   {
     const Vector3d s = along(), n = normal();

@@ -186,9 +186,9 @@ namespace tread
       return known->second;
     const OnRail found = on_rail(x, s);
     if (!found.curve) // beyond the rail's ends
-      return known_rail[where] = {-where_no_rail, 0., false};
+      return known_rail[where] = {-where_no_rail, 0., 0., false};
     const ProfileCurve::Place p = found.curve->at(found.parameter);
-    return known_rail[where]    = {above({0., p.y, p.z}), std::atan2(p.dz, p.dy), found.exists};
+    return known_rail[where]    = {above({0., p.y, p.z}), std::atan2(p.dz, p.dy), found.parameter, found.exists};
   }
 
 

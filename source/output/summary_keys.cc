@@ -81,6 +81,25 @@ namespace tread
       {"wear_volume_m3", "Volume that the rail has lost by 'Damage/Wear law', in all passages; in each the "
                          "wheels together lose as much"}};
 
+    /// Of profiles that wear (--wear).
+    const Keys of_profile_wear{
+      {"contacts", "Contacts of a block of passages, rows of the table of --wear"},
+      {"wear_steps", "Steps in which the profiles wore"},
+      {"wear_steps_refused", "Those that changed the pressure too much and were taken again, shorter"},
+      {"passages", "'Profile wear/Passages' of wheels over the rail"},
+      {"wheel_turns", "'Profile wear/Wheel turns' meanwhile"},
+      {"rail_wear_depth_m", "Largest depth that the rail has worn"},
+      {"wheel_wear_depth_m", "Largest depth that the wheel has worn"},
+      {"rail_wear_area_m2",
+       "Area between the rail's profile and that at the start: volume on a metre of way"},
+      {"wheel_wear_area_m2",
+       "Area between the wheel's profile and that at the start: volume on a metre of its circumference"},
+      {"rail_wear_area_by_law_m2", "The same by 'Damage/Wear law', summed over the steps"},
+      {"wheel_wear_area_by_law_m2", "The same of the wheel"},
+      {"rail_friction_work_J_per_m", "Work of friction in all passages, on a metre of way"},
+      {"wheel_friction_work_J_per_m", "Work of friction in all turns, on a metre of the circumference"},
+      {"max_pressure_at_start_Pa", "Largest pressure of all contacts on the new profiles"}};
+
     /// Of the first wheel alone.
     const Keys first_wheel{
       {"friction_coefficient",
@@ -295,7 +314,7 @@ namespace tread
         quality.emplace_back(heading(column), column.about);
       Keys all;
       for (const Keys &keys : {scene, wheel, first_wheel, comparison, quality, impacts, cost, further_wheels,
-                               recorded, of_damage, peaks(), half_space})
+                               recorded, of_damage, of_profile_wear, peaks(), half_space})
         all.insert(all.end(), keys.begin(), keys.end());
       return all;
     }

@@ -247,18 +247,9 @@ namespace tread
 
   std::vector<PatchNode> PlacedWheel::table_nodes(const WheelPatch &patch) const
   {
-    std::vector<PatchNode>         nodes;
-    const reference::PlanarResult &s    = patch.solution;
-    const reference::Grid         &grid = s.grid;
-    for (std::size_t e = 0; e < grid.size(); ++e)
-      if (s.state[e] != reference::ElementState::exterior)
-        nodes.push_back(
-          {origin(patch) + Vector3{grid.x(e % grid.n_x), 0., 0., 0.} + grid.y(e / grid.n_x) * along(patch),
-           grid.element_area(),
-           s.pressure[e],
-           {s.shear_x[e], s.shear_y[e]},
-           {s.slip_x[e], s.slip_y[e]},
-           s.state[e] == reference::ElementState::adhesion});
+    std::vector<PatchNode> nodes = elements_in_contact(patch);
+    for (PatchNode &node : nodes)
+      node.position = origin(patch) + Vector3{node.position[0], 0., 0., 0.} + node.position[1] * along(patch);
     return nodes;
   }
 

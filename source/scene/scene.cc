@@ -24,6 +24,7 @@ namespace tread
     output.declare(handler);
     peak_stress.declare(handler);
     damage.declare(handler);
+    profile_wear.declare(handler);
     watchdogs.declare(handler);
   }
 } // namespace tread

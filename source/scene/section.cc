@@ -21,7 +21,7 @@ namespace tread
       double      times, over;
     };
 
-    constexpr std::array<Unit, 31> units{{{"mm", 1e-3, 1.},
+    constexpr std::array<Unit, 32> units{{{"mm", 1e-3, 1.},
                                           {"m", 1., 1.},
                                           {"GPa", 1e9, 1.},
                                           {"MPa", 1e6, 1.},
@@ -42,6 +42,7 @@ namespace tread
                                           {"rad per s", 1., 1.},
                                           {"minutes", 60., 1.},
                                           {"us", 1., 1e6},
+                                          {"um", 1., 1e6},
                                           {"time steps", 1., 1.},
                                           {"semi-axes", 1., 1.},
                                           {"kN", 1e3, 1.},

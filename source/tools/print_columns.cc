@@ -5,6 +5,7 @@
 #include <tread/tools/contact_way_files.h>
 #include <tread/tools/modes_files.h>
 #include <tread/tools/print_columns.h>
+#include <tread/tools/wear_files.h>
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +19,7 @@ namespace tread
       summary.columns.push_back({"patches/1/" + key.heading, key.unit, key.about});
     std::vector<TableDescription> tables = tables_of_a_run();
     tables.insert(tables.begin(), summary);
-    for (const auto &more : {tables_of_modes(), tables_of_contact_points()})
+    for (const auto &more : {tables_of_modes(), tables_of_contact_points(), tables_of_profile_wear()})
       tables.insert(tables.end(), more.begin(), more.end());
     tables.push_back(table_of_contact_way());
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -2,6 +2,7 @@
 #ifndef tread_analysis_wheelset_contact_h
 #define tread_analysis_wheelset_contact_h
 
+#include <tread/analysis/contact_patch.h>
 #include <tread/geometry/wheel_on_rail.h>
 #include <tread/reference/planar_contact.h>
 
@@ -104,6 +105,9 @@ namespace tread
     /// Force on the wheel in track axes (N).
     Vector3d force() const;
   };
+
+  /// The elements in contact, in contact axes.
+  std::vector<PatchNode> elements_in_contact(const WheelPatch &patch);
 
   struct WheelContact
   {

@@ -44,9 +44,10 @@ namespace tread
 
     struct RailPlace
     {
-      double height; ///< m
-      double angle;  ///< inclination in the track, rad
-      bool   exists; ///< not beyond the profile, whose end has these numbers
+      double height;    ///< m
+      double angle;     ///< inclination in the track, rad
+      double parameter; ///< of the section, m
+      bool   exists;    ///< not beyond the profile, whose end has these numbers
     };
     /// x from the reference point.
     RailPlace rail(double x, double s) const;

@@ -17,6 +17,7 @@
 #include <tread/scene/sections/motion.h>
 #include <tread/scene/sections/output.h>
 #include <tread/scene/sections/peak_stress.h>
+#include <tread/scene/sections/profile_wear.h>
 #include <tread/scene/sections/rail.h>
 #include <tread/scene/sections/solid.h>
 #include <tread/scene/sections/start.h>
@@ -71,6 +72,7 @@ namespace tread
     OutputSection        output;
     PeakStressSection    peak_stress;
     DamageSection        damage;
+    ProfileWearSection   profile_wear;
     WatchdogSection      watchdogs;
 
     /// Read a parameter file (none: all defaults) with those that its lines "include NAME" name, relative to
