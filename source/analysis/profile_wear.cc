@@ -217,6 +217,10 @@ namespace tread
     row.lateral_creepage   = patch.lateral_creepage;
     row.spin               = patch.spin;
     row.sink_by_others     = patch.sink_by_others / patch.region.overlap;
+    row.angular_velocity   = angular_velocity;
+    row.turn               = patch.turn;
+    row.element            = s.grid.dy;
+    row.climbs             = surfaces.is_beyond_flank(patch.wheel_s);
     answer.patches.push_back(row);
     answer.work += row.work;
     answer.max_pressure = std::max(answer.max_pressure, row.max_pressure);

@@ -94,8 +94,8 @@ namespace tread
       "rail_cells|"
       "rail_surface|(rail|wheel)_surface_damage(_wheel_[0-9]+)?|strip|peak_stress(_wheel)?|rail_seats|cells|"
       "passages|dynamic|spectrum|modes|"
-      "receptance|measured_(rail|wheel)|(rail|wheel)_wear|wear_(steps|patches)|worn_(rail|wheel))\\.csv|"
-      "worn\\.prm|wear\\.checkpoint|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
+      "receptance|measured_(rail|wheel)|(rail|wheel)_wear|wear_(steps|patches)|worn_(rail|wheel)_[0-9]+)\\.csv|"
+      "worn_[0-9]+\\.prm|wear\\.checkpoint|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
       "checkpoint-[01]|checkpoint\\.last|"
       "(volume|surface|modes)(\\.pvd|\\.xdmf|\\.h5|-[0-9]{4,}\\.(vtu|h5)))(\\.part)?");
     return std::regex_match(name, own);

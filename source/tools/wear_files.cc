@@ -13,6 +13,7 @@
 #include <tread/tools/wear_files.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -263,6 +264,8 @@ namespace tread
       add("patch_width", "mm", "Across", [](const R &r) { return r.patch->width; });
       add("creepage", "", "Slip of the rigid wheel over the rail along it, over the speed",
           [](const R &r) { return r.patch->creepage; });
+      add("angular_velocity", "rad_per_s", "Of the wheel",
+          [](const R &r) { return r.patch->angular_velocity; });
       add("lateral_creepage", "", "The same across", [](const R &r) { return r.patch->lateral_creepage; });
       add("spin", "per_m", "About the normal, over the speed", [](const R &r) { return r.patch->spin; });
       add("friction_work", "J_per_m", "Of a passage on a metre of way",
@@ -296,7 +299,7 @@ namespace tread
     }
 
     /// The scene on the worn profiles, in the same place in the track.
-    std::string worn_scene(const Scene &scene, const ProfileWear &wear)
+    std::string worn_scene(const Scene &scene, const ProfileWear &wear, const std::string &at)
     {
       const WheelOnRail worn  = wear.surfaces();
       TrackGauge        gauge = scene.wheelset.track;
@@ -304,23 +307,20 @@ namespace tread
       const WheelOnRail placed(wear.wheel().curve(), wear.rail().curve().turned(scene.rail.angle()),
                                scene.wheel.radius, gauge);
       gauge.gauge += 2. * (worn.rail_origin_y() - placed.rail_origin_y());
-      const auto running = [&] {
-        const CurveFromAbove none(wear.wheel().curve());
-        return none.height(0.);
-      };
-      std::string text = "# The scene on the profiles as they are worn.\n\ninclude parameters.prm\n\n";
-      text +=
-        "subsection Rail\n  set Measured head = worn_rail.csv\n  set Measured head mirrored = false\n  set "
-        "Measured head shift (mm) = 0\n  set Smoothing length (mm) = 0\nend\n\n";
-      text +=
-        "subsection Wheel\n  set Tread profile = worn_wheel.csv\n  set Tread profile mirrored = false\n  set "
-        "Tread profile shift (mm) = 0\n  set Smoothing length (mm) = 0\n";
-      text += format("  set Radius (mm) = %.9f\nend\n\n", 1e3 * (scene.wheel.radius - running()));
+      const double running = CurveFromAbove(wear.wheel().curve()).height(0.);
+      std::string  text    = "# The scene on the profiles as they are worn.\n\ninclude parameters.prm\n\n";
+      text += "subsection Rail\n  set Measured head = worn_rail" + at +
+              ".csv\n  set Measured head mirrored = false\n  set "
+              "Measured head shift (mm) = 0\n  set Smoothing length (mm) = 0\nend\n\n";
+      text += "subsection Wheel\n  set Tread profile = worn_wheel" + at +
+              ".csv\n  set Tread profile mirrored = false\n  set "
+              "Tread profile shift (mm) = 0\n  set Smoothing length (mm) = 0\n";
+      text += format("  set Radius (mm) = %.9f\nend\n\n", 1e3 * (scene.wheel.radius - running));
       text += format("subsection Wheelset\n  set Track gauge (mm) = %.9f\nend\n", 1e3 * gauge.gauge);
       return text;
     }
 
-    void warn_of_patches(const ProfileWear &wear, std::vector<std::string> &warnings)
+    void warn_of_patches(const ProfileWear &wear, const double smoothing, std::vector<std::string> &warnings)
     {
       const std::vector<WearPatch> &first = wear.states().front().patches,
                                    &last  = wear.states().back().patches;
@@ -341,6 +341,34 @@ namespace tread
                 when, std::size_t(n), patches->size(), worst.contact + 1, 100. * worst.sink_by_others));
             }
         }
+      for (const auto &[when, patches] : {std::pair("at the start", &first), std::pair("at the end", &last)})
+        {
+          const auto n = std::count_if(patches->begin(), patches->end(), [](const WearPatch &patch) {
+            return patch.turn > largest_turn_of_a_plane;
+          });
+          if (n > 0)
+            warnings.push_back(format(
+              "%s %zu of %zu patches are conformal: they bend by more than the %.1f degrees that a "
+              "plane stands for",
+              when, std::size_t(n), patches->size(), 180. / dealii::numbers::PI * largest_turn_of_a_plane));
+          if (std::any_of(patches->begin(), patches->end(),
+                          [](const WearPatch &patch) { return patch.climbs; }))
+            warnings.push_back(
+              format("%s a wheel stands on its flange between its steepest part and the tip: it climbs "
+                     "out of the track",
+                     when));
+        }
+      // A ball in its groove has smooth curvature with elements of half of this length, and none with two
+      // thirds.
+      double element = 0.;
+      for (const auto *patches : {&first, &last})
+        for (const WearPatch &patch : *patches)
+          element = std::max(element, patch.element);
+      if (element > 0.5 * smoothing)
+        warnings.push_back(
+          format("elements across of up to %.2f mm are larger than half of 'Profile wear/Smoothing length "
+                 "(mm)': profiles may wear in zigzag",
+                 1e3 * element));
       if (wear.n_forced() > 0)
         warnings.push_back(
           format("%u of %zu steps changed the pressure by more than 'Profile wear/Largest change', as "
@@ -360,6 +388,13 @@ namespace tread
       folder.write_table("rail_wear.csv", worn_point_columns("passages"), worn_points(wear, false, passages));
       folder.write_table("wheel_wear.csv", worn_point_columns("wheel_turns"), worn_points(wear, true, turns));
       folder.write_table("wear_patches.csv", wear_patch_columns(), patch_rows(wear, passages));
+      if (const std::size_t number = wear.states().size() - 1; number > 0)
+        {
+          const std::string at = '_' + std::to_string(number);
+          folder.write("worn_rail" + at + ".csv", profile_text(wear.rail()));
+          folder.write("worn_wheel" + at + ".csv", profile_text(wear.wheel()));
+          folder.write("worn" + at + ".prm", worn_scene(scene, wear, at));
+        }
     }
 
     /// What must be the same in a run that goes on.
@@ -463,12 +498,9 @@ namespace tread
         store(folder, wear, of_inputs);
         say_step(progress, scene, wear);
       }
-    folder.write("worn_rail.csv", profile_text(wear.rail()));
-    folder.write("worn_wheel.csv", profile_text(wear.wheel()));
-    folder.write("worn.prm", worn_scene(scene, wear));
 
     std::vector<std::string> warnings;
-    warn_of_patches(wear, warnings);
+    warn_of_patches(wear, scene.profile_wear.smoothing, warnings);
     for (const std::vector<std::string> &more :
          {scene.unused_parameters(), scene.implausible_values(), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
@@ -508,7 +540,6 @@ namespace tread
       progress.say("warning: " + warning);
     progress.say(
       format("finished in %.2f s. Results in ", progress.seconds()) + folder.path("") +
-      ": summary.json, wear_steps.csv, rail_wear.csv, wheel_wear.csv, wear_patches.csv, worn_rail.csv, "
-      "worn_wheel.csv, worn.prm");
+      ": summary.json, wear_steps.csv, rail_wear.csv, wheel_wear.csv, wear_patches.csv, worn_*.prm");
   }
 } // namespace tread

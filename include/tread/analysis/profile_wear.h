@@ -69,9 +69,13 @@ namespace tread
     double       max_pressure;
     double       length, width; ///< m
     double       creepage, lateral_creepage, spin;
-    double       work;           ///< of friction on a metre of way, J/m
-    double       rail_area;      ///< that the rail loses in a passage, on a metre of way, m^2
-    double       sink_by_others; ///< over its undeformed overlap
+    double       work;             ///< of friction on a metre of way, J/m
+    double       rail_area;        ///< that the rail loses in a passage, on a metre of way, m^2
+    double       angular_velocity; ///< of the wheel, rad/s
+    double       turn;             ///< WheelPatch::turn
+    double       element;          ///< edge across, m
+    double       sink_by_others;   ///< over its undeformed overlap
+    bool         climbs;           ///< on the flange beyond its steepest part
   };
 
   /// A state that is kept.

@@ -57,7 +57,7 @@ def draw_profiles(run: Run) -> Figure:
 
 
 def draw_steps(run: Run) -> Figure:
-    steps = run.table("wear_steps.csv", ("passages", "wheel_turns", "rail_area_mm2", "wheel_area_mm2", "friction_work_J_per_m", "max_pressure_MPa", "mean_max_pressure_MPa"))
+    steps = run.table("wear_steps.csv", ("passages", "wheel_turns", "rail_area_mm2", "wheel_area_mm2", "rail_depth_mm", "wheel_depth_mm", "friction_work_J_per_m", "max_pressure_MPa", "mean_max_pressure_MPa"))
     over, name = (steps["passages"], "passages of wheels over the rail") if steps["passages"].max() > 0.0 else (steps["wheel_turns"], "turns of the wheel")
     figure, (pressure, work, area) = subplots(3, 1, figsize=(8.0, 8.4), sharex=True)
     pressure.plot(over, steps["max_pressure_MPa"], color=RED, label="largest of all contacts")
@@ -65,9 +65,9 @@ def draw_steps(run: Run) -> Figure:
     pressure.set(ylabel="largest pressure [MPa]", ylim=(0.0, None))
     pressure.legend()
     work.plot(over, steps["friction_work_J_per_m"], color=BLUE)
-    work.set(ylabel="work of friction [J/m]", title="of a passage, mean of the contacts", ylim=(0.0, None))
+    work.set(ylabel="work of friction [J/m]", title="of a passage, mean of the contacts", ylim=(0.0, 1.1 * steps["friction_work_J_per_m"].max()))
     for body, colour in (("rail", RED), ("wheel", BLUE)):
-        if steps[f"{body}_area_mm2"].max() > 0.0:
+        if steps[f"{body}_depth_mm"].max() > 0.0:
             area.plot(over, steps[f"{body}_area_mm2"], color=colour, label=body)
     area.set(xlabel=name, ylabel="area worn away [mm²]", ylim=(0.0, None))
     area.legend()
