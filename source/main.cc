@@ -255,8 +255,7 @@ namespace
     if (!line.wear.empty())
       {
         scene.damage.record = true; // that is what it is about
-        tread::write_profile_wear(scene, line.wear, folder_of("-wear"), line.resume, comm);
-        return 0;
+        return tread::write_profile_wear(scene, line.wear, folder_of("-wear"), line.resume, comm) ? 0 : 130;
       }
     if (line.reference_only)
       {

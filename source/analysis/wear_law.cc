@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/archard_map_wear.h>
 #include <tread/analysis/archard_wear.h>
 #include <tread/analysis/wear_law.h>
 #include <tread/analysis/work_wear.h>
@@ -25,7 +26,7 @@ namespace tread
 
   const std::vector<WearLawEntry> &wear_laws()
   {
-    static const std::vector<WearLawEntry> laws{no_wear(), entry<ArchardWear>(), entry<WorkWear>()};
+    static const std::vector<WearLawEntry> laws{no_wear(), entry<ArchardWear>(), entry<ArchardMapWear>(), entry<WorkWear>()};
     return laws;
   }
 

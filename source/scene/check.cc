@@ -31,6 +31,7 @@ namespace tread
 
   void Scene::check(const SceneUse use) const
   {
+    wear_law(); // which says what is wrong with its numbers
     if (is_positioned())
       return check_wheelset();
     require(guidance.kind == Guidance::rigid,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/base/stop_signal.h>
 #include <tread/base/version.h>
 #include <tread/base/went_wrong.h>
 #include <tread/dynamics/parts/nodes.h>
@@ -19,21 +20,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <sstream>
 
 namespace tread
 {
   namespace
   {
-    volatile std::sig_atomic_t signal_received = 0;
-
-    void on_signal(int number)
-    {
-      std::signal(number, SIG_DFL); // a second one ends the program at once
-      signal_received = 1;
-    }
-
     /// Something that is done after so many steps at the latest.
     struct EverySoManySteps
     {
@@ -211,7 +203,7 @@ namespace tread
 
   bool Simulation::interrupted() const
   {
-    return dealii::Utilities::MPI::max(static_cast<int>(signal_received), comm) != 0;
+    return dealii::Utilities::MPI::max(static_cast<int>(stop_was_asked()), comm) != 0;
   }
 
 
@@ -419,8 +411,7 @@ namespace tread
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     RunFolder  folder(path, comm, scene.output.pictures);
     Checkpoint checkpoint(folder, scene, comm);
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    watch_stop_signals();
 
     if (resume && folder.is_complete() && !checkpoint.run_may_go_on())
       {

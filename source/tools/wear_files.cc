@@ -3,6 +3,7 @@
 #include <tread/base/csv_table.h>
 #include <tread/base/file_text.h>
 #include <tread/base/format.h>
+#include <tread/base/stop_signal.h>
 #include <tread/base/version.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
@@ -160,7 +161,7 @@ namespace tread
                            const auto &value) {
         columns.push_back({name, unit, about, value});
       };
-      add("state", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
+      add("state_number", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
       add(passages, "", about, [](const R &r) { return r.passages; });
       add("y_start", "mm", "In the axes of the profile, new", [](const R &r) { return r.start[0]; });
       add("z_start", "mm", "Upwards", [](const R &r) { return r.start[1]; });
@@ -243,7 +244,7 @@ namespace tread
                            const auto &value) {
         columns.push_back({name, unit, about, value});
       };
-      add("state", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
+      add("state_number", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
       add("passages", "", "Of wheels over the rail so far", [](const R &r) { return r.passages; });
       add("contact", "", "Row of the table of contacts, from 1 on",
           [](const R &r) { return r.patch->contact + 1.; });
@@ -461,7 +462,7 @@ namespace tread
   }
 
 
-  void write_profile_wear(const Scene       &scene,
+  bool write_profile_wear(const Scene       &scene,
                           const std::string &contacts_file,
                           const std::string &path,
                           const bool         goes_on,
@@ -490,13 +491,19 @@ namespace tread
       format("wear by half-space theory: %zu contacts, %g passages of the rail, %g turns of the wheel\n",
              contacts.size(), scene.profile_wear.passages, scene.profile_wear.turns));
     progress.say("   passages       turns   rail um  wheel um   max MPa  mean MPa   change        s");
-    while (!wear.is_done())
+    watch_stop_signals();
+    while (!wear.is_done() && !stop_was_asked())
       {
         const std::size_t n_states = wear.states().size();
         wear.advance();
         write_tables(folder, scene, wear, wear.states().size() > n_states);
         store(folder, wear, of_inputs);
         say_step(progress, scene, wear);
+      }
+    if (!wear.is_done())
+      {
+        progress.say("interrupted after a step; --resume goes on from here");
+        return false;
       }
 
     std::vector<std::string> warnings;
@@ -541,5 +548,6 @@ namespace tread
     progress.say(
       format("finished in %.2f s. Results in ", progress.seconds()) + folder.path("") +
       ": summary.json, wear_steps.csv, rail_wear.csv, wheel_wear.csv, wear_patches.csv, worn_*.prm");
+    return true;
   }
 } // namespace tread

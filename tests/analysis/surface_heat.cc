@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Heat that flows into a half-space, and the laws of wear, against closed forms.
+#include <tread/analysis/archard_map_wear.h>
 #include <tread/analysis/archard_wear.h>
 #include <tread/analysis/surface_heat.h>
 #include <tread/analysis/work_wear.h>
@@ -95,6 +96,25 @@ namespace
     sliding.area     = 1e-6;
     check.relative("Archard: 1e-4 x 40 J / 2.8 GPa, mm3", 1e9 * ArchardWear(1e-4, 2.8e9).volume(sliding),
                    40e-4 / 2.8, 1e-12);
+    // 2 m/s and 10 MPa; borders belong to the range above.
+    const auto of_map = [&](const std::vector<double> &speeds, const std::vector<double> &pressures) {
+      std::vector<double> coefficients;
+      for (std::size_t k = 0; k < (speeds.size() + 1) * (pressures.size() + 1); ++k)
+        coefficients.push_back(1e-5 * (k + 1.));
+      return ArchardMapWear(speeds, pressures, coefficients, 2e9).volume(sliding) * 2e9 / 40. / 1e-5;
+    };
+    check.relative("map: second speed, third pressure of 3 x 3", of_map({0.2, 7.}, {0.001, 0.009}), 8., 1e-9);
+    check.relative("third speed, second pressure", of_map({0.2, 1.9}, {0.001, 0.011}), 6., 1e-9);
+    check.relative("first of both", of_map({2.1, 7.}, {0.0101, 0.011}), 1., 1e-9);
+    check.relative("no borders: one coefficient", of_map({}, {}), 1., 1e-9);
+    check.relative("a border belongs to what lies above it", of_map({2., 7.}, {}), 2., 1e-9);
+    check.that("a map with a gap is refused", tests::complaint<InputError>([] {
+                                                ArchardMapWear({0.2, 0.7}, {0.8}, {1e-4, 1e-4, 1e-4}, 2e9);
+                                              }) == "'Damage/Map wear coefficients' has 3 numbers; 3 ranges "
+                                                    "of the slip speed and 2 of the pressure need 6");
+    check.that("borders that fall are refused", tests::complaint<InputError>([] {
+                                                  ArchardMapWear({0.7, 0.2}, {}, {1e-4, 1e-4, 1e-4}, 2e9);
+                                                }).find("must rise") != std::string::npos);
     check.relative("3 mm3 per kJ, mm3", 1e9 * WorkWear(3e-12).volume(sliding), 36e-3, 1e-12);
   }
 

@@ -129,7 +129,7 @@ def run(scene: str | os.PathLike, settings: Mapping[str, object] | None = None, 
     settings  {"Section/Name": value}, in the units that the names state, such as {"Mesh/Finest cell (mm)": 1.3}
     ranks     MPI processes
     output    folder of the results; by default that of the scene, 'Output/Directory', seen from the current folder
-    options   more of the program's, such as ["--resume"] or ["--reference-only"]
+    options   more of the program's, such as ["--resume"], ["--reference-only"] or ["--wear", "contacts.csv"]
     show      let the terminal have what the program prints
 
     Returns the Run. Raises ProgramError if the exit code is not 0. Ctrl-C ends the program with a checkpoint, from which
@@ -139,7 +139,7 @@ def run(scene: str | os.PathLike, settings: Mapping[str, object] | None = None, 
         raise Error(f"{program}: no such program; build it or name it with program=")
     if output is None:
         own = parameters_of(scene, settings or {}, program)["Output/Directory"]
-        output = own + ("-reference" if "--reference-only" in options else "")
+        output = own + ("-reference" if "--reference-only" in options else "-wear" if "--wear" in options else "")
     line = command([*arguments_of(scene, settings or {}, os.fspath(output)), *options], ranks, program)
     # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
     with subprocess.Popen(line, env=environment(), stdout=None if show else subprocess.DEVNULL, stderr=subprocess.PIPE,

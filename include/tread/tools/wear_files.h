@@ -24,9 +24,10 @@ namespace tread
   ///                 roll_mrad, load_kN, creepage, lateral_creepage, friction; what it has not is the scene's
   /// @param path     folder of the results
   /// @param goes_on  from what an interrupted run has left there
+  /// @returns false after Ctrl-C, from which it can go on
   /// @throws InputError, also if what is there is of another scene; std::runtime_error where a contact has no
   /// answer
-  void write_profile_wear(const Scene       &scene,
+  bool write_profile_wear(const Scene       &scene,
                           const std::string &contacts,
                           const std::string &path,
                           bool               goes_on,

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from ..plots import BLUE, GREY, RED, subplots
 from ..runs import Run
 
-POINTS = ("state", "y_start_mm", "z_start_mm", "y_mm", "z_mm", "depth_mm")
+POINTS = ("state_number", "y_start_mm", "z_start_mm", "y_mm", "z_mm", "depth_mm")
 
 
 def exaggeration(depth: float, height: float) -> int:
@@ -26,8 +26,8 @@ def exaggeration(depth: float, height: float) -> int:
 
 
 def draw_body(shape: Axes, depth: Axes, table: dict[str, np.ndarray], count: str, body: str) -> None:
-    states = np.unique(table["state"])
-    last = table["state"] == states[-1]
+    states = np.unique(table["state_number"])
+    last = table["state_number"] == states[-1]
     y, z = table["y_start_mm"][last], table["z_start_mm"][last]
     worn = table["depth_mm"][last]
     touched = worn > 0.01 * max(worn.max(), 1e-12)
@@ -37,7 +37,7 @@ def draw_body(shape: Axes, depth: Axes, table: dict[str, np.ndarray], count: str
     shape.set(aspect="equal", xlabel="y [mm]", ylabel="z [mm]", title=body)
     shape.legend()
     for number, state in enumerate(states[1:], 1):
-        own = table["state"] == state
+        own = table["state_number"] == state
         depth.plot(table["y_start_mm"][own], 1e3 * table["depth_mm"][own], color=viridis(0.9 * (1.0 - number / (len(states) - 1))), label=f"{table[count][own][0]:,.0f}")
     if touched.any():
         depth.set(xlim=(y[touched].min() - 3.0, y[touched].max() + 3.0))
