@@ -4,6 +4,7 @@
 #include <tread/base/text_file.h>
 #include <tread/mesh/mesh_file.h>
 
+#include "mesh_file_tears.h"
 #include "mesh_file_words.h"
 
 #include <algorithm>
@@ -37,6 +38,14 @@ namespace tread
   {
     if (!nodes.emplace(number, Node{place, line}).second)
       throw TextError(line, "node " + std::to_string(number) + " is there already");
+  }
+
+
+  void MeshInput::pass_over(const std::string &name, const unsigned int line)
+  {
+    if (std::none_of(passed_over.begin(), passed_over.end(),
+                     [&](const auto &known) { return known.first == name; }))
+      passed_over.emplace_back(name, line);
   }
 
 
@@ -83,10 +92,13 @@ namespace tread
           add_cell(cell);
         check_all_used();
         check_apart();
+        check_not_torn();
         for (const auto &named : input.boundary)
           add_named(named);
         for (const Boundary needed : {Boundary::contact, Boundary::support})
           check_there(needed);
+        check_pieces_held();
+        note_doubts();
       }
 
       MeshFile mesh;
@@ -97,8 +109,13 @@ namespace tread
         if (input.hexahedra.empty())
           throw TextError(0, std::string("has no hexahedra: ") + mesh_words::make_hexahedra +
                                "; Gmsh leaves out volumes that belong to no physical group");
+        constexpr double furthest = 1e6; // m
         for (const auto &[number, node] : input.nodes)
           {
+            if (!(unit * node.place.norm() < furthest))
+              throw TextError(node.line,
+                              "node " + std::to_string(number) +
+                                " lies more than 1000 km from the origin: its coordinates are damaged");
             place_of[number] = mesh.vertices.size();
             mesh.vertices.push_back(unit * node.place);
             numbers.push_back(number);
@@ -129,17 +146,27 @@ namespace tread
               mesh_words::make_hexahedra);
         check_volume(corners, cell.line);
         const unsigned int number = mesh.cells.size();
-        for (const auto &face : faces_of_hexahedron)
+        piece_of.push_back(number);
+        neighbours.emplace_back();
+        neighbours.back().fill(none);
+        for (unsigned int f = 0; f < 6; ++f)
           {
-            FaceKey around;
+            const auto &face = faces_of_hexahedron[f];
+            FaceKey     around;
             for (unsigned int v = 0; v < 4; ++v)
               around[v] = corners[face[v]];
             FaceKey key = around;
             std::sort(key.begin(), key.end());
-            const auto [at, is_new] = faces.try_emplace(key, Found{around, number, true, cell.line});
-            if (!is_new && !std::exchange(at->second.is_boundary, false))
+            const auto [at, is_new] = faces.try_emplace(key, Found{around, number, f, true, cell.line});
+            if (is_new)
+              continue;
+            Found &other = at->second;
+            if (!std::exchange(other.is_boundary, false))
               throw TextError(cell.line,
                               "has a face that two other hexahedra share: some lie over each other");
+            neighbours[number][f]                = other.cell;
+            neighbours[other.cell][other.number] = number;
+            piece_of[first_of_piece(number)]     = first_of_piece(other.cell);
           }
         mesh.cells.push_back(aligned(corners));
       }
@@ -284,10 +311,127 @@ namespace tread
             ", and are not joined: merge them (Gmsh: Coherence Mesh), or leave a gap between two rails");
       }
 
+      /// Cells that do not meet face to face: small faces against large ones, or pieces that lie in each
+      /// other. Nothing joins them there, or there is more steel than there should be.
+      void check_not_torn()
+      {
+        constexpr double within = 1e-3, close = 0.05; // of a cell
+        auto strays = mesh_tears::stray_nodes(mesh.vertices, mesh.cells, neighbours, none, within, close);
+        std::sort(strays.begin(), strays.end(), [](const auto &a, const auto &b) {
+          return std::pair(a.vertex, a.cell) < std::pair(b.vertex, b.cell);
+        });
+        for (const mesh_tears::StrayNode &stray : strays)
+          if (stray.beyond <= within)
+            throw TextError(input.nodes.at(numbers[stray.vertex]).line,
+                            "node " + std::to_string(numbers[stray.vertex]) + " at " +
+                              vertex_in_words(mesh.vertices[stray.vertex]) +
+                              (stray.beyond < -within ? " lies within" : " lies on a face or an edge of") +
+                              " the hexahedron of line " + std::to_string(input.hexahedra[stray.cell].line) +
+                              " and is no node of it" +
+                              (stray.beyond < -within
+                                 ? ": pieces lie in each other; move them, or mesh them as one"
+                                 : ": the mesh is torn there; let whole faces meet, of one size and with "
+                                   "common nodes, or leave "
+                                   "a gap between two rails"));
+        if (strays.empty())
+          return;
+        std::set<unsigned int> nodes;
+        double                 widest = 0.;
+        for (const mesh_tears::StrayNode &stray : strays)
+          {
+            nodes.insert(stray.vertex);
+            widest = std::max(widest, stray.gap);
+          }
+        const unsigned int first = strays.front().vertex;
+        note(input.nodes.at(numbers[first]).line,
+             "node " + std::to_string(numbers[first]) + " at " + vertex_in_words(mesh.vertices[first]) +
+               (nodes.size() > 1 ? " and " + std::to_string(nodes.size() - 1) + " others lie" : " lies") +
+               " up to " + text_in_mm(widest) + " mm beside hexahedra that are not joined to " +
+               (nodes.size() > 1 ? "them" : "it") +
+               ": no force crosses such a gap, even when it closes; where there should be none, join the "
+               "pieces by common nodes");
+      }
+
+      unsigned int first_of_piece(unsigned int cell)
+      {
+        while (piece_of[cell] != cell)
+          cell = piece_of[cell] = piece_of[piece_of[cell]];
+        return cell;
+      }
+
+      /// Each piece has faces of support, or it would fall.
+      void check_pieces_held()
+      {
+        std::set<unsigned int> held;
+        for (const NamedFace &face : mesh.faces)
+          if (face.boundary == Boundary::support)
+            held.insert(first_of_piece(face.cell));
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (held.count(first_of_piece(c)) == 0)
+            refuse_piece(c);
+      }
+
+      [[noreturn]] void refuse_piece(const unsigned int cell)
+      {
+        const unsigned int piece = first_of_piece(cell);
+        std::vector<bool>  is_of_piece(mesh.vertices.size(), false), is_of_others = is_of_piece;
+        unsigned int       n = 0;
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          {
+            const bool is_in = first_of_piece(c) == piece;
+            n += is_in;
+            for (const unsigned int v : mesh.cells[c].vertices)
+              (is_in ? is_of_piece : is_of_others)[v] = true;
+          }
+        MeshFile alone;
+        bool     touches = false;
+        for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+          if (is_of_piece[v])
+            {
+              alone.vertices.push_back(mesh.vertices[v]);
+              touches = touches || is_of_others[v];
+            }
+        std::string place;
+        for (unsigned int d = 0; d < 3; ++d)
+          place += std::string(d > 0 ? ", " : "") + "xyz"[d] + " = " + text_in_mm(alone.range(d).begin) +
+                   " to " + text_in_mm(alone.range(d).end);
+        throw TextError(input.hexahedra[cell].line,
+                        "begins a piece of " + std::to_string(n) + (n > 1 ? " hexahedra" : " hexahedron") +
+                          " that has no face named 'support', " + place + " mm: " +
+                          (touches
+                             ? "it hangs on the others by edges or corners only and would turn about them"
+                             : "nothing would hold it") +
+                          "; name what holds it, join it to the others by whole faces, or leave it out");
+      }
+
+      void note(const unsigned int line, const std::string &what)
+      {
+        mesh.doubts.push_back("'" + mesh.file + "' " + TextError(line, what).what());
+      }
+
+      void note_doubts()
+      {
+        for (const std::string &doubt : input.doubts)
+          note(0, doubt);
+        if (input.passed_over.empty())
+          return;
+        constexpr std::size_t most = 12;
+        std::string           names;
+        for (std::size_t i = 0; i < std::min(most, input.passed_over.size()); ++i)
+          names += (i > 0 ? ", " : "") + input.passed_over[i].first + " (line " +
+                   std::to_string(input.passed_over[i].second) + ")";
+        if (input.passed_over.size() > most)
+          names += " and " + std::to_string(input.passed_over.size() - most) + " more";
+        note(0,
+             "is read for its cells and the names of its faces alone; material, loads, what is held and all "
+             "else are those of the scene. Passed over: " +
+               names);
+      }
+
       struct Found
       {
-        FaceKey      around; ///< counter-clockwise from outside
-        unsigned int cell;
+        FaceKey      around;       ///< counter-clockwise from outside
+        unsigned int cell, number; ///< of the face among the cell's
         bool         is_boundary;
         unsigned int line; ///< of the cell
       };
@@ -377,13 +521,16 @@ namespace tread
                " so, by a physical surface (Gmsh) or a set; it has " + (names.empty() ? "no names" : names));
       }
 
-      const MeshInput               &input;
-      std::map<long, unsigned int>   place_of; // of a node, by its number
-      std::vector<long>              numbers;  // and back
-      std::vector<bool>              is_used;
-      std::map<FaceKey, Found>       faces;
-      std::map<FaceKey, std::string> name_of;
-      std::size_t                    n_named = 0; ///< faces so far
+      const MeshInput                         &input;
+      std::map<long, unsigned int>             place_of; // of a node, by its number
+      std::vector<long>                        numbers;  // and back
+      std::vector<bool>                        is_used;
+      std::map<FaceKey, Found>                 faces;
+      std::map<FaceKey, std::string>           name_of;
+      std::size_t                              n_named = 0; ///< faces so far
+      static constexpr unsigned int            none    = std::numeric_limits<unsigned int>::max();
+      std::vector<std::array<unsigned int, 6>> neighbours; // cells behind the faces of each; or none
+      std::vector<unsigned int> piece_of; // another cell of the same piece; the first one: itself
     };
 
     /// The first line below $MeshFormat has the version, the kind of file and a size.

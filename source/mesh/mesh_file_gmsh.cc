@@ -6,6 +6,7 @@
 #include "mesh_file_words.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -89,6 +90,14 @@ namespace tread
                                 "; at least " + std::to_string(least) + " are needed");
         return found;
       }
+      /// The next line that is not empty stays the next one.
+      bool next_is(const std::string &wanted)
+      {
+        const std::size_t before = at;
+        const bool        found  = next() && text == wanted;
+        at                       = before;
+        return found;
+      }
       unsigned int number() const
       {
         return at;
@@ -113,10 +122,12 @@ namespace tread
 
       MeshInput read()
       {
-        std::set<std::string> seen;
+        static const std::set<std::string> counted{"$PhysicalNames", "$Entities", "$Nodes", "$Elements"};
+        std::set<std::string>              seen;
         while (in.next())
           {
             const std::string section = in.text;
+            n_expected.clear();
             if (section[0] != '$')
               throw TextError(in.number(), "a section's name, such as $Nodes, is missing");
             if (section == "$MeshFormat")
@@ -129,8 +140,11 @@ namespace tread
               is_new ? read_new_nodes() : read_old_nodes();
             else if (section == "$Elements")
               is_new ? read_new_elements() : read_old_elements();
+            else if (section != "$Comments")
+              mesh.pass_over(section, in.number());
             end_of(section.substr(1));
-            seen.insert(section);
+            if (!seen.insert(section).second && counted.count(section) > 0)
+              throw TextError(in.number(), "is the end of a second " + section + ": write one of them");
           }
         for (const std::string section : {"$MeshFormat", "$Nodes", "$Elements"})
           if (seen.count(section) == 0)
@@ -139,13 +153,33 @@ namespace tread
       }
 
     private:
-      /// To the end of a section, of which the rest is of no use.
+      /// To the end of a section. One of which the lines are counted must end here.
       void end_of(const std::string &section)
       {
+        if (!n_expected.empty() && !in.next_is("$End" + section) && in.next() && in.text[0] != '$')
+          throw TextError(in.number(), "goes on with '" + shortened(in.text) + "' where $" + section +
+                                         " should end, which has " + n_expected +
+                                         ": the count is wrong, or the file is damaged");
         while (in.next())
           if (in.text == "$End" + section)
             return;
         throw TextError(0, "ends within $" + section + ": the file is cut off");
+      }
+
+      static std::string shortened(const std::string &text)
+      {
+        constexpr std::size_t most = 40;
+        return text.size() > most ? text.substr(0, most) + "..." : text;
+      }
+
+      /// A number of lines or blocks at the head of a section or of a block. @param of what is counted
+      long count(const std::string &word, const std::string &of)
+      {
+        const long n = whole(word);
+        if (n < 0)
+          throw TextError(in.number(), "'" + word + "' is no number of " + of);
+        n_expected = word + " " + of;
+        return n;
       }
 
       long whole(const std::string &word)
@@ -168,15 +202,15 @@ namespace tread
 
       void read_names()
       {
-        const long n = whole(in.words(1, "PhysicalNames")[0]);
+        const long n = count(in.words(1, "PhysicalNames")[0], "names");
         for (long i = 0; i < n; ++i)
           {
             const auto words = in.words(3, "PhysicalNames");
             const auto begin = in.text.find('"'), end = in.text.rfind('"');
             if (begin == std::string::npos || end == begin)
               throw TextError(in.number(), "has no name in quotation marks");
-            names[{whole(words[0]), whole(words[1])}] = {in.text.substr(begin + 1, end - begin - 1),
-                                                         in.number()};
+            names[{whole(words[0]), std::abs(whole(words[1]))}] = {in.text.substr(begin + 1, end - begin - 1),
+                                                                   in.number()};
           }
       }
 
@@ -186,20 +220,21 @@ namespace tread
         const auto            counts          = in.words(4, "Entities");
         constexpr std::size_t before_groups[] = {4, 7, 7, 7};
         for (unsigned int dimension = 0; dimension < 4; ++dimension)
-          for (long i = 0, n = whole(counts[dimension]); i < n; ++i)
+          for (long i = 0, n = count(counts[dimension], dimension == 3 ? "volumes" : "entities"); i < n; ++i)
             {
               const auto words    = in.words(before_groups[dimension] + 1, "Entities");
               const long n_groups = whole(words[before_groups[dimension]]);
               if (n_groups < 0 || before_groups[dimension] + n_groups >= words.size())
                 throw TextError(in.number(), "has fewer physical groups than it says");
               for (long k = 1; k <= n_groups; ++k)
-                groups_of[{dimension, whole(words[0])}].push_back(whole(words[before_groups[dimension] + k]));
+                groups_of[{dimension, whole(words[0])}].push_back(
+                  std::abs(whole(words[before_groups[dimension] + k]))); // negative: turned over
             }
       }
 
       void read_old_nodes()
       {
-        for (long i = 0, n = whole(in.words(1, "Nodes")[0]); i < n; ++i)
+        for (long i = 0, n = count(in.words(1, "Nodes")[0], "nodes"); i < n; ++i)
           {
             const auto words = in.words(4, "Nodes");
             mesh.add_node(whole(words[0]), {value(words[1]), value(words[2]), value(words[3])}, in.number());
@@ -208,10 +243,11 @@ namespace tread
 
       void read_new_nodes()
       {
-        for (long block = 0, n_blocks = whole(in.words(4, "Nodes")[0]); block < n_blocks; ++block)
+        const long n_blocks = count(in.words(4, "Nodes")[0], "blocks");
+        for (long block = 0; block < n_blocks; ++block)
           {
             std::vector<long> numbers;
-            for (long i = 0, n = whole(in.words(4, "Nodes")[3]); i < n; ++i)
+            for (long i = 0, n = count(in.words(4, "Nodes")[3], "nodes in its last block"); i < n; ++i)
               numbers.push_back(whole(in.words(1, "Nodes")[0]));
             for (const long number : numbers)
               {
@@ -223,13 +259,13 @@ namespace tread
 
       void read_old_elements()
       {
-        for (long i = 0, n = whole(in.words(1, "Elements")[0]); i < n; ++i)
+        for (long i = 0, n = count(in.words(1, "Elements")[0], "elements"); i < n; ++i)
           {
             const auto words = in.words(4, "Elements");
             const long type = whole(words[1]), n_tags = whole(words[2]);
             if (n_tags < 1 || n_tags + 3 >= static_cast<long>(words.size()))
               throw TextError(in.number(), "has fewer entries than its number of tags says");
-            const long group = whole(words[3]);
+            const long group = std::abs(whole(words[3])); // negative: turned over
             add(type, {words.begin() + 3 + n_tags, words.end()},
                 group == 0 ? std::vector<long>() : std::vector<long>{group});
           }
@@ -237,12 +273,13 @@ namespace tread
 
       void read_new_elements()
       {
-        for (long block = 0, n_blocks = whole(in.words(4, "Elements")[0]); block < n_blocks; ++block)
+        const long n_blocks = count(in.words(4, "Elements")[0], "blocks");
+        for (long block = 0; block < n_blocks; ++block)
           {
             const auto words  = in.words(4, "Elements");
             const long type   = whole(words[2]);
             const auto groups = groups_of[{whole(words[0]), whole(words[1])}];
-            for (long i = 0, n = whole(words[3]); i < n; ++i)
+            for (long i = 0, n = count(words[3], "elements in its last block"); i < n; ++i)
               {
                 const auto entries = in.words(2, "Elements");
                 add(type, {entries.begin() + 1, entries.end()}, groups);
@@ -275,11 +312,22 @@ namespace tread
         for (const long group : groups)
           {
             const auto name = names.find({2, group});
+            if (name == names.end() && has_named_surfaces())
+              throw TextError(in.number(),
+                              "has a physical surface " + std::to_string(group) +
+                                " without a name beside others that have one: name it, or remove it");
             mesh
               .named(name != names.end() ? name->second.first : mesh_words::name_of_number(group),
                      name != names.end() ? name->second.second : in.number())
               .faces.push_back({mesh_words::numbers<4>(words, in.number()), in.number()});
           }
+      }
+
+      /// Without names the numbers 1 to 4 mean boundaries; beside names they may mean anything.
+      bool has_named_surfaces() const
+      {
+        return std::any_of(names.begin(), names.end(),
+                           [](const auto &name) { return name.first.first == 2; });
       }
 
       void note_volume(const long group)
@@ -290,9 +338,10 @@ namespace tread
           mesh.volumes.push_back(name);
       }
 
-      GmshLines                                                     in;
-      MeshInput                                                     mesh;
-      bool                                                          is_new = false;
+      GmshLines   in;
+      MeshInput   mesh;
+      bool        is_new = false;
+      std::string n_expected; // what the section says that it has; empty: its lines are not counted
       std::map<PhysicalGroup, std::pair<std::string, unsigned int>> names; // and their lines
       std::map<PhysicalGroup, std::vector<long>> groups_of; // of an entity by dimension and number
     };

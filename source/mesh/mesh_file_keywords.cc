@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Meshes in files of keywords: Abaqus (.inp) and LS-DYNA (.k). What is no mesh, such as materials and steps,
-// is passed over.
+// Meshes in files of keywords: Abaqus (.inp) and LS-DYNA (.k). What is no mesh and cannot change the answer,
+// such as steps and output, is passed over and named; what would change it is refused.
 #include <tread/base/text_file.h>
 #include <tread/mesh/mesh_file.h>
 
+#include "mesh_file_foreign.h"
 #include "mesh_file_words.h"
 
 #include <algorithm>
@@ -50,15 +51,42 @@ namespace tread
       return text;
     }
 
+    /// Parts of a line between commas that stand in no quotation marks, which are kept.
+    Entries parts_between_commas(const std::string &line)
+    {
+      Entries parts(1);
+      bool    is_quoted = false;
+      for (const char c : line)
+        {
+          is_quoted = is_quoted != (c == '"');
+          if (c == ',' && !is_quoted)
+            parts.emplace_back();
+          else
+            parts.back() += c;
+        }
+      return parts;
+    }
+
+    /// Names may stand in quotation marks.
+    std::string without_quotes(std::string text)
+    {
+      text = mesh_words::trimmed(text);
+      return text.size() > 1 && text.front() == '"' && text.back() == '"'
+               ? mesh_words::trimmed(text.substr(1, text.size() - 2))
+               : text;
+    }
+
     KeywordLine keyword_in(const std::string &line)
     {
-      const Entries words = entries_of(line, ',');
-      KeywordLine   keyword{in_capitals(mesh_words::trimmed(words[0])).substr(1), {}};
+      const Entries words = parts_between_commas(line);
+      KeywordLine   keyword;
+      for (const std::string &word : entries_of(in_capitals(mesh_words::trimmed(words[0])).substr(1), ' '))
+        keyword.name += (keyword.name.empty() ? "" : " ") + word;
       for (std::size_t i = 1; i < words.size(); ++i)
         {
           const auto equals = words[i].find('=');
           keyword.parameters[in_capitals(mesh_words::trimmed(words[i].substr(0, equals)))] =
-            equals == std::string::npos ? "" : mesh_words::trimmed(words[i].substr(equals + 1));
+            equals == std::string::npos ? "" : without_quotes(words[i].substr(equals + 1));
         }
       return keyword;
     }
@@ -74,6 +102,8 @@ namespace tread
     public:
       MeshInput read(const std::vector<std::string> &lines)
       {
+        most_members = 1000 + 100 * lines.size();
+        n_lines      = lines.size();
         for (const std::string &text : lines)
           {
             ++line;
@@ -89,6 +119,7 @@ namespace tread
               take(text);
           }
         check_complete();
+        check_one_material();
         for (const Surface &surface : surfaces)
           add_surface(surface);
         for (const auto &[name, set] : elements_of)
@@ -111,6 +142,13 @@ namespace tread
         std::vector<std::tuple<std::string, std::string, unsigned int>> faces;
       };
 
+      /// A material that a set of elements has.
+      struct Section
+      {
+        std::string  set, material;
+        unsigned int line;
+      };
+
       void check_complete() const
       {
         if (!pending.empty())
@@ -121,9 +159,11 @@ namespace tread
       {
         check_complete();
         keyword = now;
-        for (const char *moves : {"INCLUDE", "SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"})
-          if (now.name == moves)
-            refuse_keyword(line, now.name, "write all nodes and elements with their numbers, in one file");
+        if (const char *instead = mesh_foreign::instead_of(now.name, mesh_foreign::refused_of_abaqus(), true))
+          refuse_keyword(line, now.name, instead);
+        if (!is_read(now.name))
+          return pass_over(now);
+        is_in_block = false;
         if (now.parameters.count("INPUT") > 0)
           refuse_keyword(line, now.name + " with INPUT", "write all in one file");
         if (const std::string system = in_capitals(now.parameter("SYSTEM"));
@@ -148,6 +188,52 @@ namespace tread
           set_of(now.parameter("ELSET"), true);
       }
 
+      static bool is_read(const std::string &name)
+      {
+        static const std::vector<std::string> list{"HEADING",  "NODE",         "ELEMENT",  "NSET",
+                                                   "ELSET",    "SURFACE",      "PART",     "END PART",
+                                                   "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"};
+        return std::find(list.begin(), list.end(), name) != list.end();
+      }
+
+      /// Steps and what stands below a material or the properties of a surface are named by their beginning.
+      void pass_over(const KeywordLine &now)
+      {
+        const auto &list = mesh_foreign::passed_over_of_abaqus();
+        if (is_in_step)
+          return;
+        if (std::find(list.begin(), list.end(), now.name) != list.end())
+          {
+            is_in_block = now.name == "MATERIAL" || now.name == "SURFACE INTERACTION";
+            is_in_step  = now.name == "STEP";
+            mesh.pass_over("*" + now.name, line);
+            if (now.name == "SOLID SECTION")
+              sections.push_back({mesh_words::lower(now.parameter("ELSET")),
+                                  mesh_words::lower(now.parameter("MATERIAL")), line});
+          }
+        else if (!is_in_block)
+          refuse_keyword(line, now.name, mesh_foreign::unknown);
+      }
+
+      /// All hexahedra have the steel of the scene: a mesh of several materials would be another rail.
+      void check_one_material() const
+      {
+        const Section *first = nullptr;
+        for (const Section &section : sections)
+          {
+            const auto set = elements_of.find(section.set);
+            if (set != elements_of.end() &&
+                std::none_of(set->second.members.begin(), set->second.members.end(),
+                             [&](const long number) { return elements.hexahedra.count(number) > 0; }))
+              continue;
+            if (first && first->material != section.material)
+              throw TextError(section.line, "gives the material '" + section.material +
+                                              "' to hexahedra, and line " + std::to_string(first->line) +
+                                              " gives '" + first->material + "': " + mesh_words::one_steel);
+            first = &section;
+          }
+      }
+
       void check_type(const std::string &type)
       {
         const auto begins = [&](const std::string &text) {
@@ -159,8 +245,10 @@ namespace tread
         is_hexahedron    = begins("C3D8");
         is_quadrilateral = is_one_of({"S4", "S4R", "S4RS", "CPS4", "CPS4R", "CPE4", "CPE4R", "M3D4", "M3D4R",
                                       "SFM3D4", "SFM3D4R", "R3D4"});
-        if (is_hexahedron || is_quadrilateral || is_one_of({"T3D2", "B31", "MASS"}))
+        if (is_hexahedron || is_quadrilateral)
           return;
+        if (is_one_of({"T3D2", "B31", "MASS"})) // lines and points of Gmsh
+          return mesh.pass_over("elements of the type " + type, line);
         const bool second = begins("C3D20") || begins("C3D27") || begins("C3D10") || begins("C3D15") ||
                             begins("S8") || begins("CPS8");
         throw TextError(line,
@@ -262,22 +350,41 @@ namespace tread
               throw TextError(line, "has no first and last number of a set");
             const long first = mesh_words::whole(words[0], line), last = mesh_words::whole(words[1], line),
                        step = words.size() > 2 && !words[2].empty() ? mesh_words::whole(words[2], line) : 1;
-            constexpr long most = 10000000;
-            if (step < 1 || last < first || (last - first) / step > most)
+            if (step < 1 || last < first)
               throw TextError(line, "'" + words[0] + "' to '" + words[1] + "' is no range of numbers");
+            if ((last - first) / step >= static_cast<long>(n_lines))
+              throw TextError(line,
+                              "'" + words[0] + "' to '" + words[1] +
+                                "' is a range of more numbers than the file has lines: write the first, "
+                                "the last and the step of those that are there");
             for (long number = first; number <= last; number += step)
-              members.push_back(number);
+              take_member(number, members);
             return;
           }
         for (const std::string &word : words)
           if (!word.empty())
             {
               if (number_in(word))
-                members.push_back(mesh_words::whole(word, line));
+                take_member(mesh_words::whole(word, line), members);
               else
                 for (const long number : of_set(word))
-                  members.push_back(number);
+                  take_member(number, members);
             }
+      }
+
+      /// Sets of sets may grow beyond all memory.
+      void take_member(const long number, std::vector<long> &members)
+      {
+        count_member(line);
+        members.push_back(number);
+      }
+
+      void count_member(const unsigned int at)
+      {
+        if (++n_members > most_members)
+          throw TextError(
+            at, "has sets that name more than a hundred times as many numbers as the file has lines: "
+                "write each number once in a set");
       }
 
       void take_faces(const Entries &words)
@@ -308,7 +415,10 @@ namespace tread
             else
               throw TextError(at, "there is no set '" + of + "'");
             for (const long number : members)
-              add_face(named, number, face, at);
+              {
+                count_member(at);
+                add_face(named, number, face, at);
+              }
           }
       }
 
@@ -354,10 +464,13 @@ namespace tread
       ElementsByNumber           elements;
       std::map<std::string, Set> elements_of;
       std::vector<Surface>       surfaces;
+      std::vector<Section>       sections;
       KeywordLine                keyword;
       Entries                    pending; ///< entries of an element that goes on
       bool                       is_hexahedron = false, is_quadrilateral = false;
+      bool                       is_in_block = false, is_in_step = false; ///< what is passed over
       unsigned int               n_instances = 0, line = 0;
+      std::size_t                n_lines = 0, n_members = 0, most_members = 0; ///< of all sets
     };
 
 
@@ -395,6 +508,7 @@ namespace tread
           }
         if (!first_half.empty())
           throw TextError(line, "ends within an element: the file is cut off");
+        check_numbered_sets();
         for (const auto &[part, quadrilateral] : shells)
           {
             const auto title = titles.find(part);
@@ -406,6 +520,7 @@ namespace tread
         for (const auto &[part, title] : titles)
           if (std::find(parts.begin(), parts.end(), part) != parts.end())
             mesh.volumes.push_back(title.first);
+        check_one_material();
         return std::move(mesh);
       }
 
@@ -414,12 +529,15 @@ namespace tread
       {
         if (!first_half.empty())
           throw TextError(line, "begins within an element: the file is cut off");
-        keyword = now.name;
-        if (keyword.compare(0, 7, "INCLUDE") == 0 || keyword == "NODE_TRANSFORM")
-          refuse_keyword(line, keyword, "write all nodes and elements in one file, where they are");
+        keyword      = now.name;
+        awaits_title = awaits_number = false;
+        name.clear();
         if (keyword.find("LONG=Y") != keyword.npos || in_capitals(now.parameter("LONG")) == "Y" ||
-            (!keyword.empty() && keyword.back() == '+'))
+            keyword.find("I10=Y") != keyword.npos || in_capitals(now.parameter("I10")) == "Y" ||
+            (!keyword.empty() && (keyword.back() == '+' || keyword.back() == '%')))
           refuse_keyword(line, keyword, "write fields of the usual width, or commas");
+        if (!is_read())
+          return refuse_or_pass_over();
         const bool is_set =
           keyword.compare(0, 8, "SET_NODE") == 0 || keyword.compare(0, 11, "SET_SEGMENT") == 0;
         constexpr const char *title     = "_TITLE";
@@ -432,7 +550,65 @@ namespace tread
                          "list the nodes or segments: *SET_NODE_LIST_TITLE, *SET_SEGMENT_TITLE");
         awaits_title  = has_title || keyword == "PART";
         awaits_number = is_set || keyword == "PART";
-        name.clear();
+      }
+
+      bool is_read() const
+      {
+        for (const char *whole : {"NODE", "ELEMENT_SOLID", "ELEMENT_SHELL", "PART"})
+          if (keyword == whole)
+            return true;
+        for (const char *begin : {"KEYWORD", "TITLE", "SET_NODE", "SET_SEGMENT"})
+          if (mesh_foreign::begins_with(keyword, begin))
+            return true;
+        return false;
+      }
+
+      void refuse_or_pass_over()
+      {
+        if (const char *instead =
+              mesh_foreign::instead_of(keyword, mesh_foreign::refused_of_ls_dyna(), false))
+          refuse_keyword(line, keyword, instead);
+        if (mesh_foreign::begins_with(keyword, "CONTACT") && keyword.find("TIE") != keyword.npos)
+          refuse_keyword(line, keyword, mesh_foreign::join_nodes);
+        for (const std::string &begin : mesh_foreign::passed_over_of_ls_dyna())
+          if (mesh_foreign::begins_with(keyword, begin))
+            return mesh.pass_over("*" + keyword, line);
+        refuse_keyword(line, keyword, mesh_foreign::unknown);
+      }
+
+      /// Without titles the numbers 1 to 4 mean boundaries; beside sets with titles they may mean anything.
+      void check_numbered_sets()
+      {
+        if (numbered.empty())
+          return;
+        if (!titled.empty())
+          throw TextError(numbered.front().second,
+                          "has a set " + std::to_string(numbered.front().first) +
+                            " without a title beside '" + titled + "', which has one: is it the boundary '" +
+                            mesh_words::name_of_number(numbered.front().first) +
+                            "'? Give all sets titles (*SET_SEGMENT_TITLE), or remove it");
+        std::string meanings;
+        for (const auto &[number, at] : numbered)
+          meanings += (meanings.empty() ? "" : ", ") + std::to_string(number) + " as '" +
+                      mesh_words::name_of_number(number) + "'";
+        mesh.doubts.push_back("has sets without titles, which are taken by their numbers: " + meanings);
+      }
+
+      /// All hexahedra have the steel of the scene.
+      void check_one_material() const
+      {
+        long first = 0, of_part = 0;
+        for (const long part : parts)
+          if (const auto found = materials.find(part); found != materials.end() && found->second.first != 0)
+            {
+              if (first != 0 && found->second.first != first)
+                throw TextError(found->second.second,
+                                "gives the material " + std::to_string(found->second.first) +
+                                  " to hexahedra, and part " + std::to_string(of_part) + " has " +
+                                  std::to_string(first) + ": " + mesh_words::one_steel);
+              first   = found->second.first;
+              of_part = part;
+            }
       }
 
       void take(const std::string &text)
@@ -445,7 +621,7 @@ namespace tread
         else if (awaits_number)
           take_number(text);
         else if (keyword == "NODE")
-          take_node(fields_of(text, {8, 16, 16, 16}));
+          take_node(fields_of(text, {8, 16, 16, 16, 8, 8}));
         else if (keyword == "ELEMENT_SOLID")
           take_solid(text);
         else if (keyword == "ELEMENT_SHELL")
@@ -479,14 +655,23 @@ namespace tread
       /// The number of a set or of a part, on the line behind its title.
       void take_number(const std::string &text)
       {
-        const Entries words = fields_of(text, {10});
+        const Entries words = fields_of(text, {10, 10, 10});
         require_entries(words, 1, "a set or a part");
         const long number = mesh_words::whole(words[0], line);
-        awaits_number     = false;
+        awaits_number     = keyword == "PART";
         if (keyword == "PART")
-          titles[number] = {name.empty() ? std::to_string(number) : name, line};
+          {
+            titles[number] = {name.empty() ? std::to_string(number) : name, line};
+            if (words.size() > 2 && !words[2].empty())
+              materials[number] = {mesh_words::whole(words[2], line), line};
+            awaits_title = true; // parts may follow each other
+          }
         else
           {
+            if (name.empty())
+              numbered.emplace_back(number, line);
+            else
+              titled = name;
             name = name.empty() ? mesh_words::name_of_number(number) : name;
             mesh.named(name, line);
           }
@@ -499,6 +684,9 @@ namespace tread
                       {mesh_words::value(words[1], line), mesh_words::value(words[2], line),
                        mesh_words::value(words[3], line)},
                       line);
+        for (std::size_t i = 4; i < words.size(); ++i)
+          if (!words[i].empty() && mesh_words::value(words[i], line) != 0.)
+            mesh.pass_over("constraints of nodes", line);
       }
 
       /// All on one line, or the nodes on a second one.
@@ -523,13 +711,16 @@ namespace tread
 
       MeshInput                                              mesh;
       ElementsByNumber                                       elements;
-      std::vector<std::pair<long, MeshInput::Quadrilateral>> shells; // and their parts
-      std::vector<long>                                      parts;  // of hexahedra
-      std::map<long, std::pair<std::string, unsigned int>>   titles; // of parts, and their lines
-      std::string                                            keyword, name;
-      Entries                                                first_half; // number and part of a solid
-      bool                                                   awaits_title = false, awaits_number = false;
-      unsigned int                                           line = 0;
+      std::vector<std::pair<long, MeshInput::Quadrilateral>> shells;    // and their parts
+      std::vector<long>                                      parts;     // of hexahedra
+      std::map<long, std::pair<std::string, unsigned int>>   titles;    // of parts, and their lines
+      std::map<long, std::pair<long, unsigned int>>          materials; // of parts, and their lines
+      std::vector<std::pair<long, unsigned int>> numbered; // sets without a title, and their lines
+      std::string                                titled;   // a set with one
+      std::string                                keyword, name;
+      Entries                                    first_half; // number and part of a solid
+      bool                                       awaits_title = false, awaits_number = false;
+      unsigned int                               line = 0;
     };
   } // namespace
 

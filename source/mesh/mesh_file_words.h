@@ -18,6 +18,10 @@ namespace tread::mesh_words
   inline constexpr const char *make_first_order =
     "only hexahedra with 8 nodes are read; mesh with first order (Gmsh: Mesh.ElementOrder = 1)";
 
+  inline constexpr const char *one_steel = "the whole rail has the steel of section 'Rail'; leave out what "
+                                           "is of another one, or give all hexahedra the "
+                                           "same";
+
   inline std::string trimmed(const std::string &text)
   {
     const auto begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");

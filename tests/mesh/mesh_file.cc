@@ -160,12 +160,6 @@ namespace
       }
   }
 
-  /// Texts of a file with one place changed, and words of the line that refuses it.
-  struct Fault
-  {
-    std::string name, file, from, to, words;
-  };
-
   std::string replaced(std::string text, const std::string &from, const std::string &to)
   {
     const auto at = text.find(from);
@@ -173,6 +167,18 @@ namespace
       throw std::logic_error("the text has no '" + from + "'");
     return text.replace(at, from.size(), to);
   }
+
+  /// A further part behind the last one, below the same keyword.
+  std::string with_third_part(const std::string &text)
+  {
+    return replaced(text, "*ELEMENT_SOLID", "pad\n         3         1         8\n*ELEMENT_SOLID");
+  }
+
+  /// Texts of a file with one place changed, and words of the line that refuses it.
+  struct Fault
+  {
+    std::string name, file, from, to, words;
+  };
 
   void check_refused(tests::Check &check, const tests::TemporaryFolder &folder)
   {
@@ -201,7 +207,8 @@ namespace
       {"no support", old, "\"support\"", "\"free\"",
        "has no faces named 'support': name the faces that are held so, by a physical surface (Gmsh) or a "
        "set; it has 'contact', 'free'"},
-      {"unknown number", old, "2 3 2 1 1 7 8 11 10", "2 3 2 55 1 7 8 11 10", "'55' is no name"},
+      {"number without a name beside names", old, "2 3 2 1 1 7 8 11 10", "2 3 2 55 1 7 8 11 10",
+       "physical surface 55 without a name"},
       {"face within", old, "6 3 2 3 3 1 4 10 7", "6 3 2 3 3 2 5 11 8",
        "line 34: has a face of 'end' that is between two hexahedra"},
       {"face of nothing", old, "6 3 2 3 3 1 4 10 7", "6 3 2 3 3 1 4 11 8", "no face of a hexahedron"},
@@ -237,6 +244,75 @@ namespace
        "the set 'end' has hexahedra"},
       {"Abaqus: set that is not there", inp, "*Elset, elset=end\n11", "*Elset, elset=end\nends, 11",
        "names the set 'ends', which is not there yet"},
+      {"longer than its count: nodes", old, "$Nodes\n12\n", "$Nodes\n11\n",
+       "line 25: goes on with '12 20 5 0' where $Nodes should end, which has 11 nodes"},
+      {"longer than its count: elements", old, "$Elements\n9\n", "$Elements\n8\n",
+       "where $Elements should end, which has 8 elements"},
+      {"longer than its count: names", old, "$PhysicalNames\n5\n", "$PhysicalNames\n4\n",
+       "where $PhysicalNames should end, which has 4 names"},
+      {"longer than its count: a block of nodes", now, "$Nodes\n2 12 1 12", "$Nodes\n1 12 1 12",
+       "where $Nodes should end"},
+      {"longer than its count: blocks of elements", now, "$Elements\n6 9 1 9", "$Elements\n5 9 1 9",
+       "where $Elements should end"},
+      {"longer than its count: entities", now, "1 1 4 1\n", "1 1 4 0\n", "where $Entities should end"},
+      {"negative count", old, "$Elements\n9\n", "$Elements\n-9\n", "'-9' is no number of elements"},
+      {"section twice", old, "$Elements\n9\n", "$Nodes\n0\n$EndNodes\n$Elements\n9\n", "a second $Nodes"},
+      {"far away", old, "10 -5 -10", "1e300 -5 -10", "line 15: node 2 lies more than 1000 km"},
+      {"Abaqus: more numbers than lines", inp, "1,6,1", "1,6000000000,1",
+       "'1' to '6000000000' is a range of more numbers than the file has lines"},
+      {"Abaqus: sets of sets of sets", inp, "*Elset, elset=all, generate\n1,2,1\n",
+       "*Elset, elset=all, generate\n1,2,1\n*Elset, elset=b\nall,all,all,all,all,all,all,all,all,all\n"
+       "*Elset, elset=c\nb,b,b,b,b,b,b,b,b,b\n*Elset, elset=d\nc,c,c,c,c,c,c,c,c,c\n*Elset, elset=e\n"
+       "d,d,d,d,d,d,d,d,d,d\n",
+       "more than a hundred times as many numbers as the file has lines"},
+      {"Abaqus: tied pieces", inp, "*Material, name=steel", "*Tie, name=a\nfoot, head",
+       "line 33: *TIE is not read: pieces hang together by common nodes only"},
+      {"Abaqus: equation", inp, "*Material, name=steel", "*Equation", "*EQUATION is not read"},
+      {"Abaqus: several nodes as one", inp, "*Material, name=steel", "*MPC", "*MPC is not read"},
+      {"Abaqus: coupling", inp, "*Material, name=steel", "*Coupling, constraint name=a",
+       "*COUPLING is not read"},
+      {"Abaqus: turned axes of nodes", inp, "*Material, name=steel", "*Transform, nset=a",
+       "*TRANSFORM is not read"},
+      {"Abaqus: nodes that are moved", inp, "*Node\n", "*System\n0,0,10\n*Node\n",
+       "line 4: *SYSTEM is not read: write all nodes and elements with their numbers and places in x, y and "
+       "z"},
+      {"Abaqus: blanks in a keyword", inp, "*Node\n", "* node\n1,0,0,0\n*  System\n0,0,10\n*Node\n",
+       "*SYSTEM is not read"},
+      {"Abaqus: copied nodes", inp, "*Material, name=steel", "*Ncopy, change number=100",
+       "*NCOPY is not read"},
+      {"Abaqus: stress at the start", inp, "*Material, name=steel", "*Initial conditions, type=stress",
+       "*INITIAL CONDITIONS is not read: the rail begins without stress"},
+      {"Abaqus: a change in a step", inp, "*Material, name=steel", "*Step\n*Static\n*Model change, remove",
+       "*MODEL CHANGE is not read"},
+      {"Abaqus: springs", inp, "*Material, name=steel", "*Spring, elset=a", "*SPRING is not read"},
+      {"Abaqus: unknown", inp, "*Material, name=steel", "*Porous magic",
+       "*POROUS MAGIC is not read: it is not known here and may change the answer"},
+      {"Abaqus: two materials", inp, "*Material, name=steel",
+       "*Elset, elset=first\n1\n*Solid section, elset=first, material=steel\n*Elset, "
+       "elset=second\n2\n*Solid section, elset=second, material=\"Rubber, soft\"\n*Material, name=steel",
+       "gives the material 'rubber, soft' to hexahedra, and line 35 gives 'steel': the whole rail has the "
+       "steel of "
+       "section 'Rail'"},
+      {"LS-DYNA: tied nodes", k, "*MAT_ELASTIC", "*CONSTRAINED_NODE_SET",
+       "*CONSTRAINED_NODE_SET is not read"},
+      {"LS-DYNA: tied surfaces", k, "*MAT_ELASTIC", "*CONTACT_TIED_SURFACE_TO_SURFACE_ID",
+       "is not read: pieces"},
+      {"LS-DYNA: surfaces that are glued", k, "*MAT_ELASTIC",
+       "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK", "is not read: pieces"},
+      {"LS-DYNA: transformation", k, "*MAT_ELASTIC", "*DEFINE_TRANSFORMATION",
+       "*DEFINE_TRANSFORMATION is not read"},
+      {"LS-DYNA: moved nodes", k, "*MAT_ELASTIC", "*NODE_TRANSFORM", "*NODE_TRANSFORM is not read"},
+      {"LS-DYNA: moved file", k, "*MAT_ELASTIC", "*INCLUDE_TRANSFORM", "*INCLUDE_TRANSFORM is not read"},
+      {"LS-DYNA: stress at the start", k, "*MAT_ELASTIC", "*INITIAL_STRESS_SOLID",
+       "the rail begins without stress"},
+      {"LS-DYNA: springs", k, "*MAT_ELASTIC", "*ELEMENT_DISCRETE", "*ELEMENT_DISCRETE is not read"},
+      {"LS-DYNA: unknown", k, "*MAT_ELASTIC", "*MAGIC", "*MAGIC is not read: it is not known here"},
+      {"LS-DYNA: fields of ten", k, "*KEYWORD", "*KEYWORD I10=Y", "write fields of the usual width"},
+      {"LS-DYNA: two materials", k, "       2       1\n       2       3",
+       "       2       3\n       2       3",
+       "gives the material 8 to hexahedra, and part 1 has 1: the whole rail has the steel"},
+      {"LS-DYNA: set without a title beside others", k, "*SET_SEGMENT_TITLE\nsymmetry\n", "*SET_SEGMENT\n",
+       "has a set 4 without a title beside 'support', which has one: is it the boundary 'symmetry'?"},
       {"LS-DYNA: another file", k, "*MAT_ELASTIC", "*INCLUDE\n", "*INCLUDE is not read"},
       {"LS-DYNA: wide fields", k, "*KEYWORD", "*KEYWORD LONG=Y", "is not read"},
       {"LS-DYNA: generated set", k, "*SET_NODE_LIST_TITLE", "*SET_NODE_GENERAL_TITLE", "list the nodes"},
@@ -246,7 +322,7 @@ namespace
     const std::map<std::string, std::string> texts{{old, gmsh_old()},
                                                    {now, gmsh_new()},
                                                    {inp, abaqus()},
-                                                   {k, ls_dyna()}};
+                                                   {k, with_third_part(ls_dyna())}};
     for (const Fault &fault : faults)
       {
         const std::string file =
@@ -271,6 +347,160 @@ namespace
       tests::complaint<InputError>([&] { read_mesh_file(folder.write("apart.msh", apart), 1e-3); });
     check.that("nodes at one place: \"" + text + "\"",
                text.find("nodes 2 and 22 lie at one place, 10, -5, -10 mm") != text.npos);
+  }
+
+  std::string refusal_of(const tests::TemporaryFolder &folder, const std::string &text)
+  {
+    return tests::complaint<InputError>([&] { read_mesh_file(folder.write("refused.msh", text), 1e-3); });
+  }
+
+  /// A block of cells of 10 mm with nodes from a number on: contact, and support where it is held.
+  struct Blocks
+  {
+    std::string  nodes, cells, faces;
+    unsigned int n_nodes = 0, n_elements = 0;
+
+    void add(const double x, const double y, const double z, const double edge, const bool is_held)
+    {
+      const unsigned int first = n_nodes + 1;
+      for (unsigned int v = 0; v < 8; ++v)
+        nodes += std::to_string(++n_nodes) + " " + std::to_string(x + (v & 1u ? edge : 0.)) + " " +
+                 std::to_string(y + (v & 2u ? edge : 0.)) + " " + std::to_string(z + (v & 4u ? edge : 0.)) +
+                 "\n";
+      const auto element = [&](const std::string &kind, const std::vector<unsigned int> &corners) {
+        std::string text = std::to_string(++n_elements) + " " + kind;
+        for (const unsigned int v : corners)
+          text += " " + std::to_string(first + v);
+        return text + "\n";
+      };
+      cells += element("5 2 9 9", {0, 1, 3, 2, 4, 5, 7, 6});
+      faces += element("3 2 1 1", {4, 5, 7, 6});
+      if (is_held)
+        faces += element("3 2 2 2", {0, 1, 3, 2});
+    }
+
+    std::string text() const
+    {
+      return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(n_nodes) + "\n" + nodes +
+             "$EndNodes\n$Elements\n" + std::to_string(n_elements) + "\n" + cells + faces + "$EndElements\n";
+    }
+  };
+
+  /// Pieces that nothing holds, and cells that do not meet face to face.
+  void check_pieces(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    const auto refused = [&](const std::string &what, const Blocks &blocks, const std::string &words) {
+      const std::string said = refusal_of(folder, blocks.text());
+      check.that(what + ": \"" + said + "\"", said.find(words) != said.npos && said.find('\n') == said.npos);
+    };
+    Blocks two;
+    two.add(0., 0., 0., 10., true);
+    two.add(20., 0., 0., 10., false);
+    refused("piece without a support", two,
+            "line 26: begins a piece of 1 hexahedron that has no face named 'support', x = 20 to 30, y = 0 "
+            "to 10, z "
+            "= 0 to 10 mm: nothing would hold it; name what holds it");
+    // The second cube hangs on an edge of the first one.
+    std::string hinged = gmsh_old();
+    hinged             = replaced(hinged, "9 5 2 7 7 2 3 6 5 8 9 12 11", "9 5 2 7 7 8 21 22 11 23 24 25 26");
+    hinged             = replaced(hinged, "3 3 2 1 1 8 9 12 11\n4 3 2 2 2 1 2 5 4\n5 3 2 2 2 2 3 6 5\n",
+                                  "3 3 2 1 1 23 24 25 26\n4 3 2 2 2 1 2 5 4\n");
+    hinged             = replaced(hinged, "$Elements\n9\n", "$Elements\n8\n");
+    hinged             = replaced(hinged, "3 20 -5 -10\n", "");
+    hinged             = replaced(hinged, "6 20 5 -10\n", "");
+    hinged             = replaced(hinged, "9 20 -5 0\n", "");
+    hinged             = replaced(hinged, "12 20 5 0\n",
+                                  "21 20 -5 0\n22 20 5 0\n23 10 -5 10\n24 20 -5 10\n25 20 5 10\n26 10 5 10\n");
+    hinged             = replaced(hinged, "$Nodes\n12\n", "$Nodes\n14\n");
+    const std::string said = refusal_of(folder, hinged);
+    check.that("piece that hangs on an edge: \"" + said + "\"",
+               said.find("it hangs on the others by edges or corners only") != said.npos);
+
+    // Four small cubes against a large one: their inner nodes lie on its face.
+    Blocks torn;
+    torn.add(0., 0., 0., 10., true);
+    torn.add(10., 2., 2., 5., true);
+    refused("small faces against a large one", torn,
+            "line 14: node 9 at 10, 2, 2 mm lies on a face or an edge of the hexahedron of line 25 and is no "
+            "node of "
+            "it: the mesh is torn there");
+    Blocks on_edge;
+    on_edge.add(0., 0., 0., 10., true);
+    on_edge.add(10., 10., 2.5, 5., true);
+    refused("node on an edge", on_edge, "lies on a face or an edge of the hexahedron of line 25");
+    Blocks within;
+    within.add(0., 0., 0., 10., true);
+    within.add(7., 3., 3., 10., true);
+    refused(
+      "pieces in each other", within,
+      "node 9 at 7, 3, 3 mm lies within the hexahedron of line 25 and is no node of it: pieces lie in each "
+      "other");
+    // Near it there may be a gap, or a tear.
+    for (const double gap : {0.2, 0.6})
+      {
+        Blocks apart;
+        apart.add(0., 0., 0., 10., true);
+        apart.add(10. + gap, 2., 2., 5., true);
+        const MeshFile mesh   = read_mesh_file(folder.write("gap.msh", apart.text()), 1e-3);
+        std::string    doubts = mesh.doubts.empty() ? "" : mesh.doubts.front();
+        check.that("gap: \"" + doubts + "\"",
+                   gap < 0.5
+                     ? doubts.find("node 9 at 10.2, 2, 2 mm and 3 others lie up to 0.2 mm beside hexahedra "
+                                   "that are not joined to them") != doubts.npos
+                     : mesh.doubts.empty());
+      }
+  }
+
+  /// What is passed over is named once, and names and numbers that may be meant otherwise are read right.
+  void check_named(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    const auto doubts_of = [&](const std::string &name, const std::string &text) {
+      std::string all;
+      for (const std::string &doubt : read_mesh_file(folder.write(name, text), 1e-3).doubts)
+        all += doubt + "|";
+      return all;
+    };
+    const auto has = [&](const std::string &what, const std::string &text, const std::string &words) {
+      check.that(what + ": \"" + text + "\"", text.find(words) != text.npos);
+    };
+    check.that("nothing is said of a file without anything else", doubts_of("old.msh", gmsh_old()).empty());
+    has("Abaqus",
+        doubts_of("a.inp",
+                  abaqus() + "*Expansion\n1e-5\n*Boundary\nfoot, 1, 3\n*Step\n*Static\n*End step\n*Step\n"),
+        "a.inp' is read for its cells and the names of its faces alone; material, loads, what is held and "
+        "all else "
+        "are those of the scene. Passed over: *MATERIAL (line 33), *BOUNDARY (line 38), *STEP (line 40)|");
+    std::string k = replaced(ls_dyna(), "*MAT_ELASTIC", "*DATABASE_GLSTAT\n1.\n*MAT_ELASTIC");
+    has("LS-DYNA", doubts_of("a.k", k), "Passed over: *DATABASE_GLSTAT (line 42), *MAT_ELASTIC (line 44)|");
+    has("LS-DYNA: nodes that are held",
+        doubts_of("a.k", replaced(ls_dyna(), "      -10.000000\n", "      -10.000000       7       0\n")),
+        "Passed over: constraints of nodes (line 5), *MAT_ELASTIC");
+    for (const std::string from : {"_TITLE\ncontact", "_TITLE\nsupport", "_TITLE\nsymmetry"})
+      k = replaced(k, from, "");
+    has(
+      "LS-DYNA: sets without titles", doubts_of("a.k", k),
+      "a.k' has sets without titles, which are taken by their numbers: 1 as 'contact', 2 as 'support', 4 as "
+      "'symmetry'|");
+    check.absolute("LS-DYNA: sets without titles: faces",
+                   read_mesh_file(folder.path + "/a.k", 1e-3).faces.size(), 6., 0.);
+    has("Gmsh", doubts_of("old.msh", gmsh_old() + "$Periodic\n0\n$EndPeriodic\n"),
+        "Passed over: $Periodic (line 39)|");
+
+    // Names in quotation marks, with a comma.
+    std::string quoted = replaced(abaqus(), "elset=steel", "elset=\"Steel, R260\"");
+    quoted = replaced(replaced(quoted, "elset=end", "elset=\"End\""), "nset=support", "nset = \"support\"");
+    quoted = replaced(quoted, "elset=all, generate\n1,2,1", "elset=\"a, b\", generate\n1,2,1");
+    quoted = replaced(replaced(quoted, "all, S2", "\"a, b\", S2"), "name=Contact", "name=\"Contact\"");
+    check.absolute("names in quotation marks: faces",
+                   read_mesh_file(folder.write("quoted.inp", quoted), 1e-3).faces.size(), 6., 0.);
+    // Groups of which Gmsh has turned the orientation over.
+    std::string turned     = replaced(gmsh_new(), "5 0 1 1 1 1", "5 0 1 -1 1 1");
+    turned                 = replaced(turned, "5 -10 1 2 0", "5 -10 1 -2 0");
+    const MeshFile new_one = read_mesh_file(folder.write("turned.msh", turned), 1e-3);
+    check.absolute("negative tags of 4.1: faces", new_one.faces.size(), 6., 0.);
+    const MeshFile old_one =
+      read_mesh_file(folder.write("turned.msh", replaced(gmsh_old(), "2 3 2 1 1 7", "2 3 2 -1 1 7")), 1e-3);
+    check.absolute("negative tags of 2.2: faces", old_one.faces.size(), 6., 0.);
   }
 
   /// A cell may list its nodes from any corner: the first edge lies along x, the last along z.
@@ -353,6 +583,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   const tests::TemporaryFolder folder;
   check_formats(check, folder);
   check_refused(check, folder);
+  check_pieces(check, folder);
+  check_named(check, folder);
   check_alignment(check, folder);
   check_body(check);
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tread
@@ -23,15 +24,17 @@ namespace tread
   };
 
   /// Hexahedra of the user's own, checked: all cells have positive volume at all corners, each vertex belongs
-  /// to one, no two vertices lie at one place, and the named faces are on the boundary. Lengths in m.
+  /// to one, no two vertices lie at one place, none lies within a cell or on a face that is not its own, the
+  /// named faces are on the boundary, and each piece has faces of support. Lengths in m.
   struct MeshFile
   {
     std::string                      file;
     std::vector<dealii::Point<3>>    vertices;
     std::vector<dealii::CellData<3>> cells; ///< deal.II's (lexicographic) order, the first edge along x and
                                             ///< the last along z as nearly as the cell's shape allows
-    std::vector<NamedFace>   faces;   ///< contact, support, end, side
-    std::vector<std::string> volumes; ///< names of groups of hexahedra
+    std::vector<NamedFace>   faces;         ///< contact, support, end, side
+    std::vector<std::string> volumes;       ///< names of groups of hexahedra
+    std::vector<std::string> doubts; ///< what the user should know of it: one line each, with the file's name
 
     /// Range of the vertices in a direction.
     struct Range
@@ -43,8 +46,8 @@ namespace tread
 
   /// Read a mesh of Gmsh (.msh, ASCII of the versions 2.2 and 4.1), Abaqus (.inp) or LS-DYNA (.k, .key).
   /// deal.II's GridIn (9.4.1) is not used: it has no names of Gmsh's physical groups, turns cells that are
-  /// inside out and leaves out nodes without a cell in silence, loses surfaces of Abaqus, and knows no LS-DYNA
-  /// and no place in the file.
+  /// inside out and leaves out nodes without a cell in silence, loses surfaces of Abaqus, and knows no
+  /// LS-DYNA and no place in the file.
   /// @param unit of the file's lengths, m
   /// @throws InputError of one line with the place in the file and what to do
   MeshFile read_mesh_file(const std::string &file, const double unit);
@@ -82,11 +85,15 @@ namespace tread
     std::vector<Hexahedron>  hexahedra;
     std::vector<Named>       boundary;
     std::vector<std::string> volumes;
+    /// What was passed over because it cannot change the answer, each name once with its first line.
+    std::vector<std::pair<std::string, unsigned int>> passed_over;
+    std::vector<std::string>                          doubts; ///< one line each, without the file's name
 
     /// The named part, made where there is none yet.
     Named &named(const std::string &name, const unsigned int line);
     /// @throws TextError if the number is taken
     void add_node(const long number, const dealii::Point<3> &place, const unsigned int line);
+    void pass_over(const std::string &name, const unsigned int line);
   };
 
   /// Corners of a hexahedron's face, counter-clockwise seen from outside, as in MeshInput: bottom, top, and
