@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
 #include <tread/base/input_error.h>
 #include <tread/mesh/mesh_rail.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
 
 namespace tread
 {
@@ -79,42 +83,167 @@ namespace tread
 
   namespace
   {
-    /// Mean edge of the cells at the running surface that the fine zones meet.
-    double mean_edge_in(const FineZones &zones, const MeshFile &mesh)
+    /// A cell of the file at the running surface.
+    struct SurfaceCell
     {
-      double       sum = 0.;
-      unsigned int n   = 0;
+      const NamedFace *face;
+      double           edges[3]; ///< mean ones along the path, across and down, m
+      double           low[2], high[2];
+
+      double mean() const
+      {
+        return (edges[0] + edges[1] + edges[2]) / 3.;
+      }
+      dealii::Point<3> middle(const MeshFile &mesh) const
+      {
+        dealii::Point<3> p;
+        for (const unsigned int v : face->vertices)
+          p += 0.25 * mesh.vertices[v];
+        return p;
+      }
+    };
+
+    /// Those of which the faces meet a region. @param is_met function of a SurfaceCell
+    template <typename Function>
+    std::vector<SurfaceCell> surface_cells(const MeshFile &mesh, const Function &is_met)
+    {
+      std::vector<SurfaceCell> cells;
       for (const NamedFace &face : mesh.faces)
         {
-          double low[2], high[2];
+          if (face.boundary != Boundary::contact)
+            continue;
+          SurfaceCell cell{&face, {0., 0., 0.}, {}, {}};
           for (unsigned int d = 0; d < 2; ++d)
             {
-              const auto coordinate = [&](const unsigned int a, const unsigned int b) {
-                return mesh.vertices[a][d] < mesh.vertices[b][d];
-              };
-              low[d] =
-                mesh.vertices[*std::min_element(face.vertices.begin(), face.vertices.end(), coordinate)][d];
-              high[d] =
-                mesh.vertices[*std::max_element(face.vertices.begin(), face.vertices.end(), coordinate)][d];
+              cell.low[d] = cell.high[d] = mesh.vertices[face.vertices[0]][d];
+              for (const unsigned int v : face.vertices)
+                {
+                  cell.low[d]  = std::min(cell.low[d], mesh.vertices[v][d]);
+                  cell.high[d] = std::max(cell.high[d], mesh.vertices[v][d]);
+                }
             }
-          const bool is_met = std::any_of(zones.all().begin(), zones.all().end(), [&](const FineZone &zone) {
-            return high[0] > zone.x_begin && low[0] < zone.x_end &&
-                   high[1] > zone.y_middle - zone.half_width && low[1] < zone.y_middle + zone.half_width;
-          });
-          if (face.boundary != Boundary::contact || !is_met)
-            continue;
           const auto &corners = mesh.cells[face.cell].vertices;
           for (unsigned int v = 0; v < 8; ++v)
             for (unsigned int d = 0; d < 3; ++d)
               if (!(v >> d & 1u))
-                {
-                  sum += mesh.vertices[corners[v]].distance(mesh.vertices[corners[v | 1u << d]]);
-                  ++n;
-                }
+                cell.edges[d] +=
+                  0.25 * mesh.vertices[corners[v]].distance(mesh.vertices[corners[v | 1u << d]]);
+          if (is_met(cell))
+            cells.push_back(cell);
         }
-      return n > 0 ? sum / n : 0.;
+      return cells;
+    }
+
+    double mean_edge(const std::vector<SurfaceCell> &cells)
+    {
+      double sum = 0.;
+      for (const SurfaceCell &cell : cells)
+        sum += cell.mean();
+      return cells.empty() ? 0. : sum / cells.size();
+    }
+
+    /// Mean edge of the cells at the running surface that the fine zones meet.
+    double mean_edge_in(const FineZones &zones, const MeshFile &mesh)
+    {
+      return mean_edge(surface_cells(mesh, [&](const SurfaceCell &cell) {
+        return std::any_of(zones.all().begin(), zones.all().end(), [&](const FineZone &zone) {
+          return cell.high[0] > zone.x_begin && cell.low[0] < zone.x_end &&
+                 cell.high[1] > zone.y_middle - zone.half_width &&
+                 cell.low[1] < zone.y_middle + zone.half_width;
+        });
+      }));
+    }
+
+    /// The cell of which an edge differs most from the mean one, where that is more than by a factor of 1.5
+    /// up, which a patch of ten cells feels, or of 2 down, which costs steps.
+    std::string doubt_about_edges(const MeshFile                 &mesh,
+                                  const std::vector<SurfaceCell> &cells,
+                                  const double                    finest_cell_size)
+    {
+      constexpr double   too_long = 1.5, too_short = 0.5; // of the mean edge
+      constexpr double   tolerance = 1.2;                 // @see refine() of mesh.cc
+      const double       mean      = mean_edge(cells);
+      const SurfaceCell *worst     = nullptr;
+      double             by        = 1.;
+      unsigned int       n         = 0;
+      for (const SurfaceCell &cell : cells)
+        {
+          const auto [least, most] = std::minmax_element(std::begin(cell.edges), std::end(cell.edges));
+          if (*most <= too_long * mean && *least >= too_short * mean)
+            continue;
+          ++n;
+          if (const double now = std::max(*most / (too_long * mean), too_short * mean / *least); now > by)
+            {
+              by    = now;
+              worst = &cell;
+            }
+        }
+      if (!worst)
+        return "";
+      double halved = 1.;
+      while (halved * mean > tolerance * finest_cell_size)
+        halved *= 0.5;
+      const auto in_mm = [&](const double length) {
+        return format("%.3g", 1e3 * length);
+      };
+      const dealii::Point<3> p = worst->middle(mesh);
+      return format(
+        "%u of %zu cells at the running surface under the path have edges unlike the mean one of %s "
+        "mm: that at x = %s, y = %s mm of %s x %s x %s mm (along, across, down) is refined to %s x %s "
+        "x %s mm, where 'Mesh/Finest cell (mm)' is %s; make such cells about as long as wide and high",
+        n, cells.size(), in_mm(mean).c_str(), in_mm(p[0]).c_str(), in_mm(p[1]).c_str(),
+        in_mm(worst->edges[0]).c_str(), in_mm(worst->edges[1]).c_str(), in_mm(worst->edges[2]).c_str(),
+        in_mm(halved * worst->edges[0]).c_str(), in_mm(halved * worst->edges[1]).c_str(),
+        in_mm(halved * worst->edges[2]).c_str(), in_mm(finest_cell_size).c_str());
+    }
+
+    /// Faces side by side of which one is longer than the other away from their common edge.
+    std::string doubt_about_jumps(const MeshFile &mesh, const std::vector<SurfaceCell> &cells)
+    {
+      constexpr double                                                           most = 2.5;
+      std::map<std::pair<unsigned int, unsigned int>, std::pair<double, double>> sides; // shortest, longest
+      for (const SurfaceCell &cell : cells)
+        for (unsigned int v = 0; v < 4; ++v)
+          {
+            const auto &around = cell.face->vertices;
+            const auto  length = [&](const unsigned int from) {
+              return mesh.vertices[around[from % 4]].distance(mesh.vertices[around[(from + 1) % 4]]);
+            };
+            const double away = 0.5 * (length(v + 1) + length(v + 3));
+            auto        &side =
+              sides.try_emplace(std::minmax(around[v], around[(v + 1) % 4]), away, away).first->second;
+            side = {std::min(side.first, away), std::max(side.second, away)};
+          }
+      const auto worst = std::max_element(sides.begin(), sides.end(), [](const auto &a, const auto &b) {
+        return a.second.second * b.second.first < b.second.second * a.second.first;
+      });
+      if (worst == sides.end() || worst->second.second <= most * worst->second.first)
+        return "";
+      const auto &[edge, lengths] = *worst;
+      const auto p                = 0.5 * (mesh.vertices[edge.first] + mesh.vertices[edge.second]);
+      return format(
+        "faces of the running surface side by side at x = %.3g, y = %.3g mm are %.3g and %.3g mm "
+        "long: finest cells differ as they do, and the fitted surface is that of the longer ones; "
+        "let sizes change by less than a factor of %g from face to face",
+        1e3 * p[0], 1e3 * p[1], 1e3 * lengths.second, 1e3 * lengths.first, most);
     }
   } // namespace
+
+
+  std::vector<std::string> MeshRail::doubts_about_cells(const Strip &under_path,
+                                                        const double finest_cell_size) const
+  {
+    const auto               cells = surface_cells(mesh, [&](const SurfaceCell &cell) {
+      return cell.high[0] > under_path.x_begin && cell.low[0] < under_path.x_end &&
+             cell.high[1] > under_path.y_begin && cell.low[1] < under_path.y_end;
+    });
+    std::vector<std::string> doubts;
+    for (const std::string &doubt :
+         {doubt_about_edges(mesh, cells, finest_cell_size), doubt_about_jumps(mesh, cells)})
+      if (!doubt.empty())
+        doubts.push_back("'" + mesh.file + "': " + doubt);
+    return doubts;
+  }
 
 
   Body make_mesh_rail(const std::shared_ptr<const MeshRail> &rail, const FineZones &zones)

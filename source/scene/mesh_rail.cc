@@ -18,6 +18,9 @@ namespace tread
     /// coarse faces: a hundredth of what a loaded contact gives way, m.
     constexpr double round_off_of_fit = 1e-6;
 
+    /// As wide and as long as patches are, about the first contact, m.
+    constexpr double half_patch = 10e-3;
+
     /// Places of the surface that are looked at are so far apart, m.
     constexpr double step_along = 0.5e-3, step_across = 1e-3;
 
@@ -50,16 +53,35 @@ namespace tread
       require_between("wide on its running surface", across.end - across.begin, narrowest_rail, widest_rail);
       require_between("high", up.end - up.begin, lowest_rail, highest_rail);
     }
+
+    /// Add what is doubtful in the cells on the way of patches from x_begin to x_end to what the file's
+    /// reader noted, each as a line about the parameter.
+    void note_doubts_about_cells(MeshRail              &rail,
+                                 const RunningSurfaces &surfaces,
+                                 const double           x_begin,
+                                 const double           x_end,
+                                 const double           start,
+                                 const double           finest_cell_size)
+    {
+      const double y = tread::first_contact(surfaces, start).y;
+      for (const std::string &doubt : rail.doubts_about_cells(
+             {x_begin - half_patch, x_end + half_patch, y - half_patch, y + half_patch}, finest_cell_size))
+        rail.mesh.doubts.push_back(doubt);
+      for (std::string &doubt : rail.mesh.doubts)
+        doubt = "'Rail/Mesh file': " + doubt;
+    }
   } // namespace
 
 
   void Scene::shape_mesh_rail(Shapes &made) const
   {
     rail.check();
-    const double unit = rail.mesh_unit == LengthUnit::millimetre ? 1e-3 : 1.;
+    const double              unit = rail.mesh_unit == LengthUnit::millimetre ? 1e-3 : 1.;
+    std::shared_ptr<MeshRail> own;
     try
       {
-        made.rail_mesh = std::make_shared<const MeshRail>(read_mesh_file(located(rail.mesh_file), unit));
+        own            = std::make_shared<MeshRail>(read_mesh_file(located(rail.mesh_file), unit));
+        made.rail_mesh = own;
         require_size_of_rail(*made.rail_mesh, rail.mesh_unit);
       }
     catch (const InputError &error)
@@ -95,6 +117,8 @@ namespace tread
       const FacetSurface::Facet facet   = mesh->surface.facet(start, on_rail);
       return facet.z + facet.smooth_above - std::abs(y - on_rail);
     };
+    note_doubts_about_cells(*own, made.surfaces, made.path_begin - distance_behind(last_wheel()),
+                            made.path_begin + motion.meshed_distance(), made.path_begin, mesh.finest_cell);
     made.unevenness = unevenness(made);
     if (made.unevenness > 0.)
       made.surfaces.defect = [mesh = made.rail_mesh, top = made.surfaces.rail_top](const double x,
@@ -107,12 +131,10 @@ namespace tread
 
   double Scene::unevenness(const Shapes &made) const
   {
-    // As wide and as long as patches are, about the first contact.
-    constexpr double half_patch = 10e-3;
-    const double     y          = tread::first_contact(made.surfaces, made.path_begin).y,
-                 y_begin        = std::max(-made.surfaces.half_width, y - half_patch),
-                 y_end          = std::min(made.surfaces.half_width, y + half_patch);
-    const auto   known          = made.rail_mesh->surface.along();
+    const double y       = tread::first_contact(made.surfaces, made.path_begin).y,
+                 y_begin = std::max(-made.surfaces.half_width, y - half_patch),
+                 y_end   = std::min(made.surfaces.half_width, y + half_patch);
+    const auto   known   = made.rail_mesh->surface.along();
     const double from  = std::max(known.begin, made.path_begin - distance_behind(last_wheel()) - half_patch),
                  to    = std::min(known.end, made.path_begin + motion.meshed_distance() + half_patch);
     const int n_along  = std::ceil(std::max(0., to - from) / step_along),

@@ -519,6 +519,58 @@ namespace
       }
   }
 
+  /// A flat bar with lines so far apart, in mm: what is said of its cells of the running surface under a path
+  /// along y = 0 from x = 20 to 40 mm, with finest cells of 1 mm.
+  std::string said_of_cells(const std::vector<std::vector<double>> &edges)
+  {
+    dealii::Triangulation<3>         block;
+    std::vector<std::vector<double>> steps  = edges;
+    double                           end[3] = {0., 0., 0.};
+    for (unsigned int d = 0; d < 3; ++d)
+      for (double &step : steps[d])
+        end[d] += step *= 1e-3;
+    dealii::GridGenerator::subdivided_hyper_rectangle(block, steps, Point<3>(0., -0.5 * end[1], -end[2]),
+                                                      Point<3>(end[0], 0.5 * end[1], 0.));
+    MeshFile            file;
+    dealii::SubCellData ignored;
+    file.file                                    = "bar";
+    std::tie(file.vertices, file.cells, ignored) = dealii::GridTools::get_coarse_mesh_description(block);
+    for (unsigned int c = 0; c < file.cells.size(); ++c)
+      {
+        const auto &v = file.cells[c].vertices;
+        if (std::abs(file.vertices[v[4]][2]) < 1e-9)
+          file.faces.push_back({{{v[4], v[5], v[7], v[6]}}, c, Boundary::contact});
+      }
+    std::string all;
+    for (const std::string &doubt : MeshRail(file).doubts_about_cells({0.021, 0.039, -0.009, 0.009}, 1e-3))
+      all += doubt + "|";
+    return all;
+  }
+
+  void check_unlike_cells(tests::Check &check)
+  {
+    const std::vector<double> even(6, 10.);
+    check.that("even cells: nothing is said", said_of_cells({even, even, {10., 10.}}).empty());
+    check.that("cells of 14 x 10 x 9 mm: nothing is said",
+               said_of_cells({std::vector<double>(5, 14.), even, {9., 9.}}).empty());
+    // Their mean edge is 11.67 mm, halved four times to 0.73 mm.
+    const std::string unlike =
+      said_of_cells({std::vector<double>(4, 20.), std::vector<double>(12, 5.), {10., 10.}});
+    check.that(
+      "cells of 20 x 5 x 10 mm: \"" + unlike + "\"",
+      unlike.find("'bar': 4 of 4 cells at the running surface under the path have edges unlike the mean one "
+                  "of 11.7 mm: that at x = ") == 0 &&
+        unlike.find("mm of 20 x 5 x 10 mm (along, across, down) is refined to 1.25 x 0.312 x 0.625 mm, where "
+                    "'Mesh/Finest cell (mm)' is 1;") != unlike.npos);
+    const std::string jump = said_of_cells({{10., 10., 12., 4., 10., 10., 10.}, even, {10., 10.}});
+    check.that("cells of 12 beside 4 mm: \"" + jump + "\"",
+               jump.find("side by side at x = 32, y = ") != jump.npos &&
+                 jump.find("are 12 and 4 mm long") != jump.npos);
+    check.that("the same beyond the path: nothing is said",
+               said_of_cells({{12., 4., 12., 10., 10., 10.}, even, {10., 10.}}).find("side by side") ==
+                 std::string::npos);
+  }
+
   /// A block with a crown of 300 mm on coarse cells of 10 mm, refined about a path.
   void check_body(tests::Check &check)
   {
@@ -587,4 +639,5 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_named(check, folder);
   check_alignment(check, folder);
   check_body(check);
+  check_unlike_cells(check);
 }

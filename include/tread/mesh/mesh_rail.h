@@ -8,6 +8,8 @@
 #include <tread/mesh/mesh_file.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace tread
 {
@@ -22,6 +24,16 @@ namespace tread
 
     /// Of the material below the running surface at x, y, down to the lowest vertex, m.
     double thickness(const double x, const double y) const;
+
+    /// A stretch of the running surface, m.
+    struct Strip
+    {
+      double x_begin, x_end, y_begin, y_end;
+    };
+    /// What the coarse cells at the running surface there become when their mean edge is halved down to the
+    /// finest size: cells that are too long, too short, or of very unlike lengths side by side. One line
+    /// each, with the file's name.
+    std::vector<std::string> doubts_about_cells(const Strip &under_path, const double finest_cell_size) const;
   };
 
   /// The rail with its cells refined about the fine zones. New nodes lie on the straight sides of the coarse
