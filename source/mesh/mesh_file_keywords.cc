@@ -161,6 +161,8 @@ namespace tread
         keyword = now;
         if (const char *instead = mesh_foreign::instead_of(now.name, mesh_foreign::refused_of_abaqus(), true))
           refuse_keyword(line, now.name, instead);
+        if (now.name == "CONTACT PAIR" && now.parameters.count("TIED") > 0)
+          refuse_keyword(line, now.name + " with TIED", mesh_foreign::join_nodes);
         if (!is_read(now.name))
           return pass_over(now);
         is_in_block = false;

@@ -267,6 +267,8 @@ namespace
        "more than a hundred times as many numbers as the file has lines"},
       {"Abaqus: tied pieces", inp, "*Material, name=steel", "*Tie, name=a\nfoot, head",
        "line 33: *TIE is not read: pieces hang together by common nodes only"},
+      {"Abaqus: tied contact", inp, "*Material, name=steel", "*Contact pair, interaction=a, tied",
+       "*CONTACT PAIR with TIED is not read: pieces"},
       {"Abaqus: equation", inp, "*Material, name=steel", "*Equation", "*EQUATION is not read"},
       {"Abaqus: several nodes as one", inp, "*Material, name=steel", "*MPC", "*MPC is not read"},
       {"Abaqus: coupling", inp, "*Material, name=steel", "*Coupling, constraint name=a",
