@@ -513,6 +513,11 @@ namespace tread
       if (!supports)
         {
           system.fix_nodes(mesh.boundary_nodes(rail_body, Boundary::support));
+          if (scene.rail_mesh())
+            {
+              system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::end), 0);
+              system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::side), 1);
+            }
           return;
         }
       system.attach_supports(*supports);

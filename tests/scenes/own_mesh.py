@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Rails from mesh files: a block beside the program's own, in all formats and on cells that lie in any way; a joint; files and parameters that do not fit."""
 
+import csv
 import os
 import sys
 import tempfile
@@ -45,6 +46,22 @@ with tempfile.TemporaryDirectory() as folder:
     for key, allowed in (("normal_force_N", 3e-3), ("longitudinal_force_N", 0.02), ("max_pressure_Pa", 0.01), ("creepage", 2e-3), ("pressure_semi_axis_x_m", 5e-3)):
         check.relative(f"cells that lie in any way: {key}", moved[key], own[key], allowed)
 
+    # Ends are held in --modes as in a run: shear along the path, at c_s / 4h of the bar's height, is a mode of free ends alone.
+    shear_wave, height = 3.2e3, 104e-3  # m/s of steel, m
+    found = {}
+    coarsest = {"Motion/Start (mm)": 0, "Motion/Rolled distance (mm)": 1, "Mesh/Finest cell (mm)": 2.6, "Mesh/Fine half width (mm)": 9.1, "Mesh/Cells per level": 1,
+                "Mesh/Level depth (semi-axes)": 0, "Mesh/Coarsest cell (mm)": 22}
+    for name, held in (("free", False), ("held", True)):
+        rail_mesh.write(rail_mesh.bar(lines(-40., 40., 20.), lines(-20.8, 20.8, 20.8), lines(-1e3 * height, 0., 26.), 300., 0., (held, held)), path(f"{name}.msh"))
+        settings = [*short, *(f"{parameter}={value}" for parameter, value in coarsest.items()), *mesh(f"{name}.msh")]
+        must_end_well(execute([*arguments_of(BLOCK, settings, path(name)), "--modes", "--up-to", "10000"], program=program))
+        with open(os.path.join(path(name), "modes.csv"), encoding="utf-8") as stream:
+            found[name] = [row for row in csv.DictReader(stream) if row["body"] == "track"]
+    along = {name: [float(row["frequency_Hz"]) for row in rows if float(row["longitudinal_share"]) > 0.5] for name, rows in found.items()}
+    print("track modes along the path, Hz:", along)
+    check.that("free ends: shear along the path", any(0.5 < frequency * 4. * height / shear_wave < 1.1 for frequency in along["free"]))
+    check.that("held ends: none", found["held"] and not along["held"])
+
     # A joint: the wheel meets the step with the kink of its path, 47 mrad, and a continuous bar keeps its force.
     coarse = ["Mesh/Finest cell (mm)=2.4", "Mesh/Fine half width (mm)=20", "Motion/Start (mm)=-14", "Motion/Rolled distance (mm)=26", "Output/Write volume=false"]
     joint = run(program, JOINT, path("joint"), coarse)
@@ -67,7 +84,11 @@ with tempfile.TemporaryDirectory() as folder:
         text = file.read()
     rail_mesh.write(rail_mesh.bar(x, lines(-2., 2., 2.), z, 300.), path("narrow.k"))
     rail_mesh.write(rail_mesh.bar(x, [value + 40. for value in y], z, 300.), path("beside.msh"))
+    rail_mesh.write(rail_mesh.bar(x, y, z, 300.), path("tied.inp"))
+    with open(path("tied.inp"), "a", encoding="utf-8") as file:
+        file.write("*TIE, NAME=joint\nfoot, head\n")
     faults = (
+        ([*mesh("tied.inp")], "*TIE is not read: pieces hang together by common nodes only"),
         ([*mesh("same.msh"), "Rail/Mesh unit=m"], "where rails have"),
         ([*mesh("narrow.k")], "wide on its running surface, where rails have 5 to 1000"),
         ([*mesh("beside.msh")], "has no contact surface about y = 0 at x = -6 mm"),
