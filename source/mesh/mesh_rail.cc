@@ -84,7 +84,7 @@ namespace tread
   namespace
   {
     /// A cell of the file at the running surface.
-    struct SurfaceCell
+    struct CoarseSurfaceCell
     {
       const NamedFace *face;
       double           edges[3]; ///< mean ones along the path, across and down, m
@@ -103,16 +103,16 @@ namespace tread
       }
     };
 
-    /// Those of which the faces meet a region. @param is_met function of a SurfaceCell
+    /// Those of which the faces meet a region. @param is_met function of a CoarseSurfaceCell
     template <typename Function>
-    std::vector<SurfaceCell> surface_cells(const MeshFile &mesh, const Function &is_met)
+    std::vector<CoarseSurfaceCell> coarse_surface_cells(const MeshFile &mesh, const Function &is_met)
     {
-      std::vector<SurfaceCell> cells;
+      std::vector<CoarseSurfaceCell> cells;
       for (const NamedFace &face : mesh.faces)
         {
           if (face.boundary != Boundary::contact)
             continue;
-          SurfaceCell cell{&face, {0., 0., 0.}, {}, {}};
+          CoarseSurfaceCell cell{&face, {0., 0., 0.}, {}, {}};
           for (unsigned int d = 0; d < 2; ++d)
             {
               cell.low[d] = cell.high[d] = mesh.vertices[face.vertices[0]][d];
@@ -134,10 +134,10 @@ namespace tread
       return cells;
     }
 
-    double mean_edge(const std::vector<SurfaceCell> &cells)
+    double mean_edge_of(const std::vector<CoarseSurfaceCell> &cells)
     {
       double sum = 0.;
-      for (const SurfaceCell &cell : cells)
+      for (const CoarseSurfaceCell &cell : cells)
         sum += cell.mean();
       return cells.empty() ? 0. : sum / cells.size();
     }
@@ -145,7 +145,7 @@ namespace tread
     /// Mean edge of the cells at the running surface that the fine zones meet.
     double mean_edge_in(const FineZones &zones, const MeshFile &mesh)
     {
-      return mean_edge(surface_cells(mesh, [&](const SurfaceCell &cell) {
+      return mean_edge_of(coarse_surface_cells(mesh, [&](const CoarseSurfaceCell &cell) {
         return std::any_of(zones.all().begin(), zones.all().end(), [&](const FineZone &zone) {
           return cell.high[0] > zone.x_begin && cell.low[0] < zone.x_end &&
                  cell.high[1] > zone.y_middle - zone.half_width &&
@@ -156,17 +156,17 @@ namespace tread
 
     /// The cell of which an edge differs most from the mean one, where that is more than by a factor of 1.5
     /// up, which a patch of ten cells feels, or of 2 down, which costs steps.
-    std::string doubt_about_edges(const MeshFile                 &mesh,
-                                  const std::vector<SurfaceCell> &cells,
-                                  const double                    finest_cell_size)
+    std::string doubt_about_edges(const MeshFile                       &mesh,
+                                  const std::vector<CoarseSurfaceCell> &cells,
+                                  const double                          finest_cell_size)
     {
-      constexpr double   too_long = 1.5, too_short = 0.5; // of the mean edge
-      constexpr double   tolerance = 1.2;                 // @see refine() of mesh.cc
-      const double       mean      = mean_edge(cells);
-      const SurfaceCell *worst     = nullptr;
-      double             by        = 1.;
-      unsigned int       n         = 0;
-      for (const SurfaceCell &cell : cells)
+      constexpr double         too_long = 1.5, too_short = 0.5; // of the mean edge
+      constexpr double         tolerance = 1.2;                 // @see refine() of mesh.cc
+      const double             mean      = mean_edge_of(cells);
+      const CoarseSurfaceCell *worst     = nullptr;
+      double                   by        = 1.;
+      unsigned int             n         = 0;
+      for (const CoarseSurfaceCell &cell : cells)
         {
           const auto [least, most] = std::minmax_element(std::begin(cell.edges), std::end(cell.edges));
           if (*most <= too_long * mean && *least >= too_short * mean)
@@ -198,11 +198,11 @@ namespace tread
     }
 
     /// Faces side by side of which one is longer than the other away from their common edge.
-    std::string doubt_about_jumps(const MeshFile &mesh, const std::vector<SurfaceCell> &cells)
+    std::string doubt_about_jumps(const MeshFile &mesh, const std::vector<CoarseSurfaceCell> &cells)
     {
       constexpr double                                                           most = 2.5;
       std::map<std::pair<unsigned int, unsigned int>, std::pair<double, double>> sides; // shortest, longest
-      for (const SurfaceCell &cell : cells)
+      for (const CoarseSurfaceCell &cell : cells)
         for (unsigned int v = 0; v < 4; ++v)
           {
             const auto &around = cell.face->vertices;
@@ -233,7 +233,7 @@ namespace tread
   std::vector<std::string> MeshRail::doubts_about_cells(const Strip &under_path,
                                                         const double finest_cell_size) const
   {
-    const auto               cells = surface_cells(mesh, [&](const SurfaceCell &cell) {
+    const auto               cells = coarse_surface_cells(mesh, [&](const CoarseSurfaceCell &cell) {
       return cell.high[0] > under_path.x_begin && cell.low[0] < under_path.x_end &&
              cell.high[1] > under_path.y_begin && cell.low[1] < under_path.y_end;
     });
