@@ -386,6 +386,8 @@ namespace tread
                                      narrow_island(), short_memory(), short_way(), unmatched_surface(*this)})
       if (!doubt.empty())
         list.push_back(doubt);
+    if (rail_mesh())
+      list.insert(list.end(), rail_mesh()->mesh.doubts.begin(), rail_mesh()->mesh.doubts.end());
     return list;
   }
 } // namespace tread

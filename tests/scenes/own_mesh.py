@@ -42,7 +42,11 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("bytes of the mesh among the files of the run", files["Rail/Mesh file"]["bytes"], os.path.getsize(path("same.msh")), 0)
     # On cells that lie in any way the contact has other nodes: as far apart as two meshes are.
     rail_mesh.write(rail_mesh.perturbed(x, y, z, 300., 0.15), path("any.inp"))
+    with open(path("any.inp"), "a", encoding="utf-8") as file:
+        file.write("*STEP\n*STATIC\n*END STEP\n")
     moved = run(program, BLOCK, path("any"), [*short, *mesh("any.inp")])
+    check.that("what is passed over is among the warnings", any("'Rail/Mesh file': '" in line and "Passed over: *STEP (line " in line for line in moved["warnings"]))
+    check.that("nothing is said of a mesh alone", not any("Rail/Mesh file" in line for line in same["warnings"]))
     for key, allowed in (("normal_force_N", 3e-3), ("longitudinal_force_N", 0.02), ("max_pressure_Pa", 0.01), ("creepage", 2e-3), ("pressure_semi_axis_x_m", 5e-3)):
         check.relative(f"cells that lie in any way: {key}", moved[key], own[key], allowed)
 
@@ -109,6 +113,9 @@ with tempfile.TemporaryDirectory() as folder:
         said = refusal(JOINT, [*coarse, *settings])
         check.that(f"refused: {said[-1] if said else ''}", any(words in line for line in said))
     warnings = must_end_well(execute([*arguments_of(BLOCK, [*short, *mesh("same.msh"), "Rail/Begin (mm)=-46", "Rail/Profile=60E1"], path("warned")), "--dry-run"], program=program))
+    rail_mesh.write(rail_mesh.bar(lines(-46., 42.6, 26.), lines(-31.2, 31.2, 7.8), z, 300.), path("long.msh"))
+    long = must_end_well(execute([*arguments_of(BLOCK, [*short, *mesh("long.msh")], path("warned")), "--dry-run"], program=program))
+    check.that("long cells are warned of", "cells at the running surface under the path have edges unlike the mean one" in long.stdout + long.stderr)
     for name in ("Rail/Block width (mm)", "Rail/Begin (mm)", "Rail/Margin (mm)", "Rail/Profile"):
         check.that(f"said to have no effect: {name}", f"'{name}' has no effect" in warnings.stdout + warnings.stderr)
 
