@@ -279,8 +279,10 @@ namespace tread
         const double by_s[2] = {a[0] + place.t * twist[0], a[1] + place.t * twist[1]},
                      by_t[2] = {b[0] + place.s * twist[0], b[1] + place.s * twist[1]},
                      area    = by_s[0] * by_t[1] - by_s[1] * by_t[0];
-        const double step_s  = (off[0] * by_t[1] - off[1] * by_t[0]) / area,
-                     step_t  = (by_s[0] * off[1] - by_s[1] * off[0]) / area;
+        if (area == 0.) // where the map folds back
+          break;
+        const double step_s = (off[0] * by_t[1] - off[1] * by_t[0]) / area,
+                     step_t = (by_s[0] * off[1] - by_s[1] * off[0]) / area;
         place.s -= step_s;
         place.t -= step_t;
         if (!(std::abs(step_s) + std::abs(step_t) > 1e-13))

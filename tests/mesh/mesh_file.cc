@@ -521,6 +521,16 @@ namespace
       }
   }
 
+  /// Beside a face that is a trapezoid the search for its coordinates may meet the line where they fold back.
+  void check_beside_trapezoid(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    const MeshRail rail(
+      read_mesh_file(folder.write("trapezoid.msh", replaced(replaced(gmsh_old(), "8 10 -5 0", "8 10 0 0"),
+                                                            "symmetry", "free")),
+                     1e-3));
+    check.below("height beside a trapezoid, mm", 1e3 * std::abs(rail.surface.facet(0.02, -0.003).z), 1e-9);
+  }
+
   /// A flat bar with lines so far apart, in mm: what is said of its cells of the running surface under a path
   /// along y = 0 from x = 20 to 40 mm, with finest cells of 1 mm.
   std::string said_of_cells(const std::vector<std::vector<double>> &edges)
@@ -646,4 +656,5 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_alignment(check, folder);
   check_body(check);
   check_unlike_cells(check);
+  check_beside_trapezoid(check, folder);
 }
