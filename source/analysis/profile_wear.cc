@@ -260,7 +260,9 @@ namespace tread
                                                        : radius_of(answer_of(at_radius(p.radius)));
     const WheelRolling rolling = at_radius(radius);
     const WheelContact whole   = answer_of(rolling);
-    Answer             answer;
+    if (!has_begun && !contact.both_wheels)
+      require_other_wheel_clear(surfaces, whole.position);
+    Answer answer;
     answer.force.assign(rail.size(), 0.);
     const std::vector<double> on_wheel(wheel.size(), 0.);
     answer.rates  = {answer.force, on_wheel, answer.force, on_wheel, answer.force, on_wheel};

@@ -324,6 +324,26 @@ namespace tread
   }
 
 
+  void require_other_wheel_clear(const WheelOnRail &surfaces, const WheelsetPosition &position)
+  {
+    constexpr double deepest = 6e-3; // m, 4 mrad of roll
+    double           gap     = 0.;
+    try
+      {
+        gap = surfaces.nearest(position.mirrored()).gap;
+      }
+    catch (const std::runtime_error &error)
+      {
+        throw std::runtime_error(std::string("the wheelset's other wheel: ") + error.what());
+      }
+    if (gap < -deepest)
+      throw std::runtime_error(
+        format("the wheelset's other wheel would stand %.1f mm deep in its rail there: no track lets a "
+               "wheelset go so far to this side, or the roll is another one",
+               -1e3 * gap));
+  }
+
+
   std::vector<std::string> climbing_patches(const WheelOnRail             &surfaces,
                                             const std::vector<WheelPatch> &patches)
   {

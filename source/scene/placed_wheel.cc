@@ -25,31 +25,6 @@ namespace tread
   } // namespace
 
 
-  namespace
-  {
-    /// Refuses a wheel whose other wheel, on the same axle at the given roll, stands deep in its rail. What a
-    /// roll that is a few milliradians off lets it sink in is no error: only this wheel's rail carries.
-    void require_other_wheel_clear(const WheelOnRail &surfaces, const WheelsetPosition &position)
-    {
-      constexpr double deepest = 6e-3; // m, 4 mrad of roll
-      double           gap     = 0.;
-      try
-        {
-          gap = surfaces.nearest(position.mirrored()).gap;
-        }
-      catch (const std::runtime_error &error)
-        {
-          throw std::runtime_error(std::string("the wheelset's other wheel: ") + error.what());
-        }
-      if (gap < -deepest)
-        throw std::runtime_error(
-          format("the wheelset's other wheel would stand %.1f mm deep in its rail there: no track lets a "
-                 "wheelset go so far to this side, or the roll is another one",
-                 -1e3 * gap));
-    }
-  } // namespace
-
-
   std::vector<PlacedWheel::Side> PlacedWheel::solve(const Scene            &scene,
                                                     const WheelOnRail      &surfaces,
                                                     const WheelsetPosition &position,

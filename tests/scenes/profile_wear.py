@@ -19,9 +19,9 @@ from tread_runner import Check, execute_often, run
 program = sys.argv[1]
 check = Check()
 SCENE = "damage/profile-wear.prm"
-SHORT = {"Profile wear/Passages": 20000, "Profile wear/Wheel turns": 30000, "Profile wear/States": 2, "Damage/Wear coefficient": 1e-3}
+SHORT = {"Profile wear/Passages": 4000, "Profile wear/Wheel turns": 6000, "Profile wear/States": 2, "Damage/Wear coefficient": 1e-3}
 HEAD = "weight,shift_mm,yaw_mrad,load_kN,creepage\n"
-ROWS = ["2,1.2,0.5,105,0.0006\n", "1,-2.5,-1,95,-0.0004\n", "1,5.8,2,100,0.0002\n"]
+ROWS = ["2,1.2,0.5,105,0.0006\n", "1,5.8,2,95,-0.0004\n"]
 
 
 def area(y, z, y_new, z_new):
@@ -43,7 +43,7 @@ with tempfile.TemporaryDirectory() as folder:
     summary = run(program, SCENE, path("wear"), settings, more=["--wear", usual])
 
     # By Coulomb's and Archard's laws what slips loses coefficient over hardness times work over friction.
-    for body, passages in (("rail", 20000), ("wheel", 30000)):
+    for body, passages in (("rail", 4000), ("wheel", 6000)):
         lost = summary[f"{body}_wear_area_by_law_m2"]
         check.relative(f"{body}: area by the law over that by the work", lost, 1e-3 / 2800e6 / 0.3 * summary[f"{body}_friction_work_J_per_m"], 1e-3)
         check.relative(f"{body}: area between the profiles over that by the law", summary[f"{body}_wear_area_m2"], lost, 1e-3)
@@ -51,7 +51,7 @@ with tempfile.TemporaryDirectory() as folder:
         last = points["state_number"] == 2
         y, z, now_y, now_z = (points[name][last] for name in ("y_start_mm", "z_start_mm", "y_mm", "z_mm"))
         check.relative(f"{body}: area of the table's points", abs(area(y, z, now_y, now_z)), 1e6 * lost, 1e-3)
-        check.that(f"{body} loses, and does not grow", (area(y, z, now_y, now_z) < 0) == (body == "wheel"))
+        check.that(f"{body} loses, and does not grow", (area(y, z, now_y, now_z) < 0) == (body == "rail"))
         check.below(f"{body}: depths are distances, mm", np.abs(np.hypot(now_y - y, now_z - z) - points["depth_mm"][last]).max(), 1e-6)
         check.relative(f"{body}: largest depth", 1e-3 * points["depth_mm"].max(), summary[f"{body}_wear_depth_m"], 1e-6)
         lengths = np.hypot(np.diff(now_y), np.diff(now_z)) * 1e-3
@@ -62,7 +62,7 @@ with tempfile.TemporaryDirectory() as folder:
         profile = np.loadtxt(os.path.join(path("wear"), f"worn_{body}_2.csv"), delimiter=",", skiprows=1)
         check.below(f"{body}: its file, mm", np.abs(profile - np.column_stack([now_y, now_z])).max(), 1e-6)
     steps = read_table(os.path.join(path("wear"), "wear_steps.csv"))
-    check.that("steps go up to the end", steps["passages"][0] == 0 and steps["passages"][-1] == 20000 and steps["wheel_turns"][-1] == 30000 and np.all(np.diff(steps["passages"]) > 0))
+    check.that("steps go up to the end", steps["passages"][0] == 0 and steps["passages"][-1] == 4000 and steps["wheel_turns"][-1] == 6000 and np.all(np.diff(steps["passages"]) > 0))
     check.that("a step changes the pressure by what is allowed", steps["change"].max() <= 0.1 and steps["change"].max() > 0.01 and summary["wear_steps"] == len(steps["change"]) - 1)
     for name, key in (("rail_depth_mm", "rail_wear_depth_m"), ("wheel_depth_mm", "wheel_wear_depth_m")):
         check.relative(f"{name} at the end", 1e-3 * steps[name][-1], summary[key], 1e-6)
@@ -95,17 +95,17 @@ with tempfile.TemporaryDirectory() as folder:
             damage = read_table(os.path.join(single, "rail_surface_damage.csv"))
             check.relative(f"state {state}, contact {number}: area that a passage takes", patches["rail_area_mm2"][own].sum(), 1e6 * (damage["wear_depth_m"] * damage["area_m2"]).sum(), 0.01)
             check.relative(f"state {state}, contact {number}: work of a passage is T-gamma", patches["friction_work_J_per_m"][own].sum(), alone["t_gamma_N"], 0.01)
-            loss += float(weight) / 4 * (damage["friction_work_J_per_m2"] * damage["area_m2"]).sum()
+            loss += float(weight) / 3 * (damage["friction_work_J_per_m2"] * damage["area_m2"]).sum()
         check.relative(f"state {state}: mean work of a passage, J/m", steps["friction_work_J_per_m"][0 if state == 0 else -1], loss, 0.01)
     check.relative("largest pressure at the end", summary["max_pressure_Pa"], 1e6 * patches["max_pressure_MPa"][patches["state_number"] == 2].max(), 1e-6)
     check.relative("and at the start", summary["max_pressure_at_start_Pa"], 1e6 * patches["max_pressure_MPa"][patches["state_number"] == 0].max(), 1e-6)
     check.that("worn profiles press less", summary["max_pressure_Pa"] < summary["max_pressure_at_start_Pa"])
 
     # A contact of weight 2 is two of weight 1.
-    quick = [*settings, "Profile wear/Passages=2000", "Profile wear/Wheel turns=0", "Profile wear/States=1"]
+    quick = ["Profile wear/Passages=200", "Profile wear/States=1", "Damage/Wear coefficient=1e-3"]
     split = contacts("split.csv", ["1" + ROWS[0][1:], *ROWS[1:], "1" + ROWS[0][1:]])
     for name, table in (("heavy", usual), ("split", split)):
-        run(program, SCENE, path(name), quick[4:] + [f"Damage/Wear coefficient={SHORT['Damage/Wear coefficient']}"], more=["--wear", table])
+        run(program, SCENE, path(name), quick, more=["--wear", table])
     depths = [read_table(os.path.join(path(name), "rail_wear.csv"))["depth_mm"] for name in ("heavy", "split")]
     check.below("a contact in two halves, relative", np.abs(depths[0] - depths[1]).max() / depths[0].max(), 1e-6)
     kept = read_table(os.path.join(path("heavy"), "wheel_wear.csv"))
@@ -115,7 +115,7 @@ with tempfile.TemporaryDirectory() as folder:
     tables = ("rail_wear.csv", "wheel_wear.csv", "wear_patches.csv", "wear_steps.csv", "worn_1.prm", "worn_rail_2.csv", "worn_2.prm")
     for number, (name, exit_code) in ((signal.SIGKILL, ("killed", -9)), (signal.SIGINT, ("interrupted", 130))):
         process = subprocess.Popen(command([*arguments_of(SCENE, settings, path(name)), "--wear", usual], 1, program), env=environment(), stdout=subprocess.DEVNULL)
-        grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and sum(1 for _ in open(os.path.join(path(name), "wear_steps.csv"), encoding="utf-8")) > 3
+        grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and sum(1 for _ in open(os.path.join(path(name), "wear_steps.csv"), encoding="utf-8")) > 2
         while process.poll() is None and not grown():
             time.sleep(0.02)
         process.send_signal(number)
@@ -132,7 +132,7 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write(b"\0\1\2\3")
     said = execute([*arguments_of(SCENE, settings, path("killed")), "--resume", "--wear", usual], program=program)
     check.that("a damaged checkpoint: one line", said.returncode == 1 and said.stderr.count("\n") == 1 and "damaged" in said.stderr)
-    run(program, SCENE, path("killed"), [*quick[4:], "Damage/Wear coefficient=1e-3"], more=["--wear", usual, "--overwrite"])
+    run(program, SCENE, path("killed"), quick, more=["--wear", usual, "--overwrite"])
     check.that("a new run leaves nothing of the old one", not os.path.exists(os.path.join(path("killed"), "worn_2.prm")))
 
     # Pictures, from Python.
@@ -150,17 +150,18 @@ with tempfile.TemporaryDirectory() as folder:
             ("no law", usual, ["-s", "Damage/Wear law=none"], "'Damage/Wear law' must not be none"),
             ("a hardness below 0", usual, ["-s", "Damage/Hardness (MPa)=-1"], "Hardness"),
             ("nothing that wears", usual, ["-s", "Profile wear/Passages=0", "-s", "Profile wear/Wheel turns=0"], "neither the rail nor the wheel"),
-            ("no friction", usual, ["-s", "Contact/Friction coefficient=0"], "nothing wears"),
+            ("no work", usual, ["-s", "Contact/Friction coefficient=0", "-s", "Damage/Wear law=friction work"], "nothing wears"),
             ("smoothing between the points", usual, ["-s", "Profile wear/Smoothing length (mm)=0.3"], "too short for"),
             ("an upright wheel", usual, ["-s", "Wheelset/Lateral shift (mm)=none"], "--wear"),
             ("two things at once", usual, ["--reference-only"], "--wear excludes"),
-            ("nothing to go on from", usual, ["--resume"], "--resume: there is no"),
-            ("more than a rail has", contacts("6.csv", ["1\n"], "weight\n"), ["-s", "Profile wear/Passages=1e12"], "folds"),
-            ("a wheel that derails", contacts("7.csv", ["90\n"], "shift_mm\n"), [], "contact 1")):
+            ("a wheel that derails", contacts("7.csv", ["90\n"], "shift_mm\n"), [], "the wheelset's other wheel"),
+            ("a map with a gap", usual, ["-s", "Damage/Wear law=Archard map", "-s", "Damage/Map slip speeds (m per s)=0.2", "-s", "Damage/Map wear coefficients=1e-4"], "has 1 numbers; 2 ranges")):
         said = execute_often([*arguments_of(SCENE, [], path("wrong")), "--wear", rows, *more], program)
         check.that(f"{what}: one line", said.returncode in (1, 2) and said.stderr.count("\n") == 1 and words in said.stderr)
         if words not in said.stderr:
             print(said.returncode, said.stderr)
+    said = execute_often([*arguments_of(SCENE, [], path("nowhere")), "--wear", usual, "--resume"], program)
+    check.that("nothing to go on from: one line", said.returncode == 1 and "--resume: there is no" in said.stderr)
     said = execute([*arguments_of(SCENE, [], path("wrong")), "--wear", usual], ranks=2, program=program)
     check.that("two ranks: one line", said.returncode == 1 and "start it on one rank" in said.stderr)
 

@@ -134,6 +134,11 @@ namespace tread
                                  const WheelRolling     &rolling,
                                  const WheelsetPosition &position);
 
+  /// Refuses a wheel whose other wheel, on the same axle at the given roll, stands deep in its rail. What a
+  /// roll that is a few milliradians off lets it sink in is no error: only this wheel's rail carries.
+  /// @throws std::runtime_error, one line
+  void require_other_wheel_clear(const WheelOnRail &surfaces, const WheelsetPosition &position);
+
   /// A line for each patch on the flange beyond its steepest part: the wheel has climbed the rail.
   std::vector<std::string> climbing_patches(const WheelOnRail             &surfaces,
                                             const std::vector<WheelPatch> &patches);
