@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Wear of one passage by finite elements beside that by half-space theory, on profiles at three states of wear. Writes a table.
+"""Wear of one passage by finite elements beside that by half-space theory, on profiles at three states of wear: comparison.csv, with depths as they
+are and smoothed over 2 mm, as profiles wear.
 
     benchmarks/profile-wear.py FOLDER [--program tread] [--cell 0.5] [--ranks 2]
 
@@ -11,6 +12,7 @@ these contacts by finite elements over the profiles of that state, with wear rec
 from __future__ import annotations
 
 import csv
+import math
 import os
 
 import numpy as np
@@ -36,6 +38,14 @@ def across(folder: str, steady: tuple[float, float] | None, places: np.ndarray) 
     return np.interp(places, lines, 1e9 * depth, left=0.0, right=0.0)
 
 
+def smoothed(depth: np.ndarray, spacing: float, length: float) -> np.ndarray:
+    """As the program smooths wear: by a Gaussian that leaves half of waves of this length (mm)."""
+    deviation = length * math.sqrt(0.5 * math.log(2.0)) / math.pi
+    places = np.arange(-math.ceil(4.0 * deviation / spacing), math.ceil(4.0 * deviation / spacing) + 1) * spacing
+    weights = np.exp(-0.5 * (places / deviation) ** 2)
+    return np.convolve(depth, weights / weights.sum(), "same")
+
+
 def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("folder")
@@ -49,7 +59,7 @@ def main() -> None:
     with open(os.path.join(ROOT, CONTACTS), encoding="utf-8") as stream:
         contacts = list(csv.DictReader(line for line in stream if not line.startswith("#")))
     patches = Run(worn).table("wear_patches.csv", ("state_number", "contact", "normal_force_N", "angular_velocity_rad_per_s", "patch_length_mm"))
-    rows = ["passages,contact,shift_mm,half_space_depth_nm,finite_elements_depth_nm,largest_difference_percent,area_difference_percent,seconds"]
+    rows = ["passages,contact,shift_mm,half_space_depth_nm,finite_elements_depth_nm,largest_difference_percent,smoothed_difference_percent,area_difference_percent,seconds"]
     for state in (0, 1, 2):
         scene = os.path.join(worn, f"worn_{state}.prm") if state else os.path.join(ROOT, SCENE)
         for number in map(int, arguments.contacts.split(",")):
@@ -68,7 +78,9 @@ def main() -> None:
             places = np.linspace(-45.0, 45.0, 3601)
             behind = -0.75 * patches["patch_length_mm"][main_patch]  # mm; the wheel ends at 0, and all of the patch has passed there
             exact, found = across(folder + "-half-space", None, places), across(folder, (behind - STEADY, behind), places)
+            soft = [smoothed(depth, places[1] - places[0], 2.0) for depth in (exact, found)]
             rows.append(f"{state * 50000},{number},{contact['shift_mm']},{exact.max():.4g},{found.max():.4g},{100.0 * np.abs(found - exact).max() / exact.max():.2f},"
+                        f"{100.0 * np.abs(soft[1] - soft[0]).max() / soft[0].max():.2f},"
                         f"{100.0 * (found.sum() / exact.sum() - 1.0):.2f},{run.summary['wall_s']:.1f}")
             print(rows[-1], flush=True)
     with open(os.path.join(arguments.folder, "comparison.csv"), "w", encoding="utf-8") as stream:

@@ -138,9 +138,8 @@ namespace
       }
     line.points.is_over_shift = std::any_of(over_shift.begin(), over_shift.end(),
                                             [](const CLI::Option *option) { return option->count() > 0; });
-    tread::require(line.wear.empty() ||
-                     !(line.reference_only || line.modes.wanted || line.points.wanted || line.dry_run),
-                   "--wear excludes --reference-only, --modes, --contact-points and --dry-run");
+    tread::require(line.wear.empty() || !(line.reference_only || line.modes.wanted || line.points.wanted),
+                   "--wear excludes --reference-only, --modes and --contact-points");
     if (!line.print_parameters.empty() && line.print_parameters != "prm" && line.print_parameters != "json")
       throw tread::InputError("--print-parameters cannot be '" + line.print_parameters +
                               "'; allowed: prm, json");
@@ -255,6 +254,11 @@ namespace
     if (!line.wear.empty())
       {
         scene.damage.record = true; // that is what it is about
+        if (line.dry_run)
+          {
+            tread::estimate_profile_wear(scene, line.wear, comm);
+            return 0;
+          }
         return tread::write_profile_wear(scene, line.wear, folder_of("-wear"), line.resume, comm) ? 0 : 130;
       }
     if (line.reference_only)

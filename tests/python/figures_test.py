@@ -21,7 +21,7 @@ from tread.patches import Patch
 from tread.runs import Run
 
 try:
-    from tread.pictures import contact_points, damage, impact, mesh, patch as patch_pictures, plastic
+    from tread.pictures import contact_points, damage, impact, mesh, patch as patch_pictures, plastic, profile_wear
 except ImportError:  # without matplotlib
     impact = None
 
@@ -431,6 +431,11 @@ class Pictured(InFolder):
         self.assertEqual(damage.near_the_most_loaded(table)["y_mm"].tolist(), [-1500., -1490.])
         table["friction_work_J_per_m2"][2] = 10.
         self.assertEqual(damage.near_the_most_loaded(table)["friction_work_J_per_m2"].tolist(), [10., 1.])
+
+    def test_wear_is_drawn_larger(self):
+        # A sixth of 36 mm is 6 mm.
+        for depth, factor in ((0.0, 1), (0.05, 100), (0.07, 50), (0.5, 10), (2.0, 2), (9.0, 1)):
+            self.assertEqual(profile_wear.exaggeration(depth, 36.0), factor)
 
     def test_mesh_of_a_bar(self):
         self.assertEqual(rail_mesh.even_lines(0., 10., 3.), [0., 2.5, 5., 7.5, 10.])

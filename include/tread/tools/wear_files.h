@@ -32,6 +32,9 @@ namespace tread
                           const std::string &path,
                           bool               goes_on,
                           MPI_Comm           comm);
+
+  /// Print how long a step of this takes; write nothing. @throws as above
+  void estimate_profile_wear(const Scene &scene, const std::string &contacts, MPI_Comm comm);
 } // namespace tread
 
 #endif
