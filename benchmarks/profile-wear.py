@@ -35,7 +35,9 @@ def across(folder: str, steady: tuple[float, float] | None, places: np.ndarray) 
     y = np.round(table["y_mm"][rows], 5)
     lines, number = np.unique(y, return_inverse=True)
     depth = np.bincount(number, table["wear_depth_m"][rows]) / np.bincount(number)
-    return np.interp(places, lines, 1e9 * depth, left=0.0, right=0.0)
+    # To nought over as much as lies between lines, as the program has it.
+    lines = np.concatenate([[2 * lines[0] - lines[1]], lines, [2 * lines[-1] - lines[-2]]])
+    return np.interp(places, lines, np.concatenate([[0.0], 1e9 * depth, [0.0]]))
 
 
 def smoothed(depth: np.ndarray, spacing: float, length: float) -> np.ndarray:
