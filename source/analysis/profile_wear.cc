@@ -410,8 +410,21 @@ namespace tread
         const std::vector<double> rail_first = first(rail_profile, &Rates::rail_area, &Rates::rail_yielding),
                                   wheel_first =
                                     first(wheel_profile, &Rates::wheel_area, &Rates::wheel_yielding);
-        const Block      middle      = solve(wheel_profile.without(times(taken, wheel_first)),
-                                             rail_profile.without(times(taken, rail_first)));
+        Block middle;
+        try
+          {
+            middle = solve(wheel_profile.without(times(taken, wheel_first)),
+                           rail_profile.without(times(taken, rail_first)));
+          }
+        catch (const std::runtime_error &)
+          {
+            if (taken <= least)
+              throw;
+            constexpr double shorter = 0.25; // after which a contact may have an answer again
+            taken                    = std::max(least, shorter * taken);
+            ++refused;
+            continue;
+          }
         const double     changed     = change(last, middle);
         const bool       is_too_much = changed > p.change;
         constexpr double safety = 0.8, shortest = 0.2, longest = 2.;

@@ -112,7 +112,8 @@ namespace tread
       }
     constexpr double least = 1. / 3.;
     for (std::size_t k = 1; k < now.size(); ++k)
-      if (after.now[k].distance(after.now[k - 1]) < least * start[k].distance(start[k - 1]))
+      if (const dealii::Tensor<1, 2> before = now[k] - now[k - 1], behind = after.now[k] - after.now[k - 1];
+          behind * before < least * start[k].distance(start[k - 1]) * before.norm())
         throw std::runtime_error(format(
           "the profile folds where it wears, at y = %.2f mm: its points come too near to each other; wear "
           "fewer passages, or keep points at a larger distance",
@@ -132,13 +133,16 @@ namespace tread
 
   double WornProfile::lost_area() const
   {
-    const auto cross = [](const dealii::Point<2> &a, const dealii::Point<2> &b) {
+    // Both triangles of the four points, about the first of them.
+    const auto cross = [](const dealii::Tensor<1, 2> &a, const dealii::Tensor<1, 2> &b) {
       return a[0] * b[1] - a[1] * b[0];
     };
     double twice = 0.;
     for (std::size_t k = 1; k < now.size(); ++k)
-      twice += cross(now[k - 1], now[k]) + cross(now[k], start[k]) + cross(start[k], start[k - 1]) +
-               cross(start[k - 1], now[k - 1]);
+      {
+        const dealii::Point<2> &origin = start[k - 1];
+        twice += cross(now[k - 1] - origin, now[k] - origin) + cross(now[k] - origin, start[k] - origin);
+      }
     return (side == Side::below ? 0.5 : -0.5) * twice;
   }
 

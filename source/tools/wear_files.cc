@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 
 namespace tread
@@ -94,6 +95,13 @@ namespace tread
       usual.load               = scene.static_load();
       usual.both_wheels        = scene.wheelset.both_wheels;
       std::vector<WearContact> contacts(table.n_rows(), usual);
+      require(!table.has("friction") || usual.rolling.is_coulomb(),
+              "'" + file +
+                "' has the column friction, which is for 'Contact/Friction law' Coulomb without 'Friction "
+                "pressures (MPa)': leave it out, or the law");
+      require(!table.has("roll_mrad") || !usual.both_wheels,
+              "'" + file +
+                "' has the column roll_mrad; with 'Wheelset/Both wheels' the roll is found: leave it out");
       for (const ContactColumn &column : contact_columns())
         if (table.has(column.name))
           for (std::size_t row = 0; row < contacts.size(); ++row)
@@ -239,7 +247,7 @@ namespace tread
     struct PatchRow
     {
       double           state;
-      double           passages;
+      double           passages, turns;
       const WearPatch *patch;
     };
 
@@ -253,6 +261,7 @@ namespace tread
       };
       add("state_number", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
       add("passages", "", "Of wheels over the rail so far", [](const R &r) { return r.passages; });
+      add("wheel_turns", "", "Of the wheel so far", [](const R &r) { return r.turns; });
       add("contact", "", "Row of the table of contacts, from 1 on",
           [](const R &r) { return r.patch->contact + 1.; });
       add("patch", "", "Number of the patch, from 1 on", [](const R &r) { return r.patch->patch + 1.; });
@@ -270,29 +279,30 @@ namespace tread
       add("max_pressure", "MPa", "Largest pressure", [](const R &r) { return r.patch->max_pressure; });
       add("patch_length", "mm", "Along the rail", [](const R &r) { return r.patch->length; });
       add("patch_width", "mm", "Across", [](const R &r) { return r.patch->width; });
-      add("creepage", "", "Slip of the rigid wheel over the rail along it, over the speed",
-          [](const R &r) { return r.patch->creepage; });
+      add("creepage", "",
+          "Slip of the rigid wheel over the rail along it, over the speed, positive when driving",
+          [](const R &r) { return 0. - r.patch->creepage; });
       add("angular_velocity", "rad_per_s", "Of the wheel",
           [](const R &r) { return r.patch->angular_velocity; });
       add("lateral_creepage", "", "The same across", [](const R &r) { return r.patch->lateral_creepage; });
       add("spin", "per_m", "About the normal, over the speed", [](const R &r) { return r.patch->spin; });
       add("friction_work", "J_per_m", "Of a passage on a metre of way",
           [](const R &r) { return r.patch->work; });
-      add("rail_area", "mm2", "That the rail loses in a passage, by the law",
+      add("rail_area", "mm2", "That a rail loses in a passage, by the law",
           [](const R &r) { return r.patch->rail_area; });
       add("sink_by_others", "", "How far it gives way under the other patches, over its undeformed overlap",
           [](const R &r) { return r.patch->sink_by_others; });
       return columns;
     }
 
-    std::vector<PatchRow> patch_rows(const ProfileWear &wear, const double passages)
+    std::vector<PatchRow> patch_rows(const ProfileWear &wear, const double passages, const double turns)
     {
       std::vector<PatchRow> rows;
       double                number = 0.;
       for (const WornState &state : wear.states())
         {
           for (const WearPatch &patch : state.patches)
-            rows.push_back({number, passages * state.progress, &patch});
+            rows.push_back({number, passages * state.progress, turns * state.progress, &patch});
           ++number;
         }
       return rows;
@@ -324,7 +334,12 @@ namespace tread
               ".csv\n  set Tread profile mirrored = false\n  set "
               "Tread profile shift (mm) = 0\n  set Smoothing length (mm) = 0\n";
       text += format("  set Radius (mm) = %.9f\nend\n\n", 1e3 * (scene.wheel.radius - running));
-      text += format("subsection Wheelset\n  set Track gauge (mm) = %.9f\nend\n", 1e3 * gauge.gauge);
+      text += format("subsection Wheelset\n  set Track gauge (mm) = %.9f\nend\n\n", 1e3 * gauge.gauge);
+      // A creepage would count from the radius that the wheel has now.
+      text += format(
+        "subsection Motion\n  set Creepage = predicted\n  set Angular velocity (rad per s) = %.12g\nend\n\n",
+        given_angular_velocity(scene));
+      text += "subsection Output\n  set Directory = " + scene.output.directory + "-worn" + at + "\nend\n";
       return text;
     }
 
@@ -395,14 +410,19 @@ namespace tread
         return;
       folder.write_table("rail_wear.csv", worn_point_columns("passages"), worn_points(wear, false, passages));
       folder.write_table("wheel_wear.csv", worn_point_columns("wheel_turns"), worn_points(wear, true, turns));
-      folder.write_table("wear_patches.csv", wear_patch_columns(), patch_rows(wear, passages));
-      if (const std::size_t number = wear.states().size() - 1; number > 0)
-        {
-          const std::string at = '_' + std::to_string(number);
-          folder.write("worn_rail" + at + ".csv", profile_text(wear.rail()));
-          folder.write("worn_wheel" + at + ".csv", profile_text(wear.wheel()));
-          folder.write("worn" + at + ".prm", worn_scene(scene, wear, at));
-        }
+      folder.write_table("wear_patches.csv", wear_patch_columns(), patch_rows(wear, passages, turns));
+    }
+
+    /// The profiles of the state that was kept just now, and the scene on them.
+    void write_worn(const RunFolder &folder, const Scene &scene, const ProfileWear &wear)
+    {
+      const std::size_t number = wear.states().size() - 1;
+      if (number == 0)
+        return;
+      const std::string at = '_' + std::to_string(number);
+      folder.write("worn_rail" + at + ".csv", profile_text(wear.rail()));
+      folder.write("worn_wheel" + at + ".csv", profile_text(wear.wheel()));
+      folder.write("worn" + at + ".prm", worn_scene(scene, wear, at));
     }
 
     /// What must be the same in a run that goes on.
@@ -416,6 +436,19 @@ namespace tread
         if (!file.is_scene())
           text += file.parameter + ' ' + file.in_words() + '\n';
       return text + file_read("contacts", contacts).in_words() + '\n' + version();
+    }
+
+    /// Refuses a run whose results would replace what it reads.
+    void check_folder(const Scene &scene, const std::string &contacts, const std::string &path)
+    {
+      std::error_code       unknown;
+      const auto            whole = std::filesystem::weakly_canonical(path, unknown);
+      std::vector<FileRead> files = scene.files_read();
+      files.push_back(file_read("--wear", contacts));
+      for (const FileRead &file : files)
+        require(std::filesystem::weakly_canonical(file.path, unknown).parent_path() != whole,
+                "'" + file.path + "' lies in the folder of the results, '" + path +
+                  "': give another one by --output");
     }
 
     void store(const RunFolder &folder, ProfileWear &wear, const std::string &of_inputs)
@@ -497,8 +530,9 @@ namespace tread
     const std::vector<WearContact> contacts = read_contacts(contacts_file, scene);
     const MeasuredProfiles         profiles(scene);
     ProfileWear                    wear = wear_of(scene, contacts);
-    RunFolder                      folder(path, comm);
-    const std::string              of_inputs = inputs(scene, contacts_file);
+    check_folder(scene, contacts_file, path);
+    RunFolder         folder(path, comm);
+    const std::string of_inputs = inputs(scene, contacts_file);
     if (goes_on)
       {
         restore(folder, wear, of_inputs);
@@ -518,7 +552,10 @@ namespace tread
       {
         const std::size_t n_states = wear.states().size();
         wear.advance();
-        write_tables(folder, scene, wear, wear.states().size() > n_states);
+        const bool has_new_state = wear.states().size() > n_states;
+        write_tables(folder, scene, wear, has_new_state);
+        if (has_new_state)
+          write_worn(folder, scene, wear);
         store(folder, wear, of_inputs);
         say_step(progress, scene, wear);
       }

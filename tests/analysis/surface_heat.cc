@@ -96,16 +96,16 @@ namespace
     sliding.area     = 1e-6;
     check.relative("Archard: 1e-4 x 40 J / 2.8 GPa, mm3", 1e9 * ArchardWear(1e-4, 2.8e9).volume(sliding),
                    40e-4 / 2.8, 1e-12);
-    // 2 m/s and 10 MPa; borders belong to the range above.
+    // 2 m/s, at ten times the hardness; borders belong to the range above.
     const auto of_map = [&](const std::vector<double> &speeds, const std::vector<double> &pressures) {
       std::vector<double> coefficients;
       for (std::size_t k = 0; k < (speeds.size() + 1) * (pressures.size() + 1); ++k)
         coefficients.push_back(1e-5 * (k + 1.));
       return ArchardMapWear(speeds, pressures, coefficients, 2e9).volume(sliding) * 2e9 / 40. / 1e-5;
     };
-    check.relative("map: second speed, third pressure of 3 x 3", of_map({0.2, 7.}, {0.001, 0.009}), 8., 1e-9);
-    check.relative("third speed, second pressure", of_map({0.2, 1.9}, {0.001, 0.011}), 6., 1e-9);
-    check.relative("first of both", of_map({2.1, 7.}, {0.0101, 0.011}), 1., 1e-9);
+    check.relative("map: second speed, third pressure of 3 x 3", of_map({0.2, 7.}, {1., 9.}), 8., 1e-9);
+    check.relative("third speed, second pressure", of_map({0.2, 1.9}, {1., 11.}), 6., 1e-9);
+    check.relative("first of both", of_map({2.1, 7.}, {10.1, 11.}), 1., 1e-9);
     check.relative("no borders: one coefficient", of_map({}, {}), 1., 1e-9);
     check.relative("a border belongs to what lies above it", of_map({2., 7.}, {}), 2., 1e-9);
     check.that("a map with a gap is refused", tests::complaint<InputError>([] {

@@ -84,6 +84,7 @@ with tempfile.TemporaryDirectory() as folder:
             check.that(f"state {state}, contact {number}: patches", len(own) == len(alone["patches"]))
             worn = 0.
             for k, patch in zip(own, alone["patches"]):
+                check.absolute(f"state {state}, contact {number}: creepage", 1e3 * patches["creepage"][k], 1e3 * patch["creepage"], 0.01)
                 name = f"state {state}, contact {number}, patch {patches['patch'][k]:.0f}: "
                 # Profiles between points are other splines, and the table has nine digits.
                 for column, key, factor, limit in (("normal_force_N", "normal_force_N", 1, 5e-3), ("max_pressure_MPa", "max_pressure_Pa", 1e6, 5e-3), ("patch_width_mm", "width_m", 1e3, 0.03),
@@ -112,10 +113,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("a wheel without turns keeps its profile", kept["depth_mm"].max() == 0)
 
     # Killed after some steps, and interrupted: the rest leaves the same bytes.
-    tables = ("rail_wear.csv", "wheel_wear.csv", "wear_patches.csv", "wear_steps.csv", "worn_1.prm", "worn_rail_2.csv", "worn_2.prm")
+    tables = ("rail_wear.csv", "wheel_wear.csv", "wear_patches.csv", "wear_steps.csv", *(f"worn{body}_{state}" for state in (1, 2) for body in ("_rail", "_wheel")))
+    tables = [name + ".csv" if name.startswith("worn") else name for name in tables]
     for number, (name, exit_code) in ((signal.SIGKILL, ("killed", -9)), (signal.SIGINT, ("interrupted", 130))):
         process = subprocess.Popen(command([*arguments_of(SCENE, settings, path(name)), "--wear", usual], 1, program), env=environment(), stdout=subprocess.DEVNULL)
-        grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and sum(1 for _ in open(os.path.join(path(name), "wear_steps.csv"), encoding="utf-8")) > 2
+        # The one that is killed between two states that are kept.
+        grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and read_table(os.path.join(path(name), "wear_steps.csv"))["passages"].max() > (2000 if name == "killed" else 0)
         while process.poll() is None and not grown():
             time.sleep(0.02)
         process.send_signal(number)
@@ -135,6 +138,12 @@ with tempfile.TemporaryDirectory() as folder:
     run(program, SCENE, path("killed"), quick, more=["--wear", usual, "--overwrite"])
     check.that("a new run leaves nothing of the old one", not os.path.exists(os.path.join(path("killed"), "worn_2.prm")))
 
+    # A scene on worn profiles does not write over them, and turns as the one before.
+    said = execute_often([os.path.join(path("wear"), "worn_1.prm"), "--wear", usual, "--overwrite", "--output", path("wear")], program)
+    check.that("nor with --overwrite", said.returncode == 1 and "lies in the folder of the results" in said.stderr and os.path.exists(os.path.join(path("wear"), "worn_rail_1.csv")))
+    turns = run(program, os.path.join(path("wear"), "worn_2.prm"), path("turns"), more=["--reference-only"])
+    check.relative("a worn scene turns as fast", turns["angular_velocity_rad_per_s"], 80 / 3.6 / 0.46, 1e-9)
+
     # Pictures, from Python.
     pictures = tread.Run(path("wear")).pictures()
     check.that("pictures", [os.path.basename(picture) for picture in pictures] == ["wear.png", "wear-steps.png"])
@@ -145,6 +154,8 @@ with tempfile.TemporaryDirectory() as folder:
             ("a shift that no wheelset has", contacts("2.csv", ["1,200\n"], "weight,shift_mm\n"), [], "row 1: shift_mm is 200"),
             ("a weight of 0", contacts("3.csv", ["0,1\n"], "weight,shift_mm\n"), [], "weight is 0"),
             ("a load below 0", contacts("4.csv", ["-5\n"], "load_kN\n"), [], "load_kN is -5"),
+            ("friction beside a law of it", contacts("8.csv", ["0.2\n"], "friction\n"), ["-s", "Contact/Friction law=linear"], "has the column friction"),
+            ("a roll that is found", contacts("9.csv", ["1\n"], "roll_mrad\n"), ["-s", "Wheelset/Both wheels=true"], "has the column roll_mrad"),
             ("no rows", contacts("5.csv", []), [], "has no rows"),
             ("no such table", path("none.csv"), [], "--wear: cannot read"),
             ("no law", usual, ["-s", "Damage/Wear law=none"], "'Damage/Wear law' must not be none"),

@@ -196,7 +196,6 @@ namespace tread
                           Answer             &answer) const;
     Block       solve(const WornProfile &wheel, const WornProfile &rail) const;
     double      change(const Block &before, const Block &after) const;
-    double      first_share() const;
     double      deepest(const Rates &rates) const; ///< in all passages, m
     void        begin();
     void        keep_state();

@@ -21,7 +21,7 @@ namespace tread
       "Wear of a step is spread along the profile so that half is left of its waves of this length. Shorter "
       "waves cannot grow.",
       Double(0., 50.));
-    section.add("Point distance (mm)", spacing, "Of the points by which profiles wear.", Double(0.01, 2.));
+    section.add("Point distance (mm)", spacing, "Of the points by which profiles wear.", Double(0.01, 1.));
     section.add(
       "Largest change", change,
       "Largest share by which a step may change the distribution of the normal force across the rail, as "

@@ -34,7 +34,7 @@ def draw_body(shape: Axes, depth: Axes, table: dict[str, np.ndarray], count: str
     factor = exaggeration(worn.max(), np.ptp(z))
     shape.plot(y, z, color=GREY, label="new")
     shape.plot(y + factor * (table["y_mm"][last] - y), z + factor * (table["z_mm"][last] - z), color=RED, label=f"worn, {factor} times as deep" if factor > 1 else "worn")
-    shape.set(aspect="equal", xlabel="y [mm]", ylabel="z [mm]", title=body)
+    shape.set(aspect="equal", xlabel="y [mm], the gauge side on the left", ylabel="z [mm]", title=body)
     shape.legend()
     for number, state in enumerate(states[1:], 1):
         own = table["state_number"] == state
@@ -61,14 +61,14 @@ def draw_steps(run: Run) -> Figure:
     over, name = (steps["passages"], "passages of wheels over the rail") if steps["passages"].max() > 0.0 else (steps["wheel_turns"], "turns of the wheel")
     figure, (pressure, work, area) = subplots(3, 1, figsize=(8.0, 8.4), sharex=True)
     pressure.plot(over, steps["max_pressure_MPa"], color=RED, label="largest of all contacts")
-    pressure.plot(over, steps["mean_max_pressure_MPa"], color=BLUE, label="mean of the contacts")
+    pressure.plot(over, steps["mean_max_pressure_MPa"], color=BLUE, linestyle="--", label="mean of the contacts")
     pressure.set(ylabel="largest pressure [MPa]", ylim=(0.0, None))
     pressure.legend()
     work.plot(over, steps["friction_work_J_per_m"], color=BLUE)
     work.set(ylabel="work of friction [J/m]", title="of a passage, mean of the contacts", ylim=(0.0, 1.1 * steps["friction_work_J_per_m"].max()))
-    for body, colour in (("rail", RED), ("wheel", BLUE)):
+    for body, colour, line in (("rail", RED, "-"), ("wheel", BLUE, "--")):
         if steps[f"{body}_depth_mm"].max() > 0.0:
-            area.plot(over, steps[f"{body}_area_mm2"], color=colour, label=body)
+            area.plot(over, steps[f"{body}_area_mm2"], color=colour, linestyle=line, label=body)
     area.set(xlabel=name, ylabel="area worn away [mm²]", ylim=(0.0, None))
     area.legend()
     return figure
