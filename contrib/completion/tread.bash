@@ -55,7 +55,7 @@ _tread()
   case $before in
     -s) _tread_setting "$program" "$typed" ;;
     --output | --dynamic-force | --smooth-twin | --sleeper-stress) _tread_paths '' folders "$typed" ;;
-    --batch | --positions) _tread_paths .csv files "$typed" ;;
+    --batch | --positions | --wear) _tread_paths .csv files "$typed" ;;
     --other-side) _tread_paths .prm files "$typed" ;;
     --window) mapfile -t COMPREPLY < <(compgen -W 'rectangular Hann' -- "$typed") ;;
     --bottom) mapfile -t COMPREPLY < <(compgen -W 'fixed ballast' -- "$typed") ;;

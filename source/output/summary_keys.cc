@@ -86,7 +86,7 @@ namespace tread
       {"contacts", "Contacts of a block of passages, rows of the table of --wear"},
       {"wear_steps", "Steps in which the profiles wore"},
       {"wear_steps_refused", "Those that changed the pressure too much and were taken again, shorter"},
-      {"passages", "'Profile wear/Passages' of wheels over the rail"},
+      {"rail_passages", "'Profile wear/Passages' of wheels over the rail"},
       {"wheel_turns", "'Profile wear/Wheel turns' meanwhile"},
       {"rail_wear_depth_m", "Largest depth that the rail has worn"},
       {"wheel_wear_depth_m", "Largest depth that the wheel has worn"},

@@ -578,7 +578,7 @@ namespace tread
     summary.set("contacts", contacts.size());
     summary.set("wear_steps", wear.steps().size() - 1);
     summary.set("wear_steps_refused", wear.n_refused());
-    summary.show("passages", "passages of the rail", 1., scene.profile_wear.passages);
+    summary.show("rail_passages", "passages of the rail", 1., scene.profile_wear.passages);
     summary.show("wheel_turns", "turns of the wheel", 1., scene.profile_wear.turns);
     summary.show("rail_wear_depth_m", "largest depth, rail, um", 1e6, last.rail_depth);
     summary.show("wheel_wear_depth_m", "largest depth, wheel, um", 1e6, last.wheel_depth);

@@ -126,11 +126,14 @@ os.execv(program, [program, *shortened(sys.argv[1:], program)])
 def shortened(arguments, program):
     """The arguments of the program: as they are unless they run a scene by finite elements. Then its cells are at least 2.2 mm (0.34 where a
     wheelset is in a position: a patch at the corner of a rail is 1.5 mm wide), evenly along the path and of two layers; it rolls at most 4 mm once, or where there is a defect and a start is given, from 15 mm
-    before its leading edge to 30 mm behind it; a wheel that is not round begins on its flat, at -33 degrees; modes end at 300 Hz."""
+    before its leading edge to 30 mm behind it; a wheel that is not round begins on its flat, at -33 degrees; modes end at 300 Hz; profiles
+    wear by 2000 passages."""
     scenes = [argument for before, argument in zip(["", *arguments], arguments) if argument.endswith(".prm") and before in ("", "--quiet", "--overwrite", "--modes", "--resume") or
               argument.endswith(".prm") and not before.startswith("-")]
     if not scenes or {"--dry-run", "--reference-only", "--contact-points", "--print-parameters"} & set(arguments):
         return list(arguments)
+    if "--wear" in arguments:
+        return [*arguments, "-s", "Profile wear/Passages=2000"]
     settings = [after for before, after in zip(arguments, arguments[1:]) if before == "-s"]
     # Ranks of mpirun ask a program that is none of them.
     for name in [name for name in os.environ if name.startswith(("OMPI_", "PMIX_", "PRTE_")) and "ALLOW" not in name and "MCA_btl" not in name]:

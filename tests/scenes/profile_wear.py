@@ -61,6 +61,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"{body}: its states", sorted(set(count)) == [0, passages / 2, passages])
         profile = np.loadtxt(os.path.join(path("wear"), f"worn_{body}_2.csv"), delimiter=",", skiprows=1)
         check.below(f"{body}: its file, mm", np.abs(profile - np.column_stack([now_y, now_z])).max(), 1e-6)
+    check.that("what the summary counts", summary["rail_passages"] == 4000 and summary["wheel_turns"] == 6000 and summary["contacts"] == len(ROWS))
     steps = read_table(os.path.join(path("wear"), "wear_steps.csv"))
     check.that("steps go up to the end", steps["passages"][0] == 0 and steps["passages"][-1] == 4000 and steps["wheel_turns"][-1] == 6000 and np.all(np.diff(steps["passages"]) > 0))
     check.that("a step changes the pressure by what is allowed", steps["change"].max() <= 0.1 and steps["change"].max() > 0.01 and summary["wear_steps"] == len(steps["change"]) - 1)
