@@ -210,7 +210,8 @@ namespace
     check.below("no zigzag: curvature against the ball's", zigzag(wear, 0.6 * half), 0.1);
     check.that("nothing is as steep as when it began",
                wear.steps().back().max_pressure < 0.8 * wear.steps().front().max_pressure);
-    std::printf("%zu steps\n", wear.steps().size());
+    // Regression: 18 where the pressure gives way within a step, 24 without.
+    check.that("few steps", wear.steps().size() <= 21);
 
     for (const double coarser : {0.6, 1.5})
       {
@@ -223,7 +224,6 @@ namespace
     halved.change    = 0.07;
     ProfileWear slow = ball_on_flat(halved, 1.5 * fine), quick = ball_on_flat(of_ball(passages), 1.5 * fine);
     check.below("half the change in a step, about twice as many", difference(worn(slow), worn(quick)), 0.01);
-    std::printf("%zu and %zu steps\n", slow.steps().size(), quick.steps().size());
     check.that("which are more", slow.steps().size() > 1.5 * quick.steps().size());
   }
 } // namespace
