@@ -3,17 +3,16 @@
 #include <tread/analysis/steady_damage.h>
 #include <tread/base/format.h>
 #include <tread/geometry/patch_surfaces.h>
+#include <tread/reference/all_cores.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <thread>
 
 namespace tread
 {
@@ -122,10 +121,8 @@ namespace tread
         const WheelOnRail at_start(wheel, rail.turned(p.rail_angle), p.radius, p.gauge);
         p.origin = WheelOnRail::RailOrigin{at_start.rail_origin_y(), at_start.rail_origin_z()};
       }
-    for (auto *work : {&worked.rail_work, &worked.rail_area})
-      work->assign(rail_profile.size(), 0.);
-    for (auto *work : {&worked.wheel_work, &worked.wheel_area})
-      work->assign(wheel_profile.size(), 0.);
+    rail_work.assign(rail_profile.size(), 0.);
+    wheel_work.assign(wheel_profile.size(), 0.);
   }
 
 
@@ -205,7 +202,7 @@ namespace tread
     const double y_middle  = 0.5 * (s.y_begin + s.y_end);
     row.patch              = answer.patches.size();
     row.rail_y             = rail.curve().at(on_rail(y_middle)).y;
-    row.wheel_y            = wheel.curve().at(on_wheel(y_middle)).y;
+    row.wheel_y            = surfaces.wheel().at(on_wheel(y_middle)).y;
     row.angle              = patch.angle();
     row.normal_force       = s.normal_force;
     row.longitudinal_force = s.longitudinal_force;
@@ -279,10 +276,9 @@ namespace tread
     block.answers.resize(contacts.size());
     std::vector<std::string> reasons(contacts.size());
     const WheelOnRail        here = surfaces(wheel, rail);
-    std::atomic<std::size_t> next = 0;
-    const auto               work = [&] {
-      const WheelOnRail own = here; // it keeps the search of its last position
-      for (std::size_t k = next++; k < contacts.size(); k = next++)
+    reference::on_all_cores(contacts.size(), 0, [&] {
+      // Each thread has its own, which keep the search of their last position.
+      return [&, own = here](const std::size_t k) {
         try
           {
             const double radius = k < last.answers.size() ? last.answers[k].radius : 0.;
@@ -292,15 +288,8 @@ namespace tread
           {
             reasons[k] = error.what();
           }
-    };
-    const unsigned int n_threads = std::min<std::size_t>(
-      p.n_threads > 0 ? p.n_threads : std::max(1u, std::thread::hardware_concurrency()), contacts.size());
-    std::vector<std::thread> threads;
-    for (unsigned int k = 1; k < n_threads; ++k)
-      threads.emplace_back(work);
-    work();
-    for (std::thread &thread : threads)
-      thread.join();
+      };
+    });
     for (std::size_t k = 0; k < contacts.size(); ++k)
       if (!reasons[k].empty())
         throw std::runtime_error(
@@ -367,8 +356,7 @@ namespace tread
 
   void ProfileWear::keep_state()
   {
-    WornState state{progress,         rail_profile.points(), wheel_profile.points(),
-                    worked.rail_work, worked.wheel_work,     {}};
+    WornState state{progress, rail_profile.points(), wheel_profile.points(), rail_work, wheel_work, {}};
     for (const Answer &answer : last.answers)
       state.patches.insert(state.patches.end(), answer.patches.begin(), answer.patches.end());
     kept.push_back(state);
@@ -384,7 +372,7 @@ namespace tread
       throw std::runtime_error("nothing wears: no contact slips");
     share     = std::min(1., first_depth / deep);
     has_begun = true;
-    done.push_back({0., 0., 0., 0., 0., 0., 0., last.mean_work, last.max_pressure, last.mean_max_pressure});
+    done.push_back({0., 0., 0., 0., 0., 0., last.mean_work, last.max_pressure, last.mean_max_pressure});
     keep_state();
   }
 
@@ -451,8 +439,8 @@ namespace tread
           wheel_profile.without(both(wheel_profile, wheel_first, &Rates::wheel_area, &Rates::wheel_yielding));
         for (const Rates *rates : std::initializer_list<const Rates *>{&last.rates, &middle.rates})
           {
-            add(worked.rail_work, 0.5 * taken, rates->rail_work);
-            add(worked.wheel_work, 0.5 * taken, rates->wheel_work);
+            add(rail_work, 0.5 * taken, rates->rail_work);
+            add(wheel_work, 0.5 * taken, rates->wheel_work);
             rail_lost.area += 0.5 * taken * sum(rates->rail_area);
             rail_lost.work += 0.5 * taken * sum(rates->rail_work);
             wheel_lost.area += 0.5 * taken * sum(rates->wheel_area);
@@ -463,9 +451,9 @@ namespace tread
         // A step that was cut off at a state says nothing about the next one.
         share = std::max(std::max(least, factor * taken), reaches_end && !is_too_much ? share : 0.);
         last  = solve(wheel_profile, rail_profile);
-        done.push_back({progress, taken, changed, highest(rail_profile.depths()),
-                        highest(wheel_profile.depths()), rail_profile.lost_area(), wheel_profile.lost_area(),
-                        last.mean_work, last.max_pressure, last.mean_max_pressure});
+        done.push_back({progress, changed, highest(rail_profile.depths()), highest(wheel_profile.depths()),
+                        rail_profile.lost_area(), wheel_profile.lost_area(), last.mean_work,
+                        last.max_pressure, last.mean_max_pressure});
         if (reaches_end)
           keep_state();
         return;
@@ -473,19 +461,13 @@ namespace tread
   }
 
 
-  void ProfileWear::serialize(Archive &archive, Rates &rates)
-  {
-    archive.same(rates.rail_area, rates.wheel_area, rates.rail_work, rates.wheel_work, rates.rail_yielding,
-                 rates.wheel_yielding);
-  }
-
-
   void ProfileWear::serialize(Archive &archive)
   {
     rail_profile.serialize(archive);
     wheel_profile.serialize(archive);
-    serialize(archive, worked);
-    serialize(archive, last.rates);
+    Rates &rates = last.rates;
+    archive.same(rail_work, wheel_work, rates.rail_area, rates.wheel_area, rates.rail_work, rates.wheel_work,
+                 rates.rail_yielding, rates.wheel_yielding);
     archive.same(last.mean_work, last.max_pressure, last.mean_max_pressure, progress, share, refused, forced,
                  rail_lost, wheel_lost, done, has_begun);
     std::size_t n_answers = last.answers.size(), n_states = kept.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/half_space.h>
+#include <tread/reference/all_cores.h>
 #include <tread/reference/hertz.h>
 #include <tread/reference/planar_contact.h>
 
@@ -10,9 +11,9 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
 #include <stdexcept>
-#include <thread>
 #include <tuple>
 
 // The C interface of the half-space solver: translates structs, and exceptions into a status.
@@ -365,28 +366,13 @@ extern "C"
                                     const unsigned int           n_threads,
                                     tread_half_space_answer     *answers)
   {
-    const std::size_t n = std::min<std::size_t>(
-      n_problems, n_threads > 0 ? n_threads : std::max(1u, std::thread::hardware_concurrency()));
-    std::atomic<std::size_t> next{0}, failed{0};
-    const auto               work = [&]() noexcept {
-      tread_half_space solver;
-      for (std::size_t k = next++; k < n_problems; k = next++)
-        if (solve(solver, problems[k], answers[k]) != TREAD_HALF_SPACE_SOLVED)
+    std::atomic<std::size_t> failed{0};
+    tread::reference::on_all_cores(n_problems, n_threads, [&] {
+      return [&, solver = std::make_unique<tread_half_space>()](const std::size_t k) {
+        if (solve(*solver, problems[k], answers[k]) != TREAD_HALF_SPACE_SOLVED)
           ++failed;
-    };
-    std::vector<std::thread> helpers;
-    try
-      {
-        while (helpers.size() + 1 < n)
-          helpers.emplace_back(work);
-      }
-    catch (const std::exception &)
-      {
-        // The threads that there are do it.
-      }
-    work();
-    for (std::thread &helper : helpers)
-      helper.join();
+      };
+    });
     return failed;
   }
 }

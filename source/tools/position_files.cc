@@ -5,18 +5,17 @@
 #include <tread/base/input_error.h>
 #include <tread/geometry/rail_slices.h>
 #include <tread/output/progress.h>
+#include <tread/reference/all_cores.h>
 #include <tread/tools/answer_table.h>
 #include <tread/tools/position_files.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
-#include <thread>
 
 namespace tread
 {
@@ -234,10 +233,8 @@ namespace tread
 
     std::vector<std::optional<WheelContact>> answers(rows.size());
     std::vector<std::string>                 reasons(rows.size());
-    std::atomic<std::size_t>                 next = 0;
-    const auto                               work = [&] {
-      std::map<std::string, WheelOnRail> own = surfaces;
-      for (std::size_t k = next++; k < rows.size(); k = next++)
+    reference::on_all_cores(rows.size(), 0, [&] {
+      return [&, own = surfaces](const std::size_t k) {
         try
           {
             answers[k] = solve(own.at(rows[k].surfaces()), rows[k]);
@@ -246,15 +243,8 @@ namespace tread
           {
             reasons[k] = error.what();
           }
-    };
-    const std::size_t n_threads =
-      std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), rows.size());
-    std::vector<std::thread> threads;
-    for (std::size_t k = 1; k < n_threads; ++k)
-      threads.emplace_back(work);
-    work();
-    for (std::thread &thread : threads)
-      thread.join();
+      };
+    });
 
     write_answer_table(output, [&](std::ostream &file) {
       file << head;

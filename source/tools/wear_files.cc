@@ -9,7 +9,6 @@
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
 #include <tread/scene/measured_profiles.h>
-#include <tread/scene/parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/tools/wear_files.h>
 
@@ -17,7 +16,6 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -157,6 +155,16 @@ namespace tread
                          surfaces.rail_surface().sections(0.).front().turned(-scene.rail.angle()));
     }
 
+    /// Adds a column to those that there are.
+    template <typename Record>
+    auto adder(Columns<Record> &columns)
+    {
+      return
+        [&](const std::string &name, const std::string &unit, const std::string &about, const auto &value) {
+          columns.push_back({name, unit, about, value});
+        };
+    }
+
     /// A point of a profile at a state.
     struct WornPoint
     {
@@ -172,10 +180,7 @@ namespace tread
       const std::string about =
         passages == "passages" ? "Of wheels over the rail so far" : "Of the wheel so far";
       Columns<R> columns;
-      const auto add = [&](const std::string &name, const std::string &unit, const std::string &about,
-                           const auto &value) {
-        columns.push_back({name, unit, about, value});
-      };
+      const auto add = adder(columns);
       add("state_number", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
       add(passages, "", about, [](const R &r) { return r.passages; });
       add("y_start", "mm", "In the axes of the profile, new", [](const R &r) { return r.start[0]; });
@@ -214,10 +219,7 @@ namespace tread
     {
       using R = WearStep;
       Columns<R> columns;
-      const auto add = [&](const std::string &name, const std::string &unit, const std::string &about,
-                           const auto &value) {
-        columns.push_back({name, unit, about, value});
-      };
+      const auto add = adder(columns);
       add("passages", "", "Of wheels over the rail, at the end of the step",
           [passages](const R &r) { return passages * r.progress; });
       add("wheel_turns", "", "Of the wheel, at the end of the step",
@@ -255,10 +257,7 @@ namespace tread
     {
       using R = PatchRow;
       Columns<R> columns;
-      const auto add = [&](const std::string &name, const std::string &unit, const std::string &about,
-                           const auto &value) {
-        columns.push_back({name, unit, about, value});
-      };
+      const auto add = adder(columns);
       add("state_number", "", "Number of the state, 0 at the start", [](const R &r) { return r.state; });
       add("passages", "", "Of wheels over the rail so far", [](const R &r) { return r.passages; });
       add("wheel_turns", "", "Of the wheel so far", [](const R &r) { return r.turns; });
@@ -425,6 +424,14 @@ namespace tread
       folder.write("worn" + at + ".prm", worn_scene(scene, wear, at));
     }
 
+    /// Those of the scene, and the table.
+    std::vector<FileRead> files_of(const Scene &scene, const std::string &contacts)
+    {
+      std::vector<FileRead> files = scene.files_read();
+      files.push_back(file_read("--wear", contacts));
+      return files;
+    }
+
     /// What must be the same in a run that goes on.
     std::string inputs(const Scene &scene, const std::string &contacts)
     {
@@ -432,20 +439,18 @@ namespace tread
       for (const Scene::Parameter &parameter : scene.changed_values())
         if (parameter.path.rfind("Output/", 0) != 0)
           text += parameter.path + '=' + parameter.value + '\n';
-      for (const FileRead &file : scene.files_read())
+      for (const FileRead &file : files_of(scene, contacts))
         if (!file.is_scene())
           text += file.parameter + ' ' + file.in_words() + '\n';
-      return text + file_read("contacts", contacts).in_words() + '\n' + version();
+      return text + version();
     }
 
     /// Refuses a run whose results would replace what it reads.
     void check_folder(const Scene &scene, const std::string &contacts, const std::string &path)
     {
-      std::error_code       unknown;
-      const auto            whole = std::filesystem::weakly_canonical(path, unknown);
-      std::vector<FileRead> files = scene.files_read();
-      files.push_back(file_read("--wear", contacts));
-      for (const FileRead &file : files)
+      std::error_code unknown;
+      const auto      whole = std::filesystem::weakly_canonical(path, unknown);
+      for (const FileRead &file : files_of(scene, contacts))
         require(std::filesystem::weakly_canonical(file.path, unknown).parent_path() != whole,
                 "'" + file.path + "' lies in the folder of the results, '" + path +
                   "': give another one by --output");
@@ -596,9 +601,7 @@ namespace tread
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", 1);
     summary.set("version", version());
-    std::vector<FileRead> files = scene.files_read();
-    files.push_back(file_read("--wear", contacts_file));
-    summary.set("files", as_json(files));
+    summary.set("files", as_json(files_of(scene, contacts_file)));
     folder.write("summary.json", summary.text());
 
     progress.say("\n" + summary.table());

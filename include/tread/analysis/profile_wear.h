@@ -36,7 +36,6 @@ namespace tread
     double                         change    = 0.05;    ///< that a step may make, @see WearStep::change
     double       least_step = 0.1e-6; ///< of the largest depth, below which no step is shortened, m
     unsigned int states     = 1;      ///< so many are kept, at equal distances, beside the start
-    unsigned int n_threads  = 0;      ///< 0: all cores
 
     double     radius     = 0.46; ///< of the new wheel where z = 0 in its profile, m
     double     rail_angle = 0.;   ///< by which the rail's profile is turned in the track, rad
@@ -49,7 +48,6 @@ namespace tread
   struct WearStep
   {
     double progress; ///< of all, at its end
-    double share;    ///< of all
     /// Of the distribution of normal force across the rail: the sum of absolute changes over that of forces,
     /// mean of the contacts by their weights.
     double change;
@@ -199,12 +197,11 @@ namespace tread
     double      deepest(const Rates &rates) const; ///< in all passages, m
     void        begin();
     void        keep_state();
-    void        serialize(Archive &archive, Rates &rates);
 
     ProfileWearParameters    p;
     std::vector<WearContact> contacts;
     WornProfile              rail_profile, wheel_profile;
-    Rates                    worked; ///< so far: works only
+    std::vector<double>      rail_work, wheel_work; ///< so far, by points
     Block                    last;
     double                   progress = 0., share = 0.;
     unsigned int             refused = 0, forced = 0;

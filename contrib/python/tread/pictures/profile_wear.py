@@ -47,8 +47,7 @@ def draw_body(shape: Axes, depth: Axes, table: dict[str, np.ndarray], count: str
 
 
 def draw_profiles(run: Run) -> Figure:
-    bodies = [(name, body, count) for name, body, count in (("rail_wear.csv", "rail", "passages"), ("wheel_wear.csv", "wheel", "wheel_turns"))]
-    tables = [(run.table(name, (*POINTS, count)), body, count) for name, body, count in bodies]
+    tables = [(run.table(f"{body}_wear.csv", (*POINTS, count)), body, count) for body, count in (("rail", "passages"), ("wheel", "wheel_turns"))]
     worn = [entry for entry in tables if entry[0]["depth_mm"].max() > 0.0] or tables[:1]
     figure, axes = subplots(2, len(worn), figsize=(6.2 * len(worn), 8.4), squeeze=False)
     for (table, body, count), shape, depth in zip(worn, axes[0], axes[1]):
