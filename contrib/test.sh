@@ -19,4 +19,11 @@ esac
 configure_release build
 cmake --build build -j "$jobs"
 # All that tests print is kept in build/Testing/Temporary/LastTest.log.
-ctest --test-dir build --output-on-failure --test-output-size-passed 10000000 --no-tests=error -j "$jobs" "${chosen[@]}" "$@"
+status=0
+ctest --test-dir build --output-on-failure --test-output-size-passed 10000000 --no-tests=error -j "$jobs" "${chosen[@]}" "$@" || status=$?
+if [ "$status" -ne 0 ]; then
+  # What failed once more, alone: between the lines of all that passed it is hard to find.
+  echo "What failed (all that tests print: build/Testing/Temporary/LastTest.log):"
+  awk '/ Testing: /{test = $NF} / FAIL$|^(FAIL|ERROR): |^[A-Za-z.]*Error: /{print test ": " $0}' build/Testing/Temporary/LastTest.log
+  exit "$status"
+fi

@@ -6,7 +6,6 @@ given by points, and what is wrong on purpose."""
 import csv
 import os
 import resource
-import subprocess
 import sys
 import tempfile
 
@@ -15,7 +14,7 @@ import numpy as np
 from tread import half_space
 from tread.creep_table import FORCE, FRICTION, beside_table, random_cases, table_cases
 from tread.files import read_table
-from tread.runs import environment
+from tread.runs import execute
 from tread_runner import Check
 
 program = os.path.abspath(sys.argv[1])
@@ -41,9 +40,7 @@ with tempfile.TemporaryDirectory() as folder:
             writer = csv.writer(file)
             writer.writerow(columns)
             writer.writerows(zip(*[[f"{value:.17g}" if isinstance(value, float) else value for value in column] for column in columns.values()]))
-        launch = ["mpirun", "-np", str(ranks), "--oversubscribe"] if ranks > 1 else []
-        return subprocess.run([*launch, program, "--batch", path("cases.csv"), *(["--output", path(output)] if output else []), *more],
-                              env=environment(), capture_output=True, text=True)
+        return execute(["--batch", path("cases.csv"), *(["--output", path(output)] if output else []), *more], ranks, program)
 
     full = {COLUMNS[name]: np.broadcast_to(value, len(answers["status"])).astype(float) for name, value in cases.items()}
     full["lateral_creepage"] = full["lateral_creepage"] + full["spin_per_m"] * full["element_x_m"] / 6.

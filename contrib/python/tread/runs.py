@@ -14,11 +14,13 @@ numpy is imported where columns are read: without it programs can be started, an
 
 from __future__ import annotations
 
+import atexit
 import functools
 import os
 import shutil
 import signal
 import subprocess
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -68,10 +70,22 @@ def environment(**more: str) -> dict[str, str]:
 ALONE = ["env", "OMPI_MCA_ess_singleton_isolated=1", "OMPI_MCA_orte_create_session_dirs=0"]
 
 
+@functools.lru_cache(maxsize=None)
+def sessions() -> str:
+    """The folder for the sessions of all mpirun that this process starts, which goes with it."""
+    folder = tempfile.mkdtemp(prefix="tread-mpirun-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
 def command(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM) -> list[str]:
     """The program on so many ranks; one rank needs no mpirun. Where there are more ranks than processors, those that wait yield: it is some
-    forty times as fast."""
-    launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"] if ranks > 1 else ALONE
+    forty times as fast. Each mpirun has a folder of its own for its session: in the one that they share otherwise, one start in some hundred
+    fails, when another makes or removes that folder at the same time (Open MPI 4.1)."""
+    launch = ALONE
+    if ranks > 1:
+        launch = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none",
+                  "--mca", "orte_tmpdir_base", tempfile.mkdtemp(dir=sessions())]
     if ranks > (os.cpu_count() or 1):
         launch += ["--mca", "mpi_yield_when_idle", "1"]
     return [*launch, program, *arguments]
