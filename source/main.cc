@@ -281,13 +281,12 @@ namespace
     tread::require_memory(scene, comm);
     if (line.dry_run && tread::estimate_without_mesh(scene, comm))
       return 0;
-    tread::Simulation simulation(scene, comm);
     if (line.dry_run)
       {
-        simulation.estimate();
+        tread::Simulation(scene, comm).estimate();
         return 0;
       }
-    return simulation.run(folder_of(""), line.resume) ? 0 : 130;
+    return tread::run(scene, comm, folder_of(""), line.resume) ? 0 : 130;
   }
 
   /// An error found by all ranks is printed once. Otherwise each failing rank prints its error and ends the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/archive.h>
+#include <tread/base/gathered.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -55,6 +56,14 @@ namespace tread
   {
     const std::uint64_t size = parts[0].bytes.size();
     return std::string(reinterpret_cast<const char *>(&size), sizeof size) + parts[0].bytes;
+  }
+
+
+  std::string Archive::stored_by_all() const
+  {
+    const std::string       own = stored();
+    const std::vector<char> all = gathered(std::vector<char>(own.begin(), own.end()), comm);
+    return std::string(all.begin(), all.end());
   }
 
 

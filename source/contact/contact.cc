@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -103,6 +104,50 @@ namespace tread
   }
 
 
+  Contact::MemoryOfNodes Contact::memory_of_nodes()
+  {
+    MemoryOfNodes memory;
+    memory.impulse.assign(surfaces.nodes.size(), Vector3{});
+    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
+      memory.impulse[problem.constraints[j].slave] = impulse[j];
+    if (friction->memory().distance > 0.)
+      {
+        memory.coefficient.assign(surfaces.nodes.size(), friction->coefficient(0.));
+        gather_strips(pair_friction.coefficient);
+        for (unsigned int j = 0; j < pair_friction.coefficient.size(); ++j)
+          memory.coefficient[problem.constraints[j].slave] = pair_friction.coefficient[j];
+      }
+    return memory;
+  }
+
+
+  void Contact::go_on_from(Contact &before)
+  {
+    const auto key_of = [](const ContactSurfaces::Node &node) {
+      std::array<long long, 4> key{{node.body}};
+      for (unsigned int d = 0; d < 3; ++d)
+        key[1 + d] = std::llround(1e9 * node.reference[d]);
+      return key;
+    };
+    std::map<std::array<long long, 4>, unsigned int> number;
+    for (unsigned int i = 0; i < surfaces.nodes.size(); ++i)
+      number[key_of(surfaces.nodes[i])] = i;
+    const MemoryOfNodes of_other = before.memory_of_nodes();
+    MemoryOfNodes       memory   = memory_of_nodes();
+    unconverged_steps            = before.unconverged_steps;
+    for (const ContactProblem::Constraint &pair : before.problem.constraints)
+      if (const auto node = number.find(key_of(before.surfaces.nodes[pair.slave])); node != number.end())
+        {
+          memory.impulse[node->second] = of_other.impulse[pair.slave];
+          if (!memory.coefficient.empty())
+            memory.coefficient[node->second] = of_other.coefficient[pair.slave];
+        }
+      else if (norm(of_other.impulse[pair.slave]) > 0.)
+        throw std::logic_error("contact: a node that is pressed is not in the other mesh");
+    from_other_mesh = std::move(memory);
+  }
+
+
   void Contact::refresh(const Vector3 *x, const Vector3 *v, const double time_step)
   {
     if (take_record)
@@ -111,18 +156,9 @@ namespace tread
     surfaces.replicate(x, all_x);
     surfaces.replicate(v, all_v);
 
-    std::vector<Vector3> impulse_of_node(surfaces.nodes.size(), Vector3{}); // the warm start
-    for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      impulse_of_node[problem.constraints[j].slave] = impulse[j];
-
-    std::vector<double> coefficient_of_node;
-    if (friction->memory().distance > 0.)
-      {
-        coefficient_of_node.assign(surfaces.nodes.size(), friction->coefficient(0.));
-        gather_strips(pair_friction.coefficient);
-        for (unsigned int j = 0; j < pair_friction.coefficient.size(); ++j)
-          coefficient_of_node[problem.constraints[j].slave] = pair_friction.coefficient[j];
-      }
+    const MemoryOfNodes memory = from_other_mesh ? *std::exchange(from_other_mesh, {}) : memory_of_nodes();
+    const std::vector<Vector3> &impulse_of_node     = memory.impulse; // the warm start
+    const std::vector<double>  &coefficient_of_node = memory.coefficient;
 
     const double         search_reach = searched * face_size, reach = coupled * face_size;
     const MortarCoupling coupling =

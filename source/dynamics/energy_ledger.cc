@@ -176,6 +176,7 @@ namespace tread
     now.plastic  = totals.plastic.value(mesh.comm);
     now.friction = totals.friction.value(mesh.comm);
     now.contact  = totals.contact.value(mesh.comm);
+    now.window           = totals.window.value(mesh.comm);
     now.contact_on_nodes = totals.contact_on_nodes.value(mesh.comm);
     now.external_work    = totals.external_work.value(mesh.comm);
     now.gross_work       = totals.gross_work.value(mesh.comm);

@@ -181,11 +181,17 @@ namespace tread
   }
 
 
+  void ExplicitDynamics::serialize_parts(Archive &archive)
+  {
+    for (const auto &part : parts)
+      part->serialize(archive);
+  }
+
+
   void ExplicitDynamics::serialize(Archive &archive)
   {
     archive.same(critical_step, highest_of_step, bound_found_stable);
-    for (const auto &part : parts)
-      part->serialize(archive);
+    serialize_parts(archive);
     if (archive.restores())
       set_inertia(); // before the contact, as it looks for the pairs that may touch
     archive.same(start_kinetic, start_potential, start_strain, start_external_work, start_gross_work,

@@ -42,6 +42,18 @@ namespace tread
     return from < to ? std::array<double, 2>{{from, to}} : std::array<double, 2>{{middle, middle}};
   }
 
+  FineZone FineZone::in_window() const
+  {
+    FineZone part     = *this;
+    part.x_begin      = std::max(x_begin, window_begin);
+    part.x_end        = std::min(x_end, window_end);
+    part.window_begin = -std::numeric_limits<double>::infinity();
+    part.window_end   = std::numeric_limits<double>::infinity();
+    if (!(part.x_begin < part.x_end))
+      throw std::invalid_argument("the window of fine cells does not meet the path");
+    return part;
+  }
+
   double FineZone::distance(const double x, const double y, const double depth_of_point) const
   {
     const double margin = 0.01 * finest_cell_size;
@@ -69,6 +81,8 @@ namespace tread
 
   double FineZone::wanted_size(const double x, const double y, const double depth_of_point) const
   {
+    if (x_begin < window_begin || x_end > window_end)
+      return in_window().wanted_size(x, y, depth_of_point);
     if (path_level == 0)
       return wanted_size(distance(x, y, depth_of_point));
     FineZone path         = *this;

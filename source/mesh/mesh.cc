@@ -214,7 +214,8 @@ namespace tread
           {
             cell->get_dof_indices(dofs);
             Mesh::Cell c;
-            c.body                   = cell->material_id();
+            c.body    = cell->material_id();
+            c.address = CellAddress(cell->id().get_coarse_cell_id(), cell->id().get_child_indices());
             const unsigned int level = likely_level(cell);
             for (unsigned int v = 0; v < Mesh::nodes_per_cell; ++v)
               {

@@ -56,10 +56,11 @@ namespace tread
     /// radius.
     std::function<double(const dealii::Point<3> &)> cell_size_around(const WheelAxis &axis,
                                                                      const double     radius,
-                                                                     FineZone         zone)
+                                                                     const FineZone  &whole)
     {
-      const double center = 0.5 * (zone.x_begin + zone.x_end) / radius;
-      const double half   = 0.5 * (zone.x_end - zone.x_begin) / radius;
+      const FineZone zone   = whole.in_window();
+      const double   center = 0.5 * (zone.x_begin + zone.x_end) / radius;
+      const double   half   = 0.5 * (zone.x_end - zone.x_begin) / radius;
       return [axis, radius, zone, center, half](const dealii::Point<3> &p) {
         const double r     = axis.radius(p);
         FineZone     local = zone;

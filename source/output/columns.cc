@@ -284,6 +284,13 @@ namespace tread
                          [](const R &r) {
                            return r.wheels.front().inner_force;
                          }});
+    if (parts.has_window)
+      columns.push_back(
+        {"window_loss", "J",
+         "Energy that fine cells had and others do not carry when the window moves, since the start",
+         [](const R &r) {
+           return r.energy.window;
+         }});
     if (!parts.supports.empty())
       columns.push_back(
         {"spring_energy", "J", "Of the springs of the supports, change since the start", [](const R &r) {
@@ -722,7 +729,7 @@ namespace tread
   std::vector<TableDescription> tables_of_a_run()
   {
     HistoryParts all{2, true, true, {0}};
-    all.has_rail_base = all.has_flexible_axle = all.has_slices = all.has_two_pieces = true;
+    all.has_rail_base = all.has_flexible_axle = all.has_slices = all.has_two_pieces = all.has_window = true;
     return {describe("history.csv", history_columns(all)),
             describe("patch.csv", patch_columns()),
             describe("patches.csv", patches_columns()),

@@ -191,6 +191,8 @@ namespace tread
       {"contact_unconverged_steps",
        "Steps in which the iteration of the contact ended before 'Contact/Tolerance' was reached"},
       {"cells", "Number of cells of all bodies"},
+      {"windows", "Number of places at which the window of fine cells has stood"},
+      {"window_loss_J", "Energy that fine cells had and others do not carry when the window moves"},
       {"plastic_cells", "Number of cells that can yield"},
       {"unknowns", "Three for each node that does not hang"},
       {"steps", "Time steps of the shortest level, of all passages"},

@@ -30,7 +30,8 @@ namespace tread
     /// The zone of a wheel's path.
     FineZone zone_on_rail(const Scene                   &scene,
                           const unsigned int             wheel,
-                          const reference::HertzEllipse &ellipse)
+                          const reference::HertzEllipse &ellipse,
+                          const FineWindow              &window)
     {
       FineZone on_rail;
       on_rail.finest_cell_size = scene.mesh.finest_cell;
@@ -39,8 +40,10 @@ namespace tread
       on_rail.half_width       = scene.fine_half_width();
       on_rail.depth            = scene.mesh.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.mesh.cells_per_level;
-      on_rail.level_depth = scene.mesh.level_depth * std::sqrt(ellipse.semi_axis_x * ellipse.semi_axis_y);
-      on_rail.y_middle    = scene.path_y();
+      on_rail.level_depth  = scene.mesh.level_depth * std::sqrt(ellipse.semi_axis_x * ellipse.semi_axis_y);
+      on_rail.y_middle     = scene.path_y();
+      on_rail.window_begin = window.rail_begin;
+      on_rail.window_end   = window.rail_end;
       if (scene.mesh.fine_from < scene.mesh.fine_to && scene.mesh.path_cell > scene.mesh.finest_cell)
         {
           on_rail.cubes_begin = scene.cubes().begin;
@@ -54,12 +57,14 @@ namespace tread
 
 
     /// Those of all paths, in the order of x. Paths that follow each other closely have one zone.
-    FineZones zones_on_rail(const Scene &scene, const reference::HertzEllipse &ellipse)
+    FineZones zones_on_rail(const Scene                   &scene,
+                            const reference::HertzEllipse &ellipse,
+                            const FineWindow              &window)
     {
       std::vector<FineZone> zones;
       for (unsigned int wheel = scene.n_wheels(); wheel-- > 0;)
         {
-          const FineZone zone = zone_on_rail(scene, wheel, ellipse);
+          const FineZone zone = zone_on_rail(scene, wheel, ellipse, window);
           // Between two boxes there is room for all sizes of cells to grow and shrink again.
           if (!zones.empty() && zone.x_begin - zones.back().x_end < 4. * scene.mesh.coarsest_cell)
             zones.back().x_end = zone.x_end;
@@ -73,9 +78,12 @@ namespace tread
     /// The zone of a wheel's path laid along the tread, from where it touches at the start.
     FineZone zone_on_wheel(const Scene                   &scene,
                            const unsigned int             wheel,
-                           const reference::HertzEllipse &ellipse)
+                           const reference::HertzEllipse &ellipse,
+                           const FineWindow              &window)
     {
-      FineZone on_wheel = zone_on_rail(scene, wheel, ellipse);
+      FineZone on_wheel     = zone_on_rail(scene, wheel, ellipse, window);
+      on_wheel.window_begin = window.tread_begin;
+      on_wheel.window_end   = window.tread_end;
       on_wheel.cubes_begin -= scene.path_begin(wheel);
       on_wheel.cubes_end -= scene.path_begin(wheel);
       on_wheel.x_begin = -beyond_path(scene, ellipse);
@@ -179,17 +187,29 @@ namespace tread
   } // namespace
 
 
-  std::vector<Body> make_bodies(const Scene &scene)
+  FineWindow fine_window(const Scene &scene, const unsigned int number, const double tread)
+  {
+    if (!scene.mesh.window)
+      return {};
+    // The tread rolls off by its creepage more than the way, or less.
+    constexpr double with_creepage = 1.02;
+    const double     margin = scene.window_margin(), length = scene.window_length(),
+                 begin = scene.path_begin() + number * length;
+    return {begin - margin, begin + length + margin, tread - margin, tread + with_creepage * length + margin};
+  }
+
+
+  std::vector<Body> make_bodies(const Scene &scene, const FineWindow &window)
   {
     if (scene.is_positioned())
       return {scene.placed_wheel().make_rail(scene), scene.placed_wheel().make_wheel(scene)};
     const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
     std::vector<Body>             bodies;
-    bodies.push_back(make_rail(scene, zones_on_rail(scene, ellipse)));
+    bodies.push_back(make_rail(scene, zones_on_rail(scene, ellipse, window)));
     bodies.back().name = "rail";
     for (unsigned int k = 0; k < scene.n_wheels(); ++k)
       {
-        bodies.push_back(make_wheel(scene, k, zone_on_wheel(scene, k, ellipse)));
+        bodies.push_back(make_wheel(scene, k, zone_on_wheel(scene, k, ellipse, window)));
         bodies.back().name = k == 0 ? "wheel" : "wheel " + std::to_string(k + 1);
       }
     if (scene.track.has_solid_sleepers())

@@ -329,6 +329,7 @@ namespace tread
             "'Wheel/Sector margin (mm)' " + text_in_mm(wheel.sector_margin) +
               " lets the contact leave the sector; at least three semi-axes, " + text_in_mm(3. * a));
     check_sector();
+    check_window();
 
     // Around the finest cells there is room for at least one more.
     const double beside = std::abs(path_y());
@@ -351,6 +352,31 @@ namespace tread
             "'Mesh/Fine from (mm)' to 'Fine to (mm)', from the defect's leading edge at " +
               text_in_mm(defect.position) + " mm, must lie on the rail from " + text_in_mm(rail_begin()) +
               " to " + text_in_mm(rail_end()) + " mm at least in part");
+  }
+
+
+  void Scene::check_window() const
+  {
+    if (!mesh.window)
+      return;
+    const double a = hertz(*this, static_load()).semi_axis_x, least = 1.25 * a + 2. * mesh.finest_cell;
+    require(window_margin() >= least * (1. - 1e-9),
+            "'Mesh/Window margin (mm)' " + text_in_mm(mesh.window_margin) +
+              " must hold the patch and a quarter of it more; at least " + text_in_mm(least));
+    const auto yields = [](const MaterialSection &material) {
+      return material.yield_stress > 0. || !material.plastic_zones.empty();
+    };
+    for (const auto &[what, is_there] : std::initializer_list<std::pair<const char *, bool>>{
+           {"several wheels", n_wheels() > 1},
+           {"several passages", motion.passages > 1},
+           {"'Motion/Longest distance (mm)'", motion.longest_distance > 0.},
+           {"a rail that is meshed in a file", bool(rail_mesh())},
+           {"steel that yields", yields(rail.material) || yields(wheel.material)},
+           {"'Damage/Record'", damage.record},
+           {"section 'Peak stress'", peak_stress.is_wanted()},
+           {"'Output/Cells'", !output.cells.empty()},
+           {"'Scene/Reproducible'", general.reproducible}})
+      require(!is_there, std::string("'Mesh/Window' cannot be had with ") + what + ": its mesh must stay");
   }
 
 

@@ -104,6 +104,8 @@ namespace tread
        "Shape",
        !rail.is_block(),
        "head or full section"},
+      {"Mesh", {"Window length (mm)", "Window margin (mm)"}, "Window", mesh.window, "true"},
+      {"Output", {"Strip half width (mm)"}, "Mesh/Window", !mesh.window, "false"},
       {"Rail",
        {"Ends", "Absorbing length (m)"},
        "Track/Foundation",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/archive.h>
 #include <tread/base/file_text.h>
+#include <tread/base/format.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/simulation.h>
@@ -26,7 +27,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-26";
+    constexpr const char *layout = "tread-checkpoint-27";
 
     /// A text with its size before it.
     std::string with_size(const std::string &text)
@@ -115,7 +116,9 @@ namespace tread
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       try
         {
-          const std::string  content = with_size(parameters()) + with_size(folder.progress()) + parts;
+          const std::string window  = format("%u %.17g", simulation.window.number, simulation.window.tread),
+                            content = with_size(parameters()) + with_size(folder.progress()) +
+                                      with_size(window) + parts;
           std::ostringstream file;
           file << layout << ' ' << content.size() << ' ' << checksum(content) << '\n' << content;
           const std::string name = "checkpoint-" + std::to_string(next_slot);
@@ -238,7 +241,7 @@ namespace tread
   }
 
 
-  void Checkpoint::read(Simulation &simulation)
+  Checkpoint::Content Checkpoint::last_content()
   {
     std::string name;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -248,27 +251,55 @@ namespace tread
       throw InputError("--resume: no checkpoint in '" + folder.path("") + "'");
     require(name == "checkpoint-0" || name == "checkpoint-1",
             "--resume: '" + folder.path("checkpoint.last") + "' is damaged");
+    last      = name;
     next_slot = name.back() == '0' ? 1 : 0;
 
-    const std::string content = content_of(name),
-                      damaged = "--resume: '" + folder.path(name) + "' is damaged";
-    std::size_t place         = 0;
-    require_same_parameters(take_sized(content, place, damaged));
+    const std::string content = content_of(name);
+    std::size_t       place   = 0;
+    Content           parts;
+    for (std::string Content::*text : {&Content::parameters, &Content::progress, &Content::window})
+      parts.*text = take_sized(content, place, damaged());
+    parts.state = content.substr(place);
+    return parts;
+  }
+
+
+  WindowPlace Checkpoint::window()
+  {
+    const Content      content = last_content();
+    WindowPlace        window;
+    std::istringstream text(content.window);
+    require_same_parameters(content.parameters);
+    text >> window.number >> window.tread;
+    require(bool(text) && window.number < scene.n_windows(), damaged());
+    return window;
+  }
+
+
+  void Checkpoint::read(Simulation &simulation)
+  {
+    const Content content = last_content();
     try
       {
-        folder.continue_from(take_sized(content, place, damaged));
-        Archive archive(comm, content.substr(place));
+        folder.continue_from(content.progress);
+        Archive archive(comm, content.state);
         simulation.serialize(archive);
         if (!archive.found_all())
-          throw InputError("--resume: '" + folder.path(name) + "' belongs to another mesh");
+          throw InputError("--resume: '" + folder.path(last) + "' belongs to another mesh");
       }
     catch (const nlohmann::json::exception &)
       {
-        throw InputError(damaged);
+        throw InputError(damaged());
       }
     catch (const Archive::OtherLayout &)
       {
-        throw InputError("--resume: '" + folder.path(name) + "' was not written by this version of tread");
+        throw InputError("--resume: '" + folder.path(last) + "' was not written by this version of tread");
       }
+  }
+
+
+  std::string Checkpoint::damaged() const
+  {
+    return "--resume: '" + folder.path(last) + "' is damaged";
   }
 } // namespace tread

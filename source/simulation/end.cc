@@ -631,6 +631,11 @@ namespace tread
     quality.contact_unconverged =
       dynamics.state.n_steps > 0 ? double(contact.n_unconverged_steps()) / dynamics.state.n_steps : 0.;
     quality.add_to(summary);
+    if (scene.mesh.window)
+      {
+        summary.set("windows", window.number + 1);
+        summary.set("window_loss_J", energy.window);
+      }
     if (scene.has_impacts())
       impacts.add_to(summary, scene.static_load());
     const Rolled      rolled         = add_size(summary, normal);

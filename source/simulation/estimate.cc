@@ -55,7 +55,9 @@ namespace tread
                    width =
                      2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
       return all_over_finest * 2. * scene.n_wheels() * scene.mesh.fine_layers * std::max(1., width / h) *
-             scene.motion.rolled_distance / std::max(h, scene.mesh.path_cell);
+             (scene.mesh.window ? scene.window_length() + 2. * scene.window_margin()
+                                : scene.motion.rolled_distance) /
+             std::max(h, scene.mesh.path_cell);
     }
   } // namespace
 

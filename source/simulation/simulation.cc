@@ -43,10 +43,14 @@ namespace tread
   } // namespace
 
 
-  Simulation::Simulation(const Scene &scene, const MPI_Comm comm)
-    : scene(scene)
+  Simulation::Simulation(const Scene &scene, const MPI_Comm comm, const WindowPlace &window)
+    : window(window)
+    , scene(scene)
     , comm(comm)
-    , mesh(comm, make_bodies(scene), scene.time_stepping.levels - 1, cell_cost(scene))
+    , mesh(comm,
+           make_bodies(scene, fine_window(scene, window.number, window.tread)),
+           scene.time_stepping.levels - 1,
+           cell_cost(scene))
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), scene.friction_law())
@@ -109,7 +113,7 @@ namespace tread
         return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
       });
 
-    if (scene.output.strip_half_width > 0.)
+    if (scene.output.strip_half_width > 0. && !scene.mesh.window)
       strip = std::make_unique<StressStrip>(mesh, solid, &contact.surfaces, rail_body,
                                             materials(scene)[rail_body], strip_extent(scene));
     if (scene.peak_stress.is_wanted())
@@ -138,6 +142,12 @@ namespace tread
   void Simulation::serialize(Archive &archive)
   {
     dynamics.serialize(archive); // and hubs, supports and contact, which are attached to it
+    serialize_records(archive);
+  }
+
+
+  void Simulation::serialize_records(Archive &archive)
+  {
     if (seats)
       seats->serialize(archive);
     if (strip)
@@ -189,6 +199,33 @@ namespace tread
     const std::uint64_t together = std::uint64_t(1) << dynamics.max_level();
     return together * static_cast<std::uint64_t>(
                         std::ceil((end_position - position()) / (scene.motion.speed * step * together)));
+  }
+
+
+  bool Simulation::at_end_of_window() const
+  {
+    return scene.mesh.window && window.number + 1 < scene.n_windows() &&
+           position() >= scene.path_begin() + (window.number + 1) * scene.window_length();
+  }
+
+
+  WindowPlace Simulation::next_window() const
+  {
+    return {window.number + 1, scene.wheel.radius * wheels.front().hub.motion.angle};
+  }
+
+
+  void Simulation::go_on_from(Simulation &before)
+  {
+    Archive kept(comm);
+    before.dynamics.serialize_parts(kept);
+    before.serialize_records(kept);
+    Archive found(comm, kept.stored_by_all());
+    dynamics.serialize_parts(found);
+    serialize_records(found);
+    dynamics.go_on_from(before.dynamics);
+    checked_position = before.checked_position;
+    seconds_before   = before.seconds_before;
   }
 
 
@@ -406,106 +443,6 @@ namespace tread
   }
 
 
-  bool Simulation::run(const std::string &path, const bool resume)
-  {
-    Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    RunFolder  folder(path, comm, scene.output.pictures);
-    Checkpoint checkpoint(folder, scene, comm);
-    watch_stop_signals();
-
-    if (resume && folder.is_complete() && !checkpoint.run_may_go_on())
-      {
-        checkpoint.require_parameters_of_run();
-        progress.say("the run in '" + path +
-                     "' is complete: nothing to resume; without --resume it starts anew");
-        return true;
-      }
-    if (resume)
-      {
-        checkpoint.read(*this);
-        // The patch is averaged over a cell at the end.
-        if (went_on_at == position())
-          require(position() <= scene.path_end() - 0.5 * scene.mesh.finest_cell,
-                  "--resume: the wheel has rolled " + text_in_mm(position() - scene.path_begin()) +
-                    " mm already; 'Motion/Rolled distance (mm)' " + text_in_mm(scene.motion.rolled_distance) +
-                    " is shorter, or longer by less than a cell");
-      }
-    seconds_before = wall_seconds;
-
-    announce(progress);
-    if (resume)
-      progress.say(format("resumed at %.2f mm, step %llu", 1e3 * position(),
-                          (unsigned long long)dynamics.state.n_steps));
-    else
-      {
-        try
-          {
-            prepare_start(progress);
-          }
-        catch (const Interruption &)
-          {
-            progress.say("INTERRUPTED before the wheel rolled: there is nothing to go on from");
-            return false;
-          }
-        folder.remove_results();
-      }
-    folder.open_histories({static_cast<unsigned int>(wheels.size()), scene.guidance.kind != Guidance::rigid,
-                           scene.wheelset.both_wheels, scene.recorded_supports(), scene.track.runs_along(),
-                           scene.wheelset.has_flexible_axle(), scene.rail.is_sliced(),
-                           between_pieces.has_value()},
-                          probes ? probes->centres().size() : 0);
-    if (scene.output.interval_of_patches() > 0.)
-      folder.open_patches(wheels.size());
-    // Nothing is refused any more.
-    if (resume && folder.is_complete())
-      folder.remove_solution();
-    folder.write("parameters.prm", scene.parameters_of_run());
-    MeasuredProfiles(scene).write(folder);
-    checked_position = position();
-    if (next_wheel_due && !begin_next_passage(progress))
-      return false;
-
-    End end = End::complete;
-    try
-      {
-        end = roll(folder, checkpoint, progress);
-        if (end == End::complete || end == End::left_surface)
-          {
-            if (interval_steps > 0)
-              end_interval(folder);
-            if (scene.motion.passages > 1 && end == End::complete)
-              end_passage(folder);
-            if (end == End::complete && scene.motion.may_go_on())
-              checkpoint.write(*this);
-          }
-      }
-    catch (const WentWrong &wrong)
-      {
-        write_volume(folder);
-        throw WentWrong(wrong.what() + ("; " + folder.list_of_pictures("volume")) +
-                        " ends with the bodies as they were then");
-      }
-    if (end == End::between_passages)
-      return false;
-    wall_seconds = seconds_before + progress.seconds();
-    std::exception_ptr no_checkpoint;
-    if (end == End::interrupted)
-      try
-        {
-          checkpoint.write(*this);
-        }
-      catch (const std::exception &)
-        {
-          no_checkpoint = std::current_exception(); // what was computed is kept all the same
-        }
-    finish(folder, end);
-    check_rim();
-    if (no_checkpoint)
-      std::rethrow_exception(no_checkpoint);
-    return end == End::complete;
-  }
-
-
   void Simulation::announce(Progress &progress) const
   {
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
@@ -527,18 +464,20 @@ namespace tread
   }
 
 
-  Simulation::End Simulation::roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress)
+  void Simulation::announce_steps(Progress &progress) const
   {
-    std::uint64_t n_steps = dynamics.state.n_steps + remaining_steps();
     progress.say(format("time step %.4g ns, %llu steps to roll %.1f mm", 1e9 * dynamics.state.time_step,
-                        (unsigned long long)(n_steps - dynamics.state.n_steps),
-                        1e3 * (end_position - position())));
+                        (unsigned long long)remaining_steps(), 1e3 * (end_position - position())));
     for (const std::string &doubt : doubts_at_start())
       progress.say("WARNING: " + doubt);
+  }
+
+
+  Simulation::End Simulation::roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress, Pace &pace)
+  {
+    std::uint64_t n_steps = dynamics.state.n_steps + remaining_steps();
     // mpirun gives its ranks a second to end after Ctrl-C.
     EverySoManySteps look_at_signals{10, dynamics.state.n_steps}, check{100, dynamics.state.n_steps + 100};
-    Pace             pace{progress.seconds(), dynamics.state.n_steps, progress.seconds(),
-              mesh.n_global_cells / dynamics.ideal_gain_of_levels()};
     while (dynamics.state.n_steps < n_steps)
       {
         set_drive();
@@ -574,6 +513,8 @@ namespace tread
           }
         if (look_at_signals.due(dynamics.state.n_steps) && interrupted())
           return End::interrupted;
+        if (at_end_of_window())
+          return End::of_window;
         if (checks)
           {
             keep_checkpoint(checkpoint, progress, pace);

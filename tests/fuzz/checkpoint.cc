@@ -82,21 +82,21 @@ namespace
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       std::raise(SIGINT);
     });
-    Simulation(scene, MPI_COMM_WORLD).run(folder, false);
+    run(scene, MPI_COMM_WORLD, folder, false);
     ctrl_c.join();
   }
 
   /// A checkpoint in parts: what stands before the state, and the groups of values of the state.
   struct Content
   {
-    std::string              texts;  ///< parameters and progress of the tables, each with its size
+    std::string              texts;  ///< parameters, progress of the tables and window, each with its size
     std::vector<std::string> groups; ///< each with its number and size of values
 
     explicit Content(const std::string &file)
     {
       const std::string all   = file.substr(file.find('\n') + 1);
       std::size_t       begin = 0;
-      for (unsigned int text = 0; text < 2; ++text)
+      for (unsigned int text = 0; text < 3; ++text)
         {
           std::uint64_t size;
           std::memcpy(&size, all.data() + begin, sizeof size);
@@ -191,7 +191,7 @@ namespace
     std::string outcome = "rolled on", said;
     try
       {
-        Simulation(scene, MPI_COMM_WORLD).run(folder, true);
+        run(scene, MPI_COMM_WORLD, folder, true);
       }
     catch (const InputError &error)
       {

@@ -142,6 +142,8 @@ namespace tread
 
     /// The part of this rank, in bytes.
     std::string stored() const;
+    /// The parts of all ranks, from which another archive restores. Collective.
+    std::string stored_by_all() const;
 
   private:
     /// What one rank has stored, and how far it is read.

@@ -226,6 +226,10 @@ namespace tread
     /// (m): beyond the rim contact would be missed.
     std::optional<Vector3> contact_at_rim() const;
 
+    /// Begin the next refresh from what pairs of another mesh of the same bodies have, whose slave nodes are
+    /// known by their places: impulses and, of friction with a memory, coefficients. Collective.
+    void go_on_from(Contact &before);
+
     /// Store or restore the state, after set_inverse_masses(): all but friction law and given tractions, and
     /// what a step finds of velocities. Collective.
     void serialize(Archive &archive);
@@ -243,6 +247,14 @@ namespace tread
                               const Vector3                     sliding) const;
     /// Let the coefficients of the strip's pairs follow their slip in this step.
     void age_friction(const double time_step);
+    /// What a slave node has of its pair, by surface node.
+    struct MemoryOfNodes
+    {
+      std::vector<Vector3> impulse;     ///< in the last step, N s
+      std::vector<double>  coefficient; ///< of friction with a memory; else empty
+    };
+    /// That of the present pairs.
+    MemoryOfNodes memory_of_nodes();
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
     /// Slip of a pair of the strip with the relative velocity u (m/s), while it touches: what an entering
@@ -336,11 +348,12 @@ namespace tread
     unsigned int                           steps_since_normals = 0;
     std::vector<double>                    send_buffer, receive_buffer;
     double                                 time_since_refresh = 0., time_to_refresh = 0.;
-    double                    closing_speed = 0.; ///< largest speeds of both bodies' nodes, added, m/s
-    double                    travelled = 0., allowed_travel = 0.; ///< by that speed, m
-    std::vector<unsigned int> own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
-    ContactWork               work;
-    std::uint64_t             unconverged_steps = 0;
+    double                       closing_speed = 0.; ///< largest speeds of both bodies' nodes, added, m/s
+    double                       travelled = 0., allowed_travel = 0.; ///< by that speed, m
+    std::vector<unsigned int>    own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
+    ContactWork                  work;
+    std::uint64_t                unconverged_steps = 0;
+    std::optional<MemoryOfNodes> from_other_mesh; ///< for the next refresh
   };
 } // namespace tread
 

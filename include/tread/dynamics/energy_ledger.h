@@ -12,15 +12,16 @@ namespace tread
   /// Stored and dissipated energies since the start, J; sums over all ranks.
   struct EnergyLedger
   {
-    /// Drive, guidance, suspension, weight, prescribed forces, imposed sliding, and cells of the surface that
-    /// become or cease to be matched.
+    /// Drive, guidance, suspension, weight, prescribed forces, imposed sliding, cells of the surface that
+    /// become or cease to be matched, and added density that comes or goes with a window of fine cells.
     double external_work = 0.;
     double gross_work    = 0.; ///< sum of its absolute parts: the scale of the residual
     double kinetic = 0., strain = 0., hourglass = 0.; ///< changes since the start
     double friction = 0., contact = 0., damping = 0.; ///< lost so far
     double plastic = 0.;                              ///< work on plastic strain so far
-    double springs = 0.;                              ///< of the supports, change since the start
-    double dampers = 0.;                              ///< the supports' part of damping
+    double window  = 0.; ///< lost so far where another mesh does not carry what fine cells did
+    double springs = 0.; ///< of the supports, change since the start
+    double dampers = 0.; ///< the supports' part of damping
     /// Lost so far by the contact forces on the nodes, and put in with imposed sliding: friction + contact.
     double contact_on_nodes = 0.;
     double stored_strain = 0., stored_hourglass = 0.; ///< in the cells now
@@ -28,7 +29,7 @@ namespace tread
     double residual() const
     {
       return external_work -
-             (kinetic + strain + hourglass + springs + friction + contact + damping + plastic);
+             (kinetic + strain + hourglass + springs + friction + contact + damping + plastic + window);
     }
     double residual_share() const;
 
@@ -63,12 +64,13 @@ namespace tread
   /// What steps add to the ledger, J: this rank's shares of what it has by these names.
   struct LedgerTotals
   {
-    ReproducibleSum<double> external_work, gross_work, friction, contact, damping, plastic, contact_on_nodes;
+    ReproducibleSum<double> external_work, gross_work, friction, contact, damping, plastic, contact_on_nodes,
+      window;
 
     void serialize(Archive &archive)
     {
       for (ReproducibleSum<double> *total :
-           {&external_work, &gross_work, &friction, &contact, &damping, &plastic, &contact_on_nodes})
+           {&external_work, &gross_work, &friction, &contact, &damping, &plastic, &contact_on_nodes, &window})
         total->serialize(archive);
     }
   };

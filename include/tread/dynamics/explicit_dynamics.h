@@ -147,6 +147,15 @@ namespace tread
     /// External forces are not part of it. Collective.
     void serialize(Archive &archive);
 
+    /// The same of the parts alone. Collective.
+    void serialize_parts(Archive &archive);
+
+    /// Go on where the motion of the same bodies on another mesh is, which refines the same coarse cells
+    /// otherwise. Instead of start(), once all is attached and the state of the parts is that of `before`.
+    /// What energy the change takes is booked as the window's loss. Collective. @pre before.synchronised(),
+    /// and no cells of plastic zones
+    void go_on_from(ExplicitDynamics &before);
+
     /// @throws WentWrong if nodes move faster than is possible in steel. Collective.
     void check_stability() const;
 
@@ -191,7 +200,17 @@ namespace tread
 
     /// Set the time step, the inverse masses and the pairs in contact.
     void set_inertia();
-    void prepare_step(); ///< the state that step() leaves for the next one
+    /// Energy that the mass added by density scaling has by the rigid motion of carried bodies, and the
+    /// potential by which its centrifugal force is compensated, J. Collective.
+    double energy_of_added_mass() const;
+    /// Take over the motion of the nodes. @see go_on_from
+    void take_nodes(ExplicitDynamics &before);
+    /// Change of a node's velocity by the rigid turning of its body in half of its step, m/s. @param
+    /// time_step of level 0, s
+    Vector3 turning_in_half_a_step(const unsigned int node,
+                                   const Vector3     &velocity,
+                                   const double       time_step) const;
+    void    prepare_step(); ///< the state that step() leaves for the next one
     /// Of the hourglass modes of the uppermost layer of cells over their stiffness, s.
     double surface_damping_time() const
     {

@@ -271,6 +271,8 @@ namespace tread
     virtual unsigned int                     body() const    = 0;
     virtual const std::vector<unsigned int> &carried() const = 0; ///< nodes of this rank that it moves
     virtual RigidMotion                      motion() const  = 0;
+    /// How an arm (m) of the undeformed body at the start lies now.
+    virtual Vector3 turned(const Vector3 &arm) const = 0;
     /// What nodes of the body bear in this step by mass damping and compensation.
     virtual void take(const LoadsOnBody &) = 0;
     /// Velocities of the nodes of the body as those of the rigid motion. @param back by how much earlier, s,

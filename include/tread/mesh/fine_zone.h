@@ -31,6 +31,14 @@ namespace tread
     double       path_stretch = 1.;
     unsigned int path_level   = 0;
 
+    /// The box is as long as the path, for the sake of the coarse cells; but only between these are cells of
+    /// it fine at present (m). With other limits the same coarse cells are refined elsewhere.
+    double window_begin = -std::numeric_limits<double>::infinity();
+    double window_end   = std::numeric_limits<double>::infinity();
+
+    /// The part of the box that lies in the window. @throws std::invalid_argument if there is none
+    FineZone in_window() const;
+
     /// The cubes that lie in the box along the path; where none do, its middle twice (m).
     std::array<double, 2> cubes() const;
 
@@ -57,8 +65,18 @@ namespace tread
     /// It stays below 2h + r/n: n is the inverse slope of the mesh size.
     double wanted_size(double distance) const;
 
-    /// The smaller value of wanted_size(distance(x, y, depth)) for the box with and without cubes.
+    /// The smaller value of wanted_size(distance(x, y, depth)) for the box with and without cubes, in the
+    /// window.
     double wanted_size(double x, double y, double depth) const;
+  };
+
+  /// Where cells are fine at present: along the rail (x) and along the wheel's tread (arc length), m.
+  struct FineWindow
+  {
+    double rail_begin  = -std::numeric_limits<double>::infinity();
+    double rail_end    = std::numeric_limits<double>::infinity();
+    double tread_begin = -std::numeric_limits<double>::infinity();
+    double tread_end   = std::numeric_limits<double>::infinity();
   };
 
   /// The boxes on one body, in the order of x, none of which overlap along it: one for each wheel that rolls

@@ -4,6 +4,7 @@
 
 #include <tread/base/shared_nodes.h>
 #include <tread/mesh/body.h>
+#include <tread/mesh/cell_address.h>
 
 #include <mpi.h>
 
@@ -45,6 +46,7 @@ namespace tread
     {
       std::array<unsigned int, 8> nodes; ///< deal.II's (lexicographic) order
       unsigned int                body;
+      CellAddress                 address;
     };
 
     /// A quadrilateral of the boundary, nodes around it counter-clockwise seen from outside.

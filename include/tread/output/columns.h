@@ -111,6 +111,7 @@ namespace tread
     bool             has_flexible_axle = false; ///< the first one's wheelset
     bool             has_slices        = false; ///< a rail that changes along the way
     bool             has_two_pieces    = false; ///< of it, such as nose and wing
+    bool             has_window        = false; ///< of fine cells, which moves
   };
   /// history.csv.
   Columns<HistoryRow> history_columns(const HistoryParts &parts);

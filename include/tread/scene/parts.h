@@ -31,8 +31,13 @@ namespace tread
     return wheel_body(scene.n_wheels()) + number;
   }
 
+  /// Where cells are fine while the wheel rolls on from a place in the window of this number. Everywhere if
+  /// the scene has no window. @param tread the place on the tread that touches there, arc length from where
+  /// it touched at the start, m
+  FineWindow fine_window(const Scene &scene, const unsigned int number, const double tread);
+
   /// Rail, wheels and solid sleepers, in the order of their numbers; the materials are in the same order.
-  std::vector<Body>            make_bodies(const Scene &scene);
+  std::vector<Body>            make_bodies(const Scene &scene, const FineWindow &window = {});
   std::vector<ElasticMaterial> materials(const Scene &scene);
   std::vector<SolidSleeper>    solid_sleepers(const Scene &scene);
   SolidParameters              solid_parameters(const Scene &scene);

@@ -341,6 +341,11 @@ namespace tread
     {
       return {defect.position + mesh.fine_from, defect.position + mesh.fine_to};
     }
+    /// How often the window of fine cells stands somewhere else, the way that the wheel rolls in each, and the
+    /// fine cells before and behind it (m). @pre mesh.window
+    unsigned int n_windows() const;
+    double       window_length() const;
+    double       window_margin() const;
     /// Whether all cells from begin to end have the finest size: among the cubes, or wherever nothing
     /// coarsens the path.
     bool is_finest(const double begin, const double end) const
@@ -423,6 +428,7 @@ namespace tread
     void        check_peak_stress() const;
     void        check_mesh() const;
     void        check_sector() const;
+    void        check_window() const;
     void        check_track() const;
     void        check_overhang() const;
     void        check_plasticity() const;

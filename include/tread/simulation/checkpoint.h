@@ -12,6 +12,7 @@ namespace tread
 {
   class Scene;
   class Simulation;
+  struct WindowPlace;
 
   /// The files from which a run is resumed: the whole state in one of two, written in turn; checkpoint.last
   /// names the one that is complete. Each class stores its own state by serialize(). Nodes and cells are
@@ -30,7 +31,11 @@ namespace tread
 
     /// Collective. @throws InputError with one line, on all ranks, if there is no checkpoint, if it is
     /// damaged or was written by another version, or if it belongs to other parameters.
+    /// @param simulation that was just made, with its cells fine at window()
     void read(Simulation &simulation);
+
+    /// Where the cells of the simulation that was stored are fine. Collective. @throws InputError likewise
+    WindowPlace window();
 
     /// Of a complete run, which has no checkpoint to go on from. Collective. @throws InputError if it has
     /// other parameters.
@@ -41,10 +46,18 @@ namespace tread
     bool run_may_go_on() const;
 
   private:
-    /// Of the slot that checkpoint.last names: what follows the first line, on all ranks.
+    /// What a file has behind its first line, cut where its texts end.
+    struct Content
+    {
+      std::string parameters, progress, window, state;
+    };
+    /// Of the slot that checkpoint.last names, on all ranks.
+    Content last_content();
+    /// What follows the first line of a slot, on all ranks.
     std::string content_of(const std::string &name) const;
     /// All parameters but those of the output, of which only the columns of tables that grow must stay.
     std::string parameters() const;
+    std::string damaged() const; ///< what is said of the file that was read
     /// @throws InputError with the first line that differs.
     void require_same_parameters(const std::string &of_checkpoint) const;
 
@@ -52,6 +65,7 @@ namespace tread
     const Scene &scene;
     MPI_Comm     comm;
     unsigned int next_slot = 0;
+    std::string  last; ///< name of the file that was read
   };
 } // namespace tread
 

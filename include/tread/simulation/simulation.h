@@ -41,23 +41,46 @@ namespace tread
   /// whether this is such a run
   bool estimate_without_mesh(const Scene &scene, const MPI_Comm comm);
 
+  /// Where the cells of a simulation are fine: the number of the window, and what touched in its middle when
+  /// it began, arc length on the tread (m).
+  struct WindowPlace
+  {
+    unsigned int number = 0;
+    double       tread  = 0.;
+  };
+
+  /// Roll a scene to its end, one simulation after the other where a window of fine cells moves with the
+  /// wheel. @param folder of the results; @param resume from its last checkpoint.
+  /// @returns false when interrupted by a signal. Collective.
+  bool run(const Scene &scene, const MPI_Comm comm, const std::string &folder, const bool resume);
+
   /// Wheels rolling over one rail, from equilibrium at the start to the solution instant.
   class Simulation
   {
   public:
-    Simulation(const Scene &scene, const MPI_Comm comm);
+    Simulation(const Scene &scene, const MPI_Comm comm, const WindowPlace &window = {});
 
     /// Print the cost of a run without running it or writing anything.
     void estimate();
 
-    /// @param folder of the results; @param resume from its last checkpoint.
-    /// @returns false when interrupted by a signal.
-    bool run(const std::string &folder, const bool resume);
-
     /// Store the state between two steps, or restore it in a simulation that was just made. Collective.
     void serialize(Archive &archive);
 
+    /// Where its cells are fine.
+    const WindowPlace window;
+
   private:
+    friend class Run;
+
+    /// What has no nodes or cells of the mesh.
+    void serialize_records(Archive &archive);
+    /// Where the next window begins.
+    WindowPlace next_window() const;
+    /// Whether the first wheel has come to the end of the window. @returns false in the last one
+    bool at_end_of_window() const;
+    /// Take over the motion and all that is recorded. @see ExplicitDynamics::go_on_from
+    void go_on_from(Simulation &before);
+
     /// Forces of the summary are means over this end of the way before the solution instant, m: a dozen rows
     /// of cells of a millimetre, over which what single nodes do as they enter the patch has cancelled.
     static constexpr double last_way = 10e-3;
@@ -125,7 +148,8 @@ namespace tread
       complete,
       interrupted,      ///< by a signal
       between_passages, ///< by a signal; the checkpoint of the last passage's end is kept
-      left_surface      ///< contact was about to leave the faces meshed for it
+      left_surface,     ///< contact was about to leave the faces meshed for it
+      of_window         ///< the next one is due
     };
     /// How fast steps are taken since the loop began, and when the last checkpoint was written.
     struct Pace
@@ -136,7 +160,8 @@ namespace tread
       double        updates_of_step; ///< of cells of all ranks
     };
     void announce(Progress &progress) const;
-    End  roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);
+    void announce_steps(Progress &progress) const;
+    End  roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress, Pace &pace);
     void write_what_is_due(RunFolder &folder);
     /// End a passage and begin the next. @returns false when interrupted by a signal.
     bool change_wheels(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);

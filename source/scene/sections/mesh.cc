@@ -48,6 +48,21 @@ namespace tread
                 Double(0., 100.));
     section.add("Longest row (mm)", longest_row,
                 "Largest length of the coarse cells of a full section beside the path.", Double(1., 1000.));
+    section.add(
+      "Window", window,
+      "Keep cells fine only about the wheel: when it has rolled 'Window length', the run goes on with a "
+      "mesh whose fine cells are further on, on rail and wheel. Cost then grows with the way alone. "
+      "Energy that fine cells had and others do not carry is the ledger's window loss.");
+    section.add(
+      "Window length (mm)", window_length,
+      "Way between two changes, at most. 0: 2.5 semi-axes of the patch, 12 on supports, and longer by the fourth root "
+      "of 'Scene/Density scale'.",
+      Double(0., 1e5));
+    section.add(
+      "Window margin (mm)", window_margin,
+      "Length of the finest cells before and behind the wheel at a change. 0: 1.75 semi-axes and two "
+      "cells.",
+      Double(0., 1e4));
   }
 
 

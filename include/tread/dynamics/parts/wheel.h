@@ -68,6 +68,10 @@ namespace tread
       return nodes;
     }
     RigidMotion motion() const override;
+    Vector3     turned(const Vector3 &arm) const override
+    {
+      return hub.position_of(arm) - hub.middle();
+    }
     void        take(const LoadsOnBody &loads_of_step) override
     {
       loads = loads_of_step;

@@ -16,6 +16,8 @@ namespace tread
     double       coarsest_cell = 22e-3;
     double       fine_from = 0., fine_to = 0.; ///< counted from the leading edge of the defect
     double       path_cell = 0., longest_row = 40e-3;
+    bool         window        = false;
+    double       window_length = 0., window_margin = 0.; ///< 0: automatic
 
     void declare(dealii::ParameterHandler &handler);
     /// @throws InputError

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How a motion goes on with other cells.
+#include <tread/base/gathered.h>
+#include <tread/dynamics/explicit_dynamics.h>
+#include <tread/mesh/moved_fields.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace tread
+{
+  Vector3 ExplicitDynamics::turning_in_half_a_step(const unsigned int node,
+                                                   const Vector3     &velocity,
+                                                   const double       time_step) const
+  {
+    const int carrier = carrier_of(node);
+    if (carrier < 0)
+      return Vector3{};
+    const RigidMotion &motion = motions[carrier];
+    return 0.5 * std::ldexp(time_step, levels.of_node[node]) *
+           cross(motion.turning, velocity - motion.velocity);
+  }
+
+
+  void ExplicitDynamics::take_nodes(ExplicitDynamics &before)
+  {
+    before.find_motions();
+    find_motions();
+    const unsigned int n = before.mesh.nodes.size();
+    NodalField         x = before.state.positions(), v(n), reference(n);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        // Nodes of other levels have their velocities of another instant.
+        v[i] =
+          before.state.v[i] + before.turning_in_half_a_step(i, before.state.v[i], before.state.time_step);
+        reference[i] = Vector3{before.mesh.nodes[i][0], before.mesh.nodes[i][1], before.mesh.nodes[i][2], 0.};
+      }
+    before.mesh.distribute_hanging_nodes(x.data());
+    before.mesh.distribute_hanging_nodes(v.data());
+    std::vector<NodalField>         others; // numbers of others on nodes, in [0]
+    std::vector<const NodalField *> fields{&x, &v, &reference};
+    for (const auto &[name, values] : before.state.fields)
+      {
+        others.emplace_back(n, Vector3{});
+        for (unsigned int i = 0; i < n; ++i)
+          others.back()[i][0] = values[i];
+      }
+    for (const NodalField &other : others)
+      fields.push_back(&other);
+    const std::vector<NodalField> moved = moved_fields(before.mesh, fields, mesh);
+
+    state.set_damping_time(0.);
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      {
+        // Where one mesh has a chord and the other the surface.
+        const Vector3 off = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.} - moved[2][i];
+        const int     carrier = carrier_of(i);
+        state.set_position(i, moved[0][i] + (carrier >= 0 ? carriers[carrier]->turned(off) : off));
+        state.v[i] = moved[1][i];
+      }
+    std::size_t next = 3;
+    for (const auto &[name, values] : before.state.fields)
+      {
+        std::vector<double> &here = state.fields[name];
+        here.resize(mesh.nodes.size());
+        for (unsigned int i = 0; i < here.size(); ++i)
+          here[i] = moved[next][i][0];
+        ++next;
+      }
+    // The time step is that of the cells as they are now.
+    const double time_step = parameters.courant_number * critical_time_step();
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      state.v[i] -= turning_in_half_a_step(i, state.v[i], time_step);
+  }
+
+
+  double ExplicitDynamics::energy_of_added_mass() const
+  {
+    ReproducibleSum<double> sum;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (const int carrier = carrier_of(i);
+          carrier >= 0 && inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
+        {
+          const RigidMotion &motion = motions[carrier];
+          const Vector3      arm    = state.position(i) - motion.middle,
+                        off_axle    = arm - dot(motion.axle, arm) * motion.axle,
+                        v           = motion.velocity + cross(motion.turning, arm);
+          sum.add(0.5 * (1. / inverse_mass[i] - true_mass[i]) * dot(v, v) +
+                  0.5 * motion.compensation * parameters.density_scale * true_mass[i] *
+                    dot(off_axle, off_axle));
+        }
+    return sum.value(mesh.comm);
+  }
+
+
+  void ExplicitDynamics::go_on_from(ExplicitDynamics &before)
+  {
+    const double unaccounted = before.ledger().residual();
+    state.time               = before.state.time;
+    state.n_steps            = before.state.n_steps;
+    take_nodes(before);
+    if (contact)
+      contact->go_on_from(*before.contact);
+    set_inertia();
+
+    Archive kept(mesh.comm);
+    before.matched_surface.serialize(kept);
+    Archive found(mesh.comm, kept.stored_by_all());
+    matched_surface.serialize(found);
+    prepare_step();
+
+    totals              = before.totals;
+    start_kinetic       = before.start_kinetic;
+    start_potential     = before.start_potential;
+    start_strain        = before.start_strain;
+    start_external_work = before.start_external_work;
+    start_gross_work    = before.start_gross_work;
+    start_springs       = before.start_springs;
+    start_dissipated    = before.start_dissipated;
+    last_damping_power  = before.last_damping_power;
+    last_damping_step   = before.last_damping_step;
+    damping_is_sampled  = before.damping_is_sampled;
+    spent               = before.spent;
+    // A chord has less mass than the arc. The hub makes up for it, but not for what density scaling makes of
+    // it: that comes with the speed of the wheel, and is no loss of its cells' motion.
+    const double added = energy_of_added_mass() - before.energy_of_added_mass(),
+                 lost  = ledger().residual() - unaccounted + added;
+    if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+      {
+        totals.window.add(lost);
+        totals.external_work.add(added);
+        totals.gross_work.add(std::abs(added));
+      }
+  }
+} // namespace tread

@@ -1,0 +1,80 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A window of fine cells that moves with the wheel: the answer of a mesh that is fine everywhere, at less cost; on other ranks, with
+Ctrl-C, and refused where its mesh must stay."""
+
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from tread.files import read_summary
+from tread_runner import Check, rows_of, run, run_stopped, table
+
+program = sys.argv[1]
+check = Check()
+SCENE = "smooth-rolling.prm"
+COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9", "Motion/Rolled distance (mm)=40", "Scene/Density scale=1",
+          "Time stepping/Levels=1"]
+WINDOW = COARSE + ["Mesh/Window=true", "Mesh/Window length (mm)=10"]
+
+
+def differences(of, beside, column):
+    """Of two histories of one scene, row for row where the wheel is at the same place, over the mean."""
+    own = np.interp(of["position_m"], beside["position_m"], beside[column])
+    rolling = np.array(of["position_m"]) > of["position_m"][0] + 3e-3  # the first rows begin in rest
+    return (np.array(of[column]) - own)[rolling] / np.mean(own)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+    whole = run(program, SCENE, path("whole"), COARSE)
+    moving = run(program, SCENE, path("moving"), WINDOW)
+    of_whole, of_moving = table(path("whole"), "history.csv"), table(path("moving"), "history.csv")
+    check.that("four windows", moving["windows"] == 4 and "windows" not in whole)
+    check.that("fewer cells", moving["cells"] < 0.9 * whole["cells"])
+    for column in ("normal_force_N", "longitudinal_force_N"):
+        check.below(f"{column}: largest difference from all cells fine", np.abs(differences(of_moving, of_whole, column)).max(), 1e-3)
+    for key, allowed in (("max_pressure_Pa", 1e-3), ("patch_area_m2", 1e-3), ("creepage", 1e-4), ("max_shear_Pa", 2e-3),
+                         ("adhesion_share", 2e-3), ("frictional_work_J", 1e-3)):
+        check.relative(f"{key} beside all cells fine", moving[key], whole[key], allowed)
+
+    # The ledger: the loss is a column of its own that changes where the window does, and little is left over.
+    loss = np.array(of_moving["window_loss_J"])
+    places = [1e3 * of_moving["position_m"][k + 1] + 40. for k in np.flatnonzero(np.diff(loss))]
+    check.that("the loss changes at 10, 20 and 30 mm", len(places) == 3 and all(0. <= at - due <= 0.6 for at, due in zip(places, (10., 20., 30.))))
+    check.absolute("the summary has the last row's loss, J", moving["window_loss_J"], loss[-1], 1e-9)
+    check.below("window loss over what was dissipated", moving["window_loss_J"] / moving["dissipated_work_J"], 2e-3)
+    check.that("but some was lost", abs(loss[-1]) > 1e-6)
+    check.energy("", moving, 1e-3)
+    stored = np.array([sum(row[name] for name in ("kinetic_energy_J", "internal_energy_J", "hourglass_energy_J", "frictional_work_J",
+                                                  "contact_loss_J", "damping_work_J", "plastic_work_J", "window_loss_J"))
+                       for row in rows_of(path("moving"), "history.csv")])
+    check.below("its columns give the residual, J", np.abs(np.array(of_moving["external_work_J"]) - stored - of_moving["energy_residual_J"]).max(), 1e-7)
+
+    # With added density: the mass that chords lack is not taken for a loss.
+    scaled = run(program, SCENE, path("scaled"), WINDOW + ["Scene/Density scale=25"])
+    # 0.039 was found, and 0.87 where the kinetic energy of that mass is booked without its centrifugal potential.
+    check.below("density scale 25: window loss over what was dissipated", scaled["window_loss_J"] / scaled["dissipated_work_J"], 0.06)
+
+    # Other ranks; Ctrl-C in the second window and on to the end.
+    two = run(program, SCENE, path("two"), WINDOW, ranks=2)
+    run_stopped(program, SCENE, path("stopped"), WINDOW, 50)
+    part = read_summary(path("stopped"))
+    check.that("stopped in the second window or later", part["completed"] is False and 2 <= part["windows"] < 4)
+    resumed = run(program, SCENE, path("stopped"), WINDOW, more=["--resume"])
+    check.that("resumed to the last window", resumed["windows"] == 4 and resumed["steps"] == moving["steps"])
+    for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
+        check.relative(f"two ranks: {key}", two[key], moving[key], 1e-6)
+        check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
+
+    # Where the mesh must stay.
+    for words, setting in (("'Damage/Record'", "Damage/Record=true"), ("Peak stress", "Peak stress/Record=true"),
+                           ("steel that yields", "Rail/Yield stress (MPa)=400"), ("several passages", "Motion/Passages=2"),
+                           ("'Output/Cells'", "Output/Cells=0 0 1"), ("Reproducible", "Scene/Reproducible=true"),
+                           ("Window margin", "Mesh/Window margin (mm)=5"), ("position", "Wheelset/Lateral shift (mm)=0")):
+        check.refused(f"a window with {setting}", program, SCENE, path("refused"), WINDOW + [setting], [words])
+    without = run(program, SCENE, path("unused"), COARSE + ["Motion/Rolled distance (mm)=4", "Mesh/Window length (mm)=10"])
+    check.that("a length without a window is named", any("Window length" in line for line in without["unused_parameters"]))
+check.exit()
