@@ -142,6 +142,10 @@ namespace tread
           std::printf("%s\n", defect.c_str());
         for (const std::string &doubt : doubts)
           std::printf("WARNING: %s\n", doubt.c_str());
+        if (scene.mesh.window)
+          std::printf(
+            "window of fine cells %12u places; what follows is of the first one, without the changes\n",
+            scene.n_windows());
         std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
         std::printf("unknowns             %12llu\n",
                     3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));

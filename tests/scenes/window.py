@@ -10,6 +10,7 @@ import tempfile
 import numpy as np
 
 from tread.files import read_summary
+from tread.runs import arguments_of, execute, must_end_well
 from tread_runner import Check, rows_of, run, run_stopped, table
 
 program = sys.argv[1]
@@ -68,6 +69,9 @@ with tempfile.TemporaryDirectory() as folder:
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
         check.relative(f"two ranks: {key}", two[key], moving[key], 1e-6)
         check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
+
+    dry = must_end_well(execute([*arguments_of(SCENE, WINDOW), "--dry-run"], program=program)).stdout
+    check.that("--dry-run says that it knows the first place alone", "4 places; what follows is of the first one" in dry)
 
     # Where the mesh must stay.
     for words, setting in (("'Damage/Record'", "Damage/Record=true"), ("Peak stress", "Peak stress/Record=true"),
