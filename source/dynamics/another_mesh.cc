@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a motion goes on with other cells.
-#include <tread/base/gathered.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/moved_fields.h>
 
