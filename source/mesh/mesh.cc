@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/mesh/mesh.h>
 
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -19,7 +21,9 @@ namespace tread
 {
   namespace
   {
-    using Triangulation = dealii::parallel::distributed::Triangulation<3>;
+    using Triangulation = dealii::parallel::TriangulationBase<3>;
+    using InParts       = dealii::parallel::distributed::Triangulation<3>;
+    using Whole         = dealii::parallel::shared::Triangulation<3>;
 
     void make_coarse_mesh(Triangulation &triangulation, const std::vector<Body> &bodies)
     {
@@ -65,7 +69,8 @@ namespace tread
 
 
     /// The octree halves a cell until its longest edge is near what its corners and centre ask for.
-    void refine(Triangulation &triangulation, const std::vector<Body> &bodies)
+    /// @param whole whether this rank has to refine the cells of all
+    void refine(Triangulation &triangulation, const std::vector<Body> &bodies, const bool whole)
     {
       constexpr double       tolerance  = 1.2;
       constexpr unsigned int max_levels = 12;
@@ -73,7 +78,7 @@ namespace tread
         {
           bool any = false;
           for (const auto &cell : triangulation.active_cell_iterators())
-            if (cell->is_locally_owned())
+            if ((whole || cell->is_locally_owned()) && !cell->user_flag_set())
               {
                 const Body &body   = bodies[cell->material_id()];
                 double      wanted = body.wanted_cell_size(cell->center());
@@ -90,6 +95,8 @@ namespace tread
                     cell->set_refine_flag();
                     any = true;
                   }
+                else
+                  cell->set_user_flag(); // and need not be asked again
               }
           if (!dealii::Utilities::MPI::logical_or(any, triangulation.get_communicator()))
             return;
@@ -132,23 +139,42 @@ namespace tread
       return body.to_space ? body.to_space(cell->vertex(v)) : cell->vertex(v);
     }
 
+    /// What a cell will cost, from its corners in space and its likely level of time steps.
+    class CostOfCell
+    {
+    public:
+      CostOfCell(const std::vector<Body> &bodies, const LikelyLevels &likely_level, const Mesh::CellCost &cost)
+        : bodies(bodies)
+        , likely_level(likely_level)
+        , cost(cost)
+      {}
+
+      template <typename Cell>
+      double operator()(const Cell &cell) const
+      {
+        std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
+        for (unsigned int v = 0; v < corners.size(); ++v)
+          corners[v] = vertex_in_space(cell, v, bodies);
+        return cost(cell->material_id(), corners, likely_level(cell));
+      }
+
+    private:
+      const std::vector<Body> &bodies;
+      const LikelyLevels      &likely_level;
+      const Mesh::CellCost    &cost;
+    };
+
+    /// A cell's cost is told as a whole number, of which the dearest one has so many.
+    constexpr double dearest = 1000.;
+
     /// Ranks get equal shares of what the cells cost, if that saves more time than it takes.
-    void balance(Triangulation           &triangulation,
-                 const std::vector<Body> &bodies,
-                 const LikelyLevels      &likely_level,
-                 const Mesh::CellCost    &cost)
+    void balance(InParts &triangulation, const CostOfCell &cost_of)
     {
       // What deal.II takes to cut the mesh anew, for each cell of a rank, in the unit of the costs: 20 us on
       // the machine on which a parallelepiped takes 30 ns. With half or double of it, scenes whose ranks wait
       // 10 to 40 us for each cell in all their steps are cut or not, and lose no more than that either way.
       constexpr double to_cut  = 20e-6 / 30e-9;
-      const auto       cost_of = [&](const auto &cell) {
-        std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
-        for (unsigned int v = 0; v < corners.size(); ++v)
-          corners[v] = vertex_in_space(cell, v, bodies);
-        return cost(cell->material_id(), corners, likely_level(cell));
-      };
-      double of_rank = 0., largest = 0.;
+      double           of_rank = 0., largest = 0.;
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           {
@@ -161,13 +187,45 @@ namespace tread
       const double   n_cells    = triangulation.n_global_active_cells();
       if (over_ranks.max - over_ranks.avg < to_cut * n_cells / dealii::Utilities::MPI::n_mpi_processes(comm))
         return;
-      const double unit       = dealii::Utilities::MPI::max(largest, comm) / 1000.;
+      const double unit       = dealii::Utilities::MPI::max(largest, comm) / dearest;
       const auto   connection = triangulation.signals.weight.connect(
-        [&](const Triangulation::cell_iterator &cell, const Triangulation::CellStatus) -> unsigned int {
+        [&](const InParts::cell_iterator &cell, const InParts::CellStatus) -> unsigned int {
           return std::lround(cost_of(cell) / unit);
         });
       triangulation.repartition();
       connection.disconnect();
+    }
+
+    /// Share a mesh that each rank has as a whole, as equally by cost and with as few common faces as METIS
+    /// can.
+    /// @param cost_of each cell; none: number of cells
+    void share(Whole &triangulation, const CostOfCell *cost_of)
+    {
+      std::vector<unsigned int> weights;
+      if (cost_of)
+        {
+          std::vector<double> costs;
+          for (const auto &cell : triangulation.active_cell_iterators())
+            costs.push_back((*cost_of)(cell));
+          const double unit = *std::max_element(costs.begin(), costs.end()) / dearest;
+          for (const double of_cell : costs)
+            weights.push_back(std::max(1l, std::lround(of_cell / unit)));
+        }
+      const auto connection = triangulation.signals.post_refinement.connect([&] {
+        dealii::GridTools::partition_triangulation(dealii::Utilities::MPI::n_mpi_processes(
+                                                     triangulation.get_communicator()),
+                                                   weights, triangulation,
+                                                   dealii::SparsityTools::Partitioner::metis);
+      });
+      triangulation.execute_coarsening_and_refinement(); // of none: what makes ghosts of the others' cells
+      connection.disconnect();
+    }
+
+    std::unique_ptr<Triangulation> empty_triangulation(const MPI_Comm comm, const bool whole)
+    {
+      if (whole)
+        return std::make_unique<Whole>(comm, Whole::none, true, Whole::partition_custom_signal);
+      return std::make_unique<InParts>(comm);
     }
 
     /// Reference positions of all nodes visible to this rank, m, including those of ghost cells, to which
@@ -276,15 +334,22 @@ namespace tread
   Mesh::Mesh(const MPI_Comm           comm,
              const std::vector<Body> &bodies,
              const unsigned int       max_level,
-             const CellCost          &cost)
+             const CellCost          &cost,
+             const bool               is_small)
     : comm(comm)
   {
-    Triangulation triangulation(comm);
+    const bool                           one_rank   = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
+    const bool                           whole      = is_small || one_rank;
+    const std::unique_ptr<Triangulation> made       = empty_triangulation(comm, whole);
+    Triangulation                       &triangulation = *made;
     make_coarse_mesh(triangulation, bodies);
-    refine(triangulation, bodies);
+    refine(triangulation, bodies, whole);
     const LikelyLevels likely_level(triangulation, max_level);
-    if (cost && dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
-      balance(triangulation, bodies, likely_level, cost);
+    const CostOfCell   cost_of(bodies, likely_level, cost);
+    if (whole && !one_rank)
+      share(dynamic_cast<Whole &>(triangulation), cost ? &cost_of : nullptr);
+    else if (cost && !one_rank)
+      balance(dynamic_cast<InParts &>(triangulation), cost_of);
 
     const dealii::FE_Q<3> fe(1);
     dealii::DoFHandler<3> dof_handler(triangulation);

@@ -158,6 +158,16 @@ namespace tread
           }
     }
 
+    /// Lines around a wheel from cell to cell, as many as their size allows.
+    PathLines lines_around(const double radius, const double size, const FineZone &zone)
+    {
+      const double turn = 2. * pi * radius;
+      if (zone.path_stretch <= 1.)
+        return {even_lines(0., turn, static_cast<unsigned int>(std::lround(turn / size))), size};
+      const double middle = 0.5 * (zone.cubes()[0] + zone.cubes()[1]);
+      return path_lines(middle - 0.5 * turn, middle + 0.5 * turn, size, zone, 1.);
+    }
+
     /// Integrals over y in |y| <= width/2 of (outer^n - inner^n)/n with outer = radius + offset(y) ; the
     /// shift of the tread does not move the inner face. Also the same times y. Exact for a cylinder.
     struct RadialIntegral
@@ -189,18 +199,28 @@ namespace tread
     }
   } // namespace
 
+  bool WheelSector::is_closed() const
+  {
+    constexpr double tiny = 1e-9;
+    return arc_end - arc_begin >= 2. * pi * radius * (1. - tiny);
+  }
+
+
   Body make_wheel_sector(const WheelSector &sector, const FineZone &zone)
   {
     if (!(sector.thickness > 0. && sector.thickness < sector.radius && sector.width > 0.))
       throw std::invalid_argument(
         "a wheel sector needs a positive width and a thickness between zero and its radius");
-    if (!(sector.arc_begin < sector.arc_end && sector.arc_end - sector.arc_begin <= 1.9 * pi * sector.radius))
-      throw std::invalid_argument("a wheel sector needs a positive arc of less than a full turn");
+    const bool closed = sector.is_closed();
+    if (!closed &&
+        !(sector.arc_begin < sector.arc_end && sector.arc_end - sector.arc_begin <= 1.9 * pi * sector.radius))
+      throw std::invalid_argument(
+        "a wheel sector needs a positive arc, which leaves a gap of a twentieth of a turn or none");
 
     const double anchor =
       (sector.arc_begin <= 0. && 0. <= sector.arc_end) ? 0. : 0.5 * (sector.arc_begin + sector.arc_end);
     std::vector<CoarseSide> sides{{0.5 * sector.width, zone.reach()}, {sector.thickness, zone.depth}};
-    if (zone.path_stretch <= 1.)
+    if (zone.path_stretch <= 1. && !closed)
       {
         sides.push_back({anchor - sector.arc_begin, anchor - zone.x_begin});
         sides.push_back({sector.arc_end - anchor, zone.x_end - anchor});
@@ -209,10 +229,13 @@ namespace tread
 
     const WheelAxis     axis{sector.center_x, sector.radius + sector.lift};
     const double        inner_radius = sector.radius - sector.thickness;
-    const PathLines     path         = path_lines(sector.arc_begin, sector.arc_end, size, zone, 1.);
+    const PathLines     path         = closed ? lines_around(sector.radius, size, zone)
+                                              : path_lines(sector.arc_begin, sector.arc_end, size, zone, 1.);
     std::vector<double> angles       = path.lines;
     for (double &angle : angles)
       angle /= sector.radius;
+    if (closed)
+      angles.pop_back();
     const std::vector<double> y     = coarse_lines(-0.5 * sector.width, 0.5 * sector.width, 0., size);
     const std::vector<double> depth = coarse_lines(0., sector.thickness, 0., size);
 
@@ -221,8 +244,8 @@ namespace tread
       section.add_row(y, sector.radius - depth[k], y, sector.radius - depth[k + 1]);
 
     Body body;
-    body.name = "wheel sector";
-    revolve(section, axis, angles, false, body);
+    body.name = closed ? "wheel ring" : "wheel sector";
+    revolve(section, axis, angles, closed, body);
     body.manifold         = axis.manifold();
     body.to_space         = shape_tread(axis, sector, inner_radius);
     body.wanted_cell_size = cell_size_around(axis, sector.radius, zone);
@@ -233,14 +256,14 @@ namespace tread
     const double tread   = sector.radius - 0.25 * depth[1];
     const double bottom  = inner_radius + 0.25 * (depth.back() - depth[depth.size() - 2]);
     const double quarter = 0.25 * std::min(angles[1] - angles[0], angles.back() - angles[angles.size() - 2]);
-    body.boundary_at     = [axis, tread, bottom, quarter, first = angles.front(), last = angles.back(),
+    body.boundary_at     = [axis, tread, bottom, quarter, closed, first = angles.front(), last = angles.back(),
                         half  = 0.5 * sector.width,
                         reach = sector.contact_half_width](const dealii::Point<3> &p) {
       if (std::abs(p[1]) > half * (1. - 1e-9))
         return Boundary::free;
       const double r      = axis.radius(p);
       const double middle = 0.5 * (first + last);
-      if (std::abs(wrap(axis.angle(p) - middle)) > 0.5 * (last - first) - quarter)
+      if (!closed && std::abs(wrap(axis.angle(p) - middle)) > 0.5 * (last - first) - quarter)
         return Boundary::end;
       if (r > tread)
         return std::abs(p[1]) <= reach ? Boundary::contact : Boundary::free;
@@ -342,14 +365,8 @@ namespace tread
 
     const auto [section, size, tread_row, bore_row] = full_section(wheel, zone);
 
-    const WheelAxis    axis{wheel.center_x, wheel.radius + wheel.lift};
-    const unsigned int n_around = std::lround(2. * pi * wheel.radius / size);
-    PathLines          path{even_lines(0., 2. * pi * wheel.radius, n_around), size};
-    if (zone.path_stretch > 1.)
-      {
-        const double half = pi * wheel.radius, middle = 0.5 * (zone.cubes()[0] + zone.cubes()[1]);
-        path = path_lines(middle - half, middle + half, size, zone, 1.);
-      }
+    const WheelAxis     axis{wheel.center_x, wheel.radius + wheel.lift};
+    const PathLines     path    = lines_around(wheel.radius, size, zone);
     std::vector<double> angles  = path.lines;
     double              longest = 0.;
     for (unsigned int i = 0; i + 1 < angles.size(); ++i)

@@ -140,8 +140,9 @@ namespace tread
           sector.radius             = scene.wheel.radius;
           sector.thickness          = scene.wheel.sector_thickness;
           sector.width              = scene.wheel.sector_width;
-          sector.arc_begin          = -scene.wheel.sector_margin;
-          sector.arc_end            = scene.motion.meshed_distance() + scene.wheel.sector_margin;
+          const Scene::Range arc    = scene.meshed_arc();
+          sector.arc_begin          = arc.begin;
+          sector.arc_end            = arc.end;
           sector.coarsest_cell_size = scene.mesh.coarsest_cell;
           try
             {

@@ -382,11 +382,10 @@ namespace tread
 
   void Scene::check_sector() const
   {
-    const double longest_arc = 0.95 * 2. * dealii::numbers::PI * wheel.radius;
-    require(wheel.is_full() || motion.meshed_distance() + 2. * wheel.sector_margin <= longest_arc,
+    require(!is_positioned() || !wheel_is_ring(),
             "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
             "wheel's circumference, " +
-              text_in_mm(longest_arc));
+              text_in_mm(longest_sector()) + ", where 'Wheelset' has a position");
   }
 
 
@@ -482,8 +481,8 @@ namespace tread
         material.check(
           section,
           of_wheel
-            ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside, -wheel.sector_margin,
-                                      motion.meshed_distance() + wheel.sector_margin}
+            ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside, meshed_arc().begin,
+                                      meshed_arc().end}
             : MaterialSection::Meshed{(is_positioned() ? wheel.thickness() : rail_thickness()),
                                       (is_positioned() ? wheel.half_width() : rail_half_width()) - beside,
                                       rail_begin(), rail_end()});

@@ -10,6 +10,7 @@
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -371,6 +372,28 @@ namespace tread
     constexpr double of_body = 0.75; // of its half width, beside which there must be room for coarser cells
     const double     widest  = of_body * std::min(rail_half_width(), wheel.half_width()) - std::abs(path_y());
     return std::max(of_round, std::min(of_round + reach_of(largest_deviation()).end, widest));
+  }
+
+
+  double Scene::longest_sector() const
+  {
+    constexpr double of_a_turn = 0.95;
+    return of_a_turn * 2. * dealii::numbers::PI * wheel.radius;
+  }
+
+
+  bool Scene::wheel_is_ring() const
+  {
+    return !wheel.is_full() && motion.meshed_distance() + 2. * wheel.sector_margin > longest_sector();
+  }
+
+
+  Scene::Range Scene::meshed_arc() const
+  {
+    if (!wheel_is_ring())
+      return {-wheel.sector_margin, motion.meshed_distance() + wheel.sector_margin};
+    const double half = dealii::numbers::PI * wheel.radius;
+    return {-half, half};
   }
 
 

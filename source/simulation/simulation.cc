@@ -50,7 +50,8 @@ namespace tread
     , mesh(comm,
            make_bodies(scene, fine_window(scene, window.number, window.tread)),
            scene.time_stepping.levels - 1,
-           cell_cost(scene))
+           cell_cost(scene),
+           scene.mesh.window)
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), scene.friction_law())

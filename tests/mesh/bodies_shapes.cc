@@ -293,6 +293,31 @@ namespace
       check.below(std::string(name) + ": lowest point, nm", 1e9 * lowest, 1e-3);
   }
 
+  /// A sector of a whole turn: a ring without ends, fine where it is lowest, the shorter way around.
+  void check_ring(tests::Check &check)
+  {
+    WheelSector ring;
+    ring.center_x  = 0.2;
+    ring.arc_begin = -pi * ring.radius;
+    ring.arc_end   = pi * ring.radius;
+    FineZone zone;
+    zone.finest_cell_size = 4e-3;
+    zone.x_begin          = pi * ring.radius - 0.04; // across the angle's jump
+    zone.x_end            = pi * ring.radius + 0.06;
+    const Body body       = make_wheel_sector(ring, zone);
+    Mesh       mesh;
+    refine(body, mesh);
+    const Measured m =
+      measure(body, mesh, zone.finest_cell_size, in_arc(zone, ring.center_x, ring.radius));
+    const auto exact = wheel_inertia(ring, 1.);
+    check_shape(check, "ring", mesh, m, exact.mass, 1e-3);
+    check.relative("ring: contact area, cm2", 1e4 * m.areas.at(1), 1e4 * 2. * pi * 0.46 * 0.12, 1e-3);
+    check.relative("ring: support area, cm2", 1e4 * m.areas.at(2), 1e4 * 2. * pi * 0.4 * 0.12, 1e-3);
+    check.that("ring: no ends", m.areas.count(3) == 0);
+    check.below("ring: its middle is the axle, mm",
+                1e3 * (m.moment / m.volume - Point<3>(ring.center_x, 0., ring.radius)).norm(), 1e-2);
+  }
+
   void check_flat(tests::Check &check)
   {
     WheelSector sector;
@@ -392,6 +417,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_sector(check, 0.63e-3, false);
   check_sector(check, 1e-3, true);
   lap();
+  check_ring(check);
   check_flat(check);
   check_wheel(check, 0.63e-3, 0.041, 0.04);
   check_wheel(check, 1e-3, 0.021, 0.);

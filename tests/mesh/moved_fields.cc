@@ -74,7 +74,23 @@ namespace
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
-  const Mesh from(MPI_COMM_WORLD, {bar(0.05, false)}), to(MPI_COMM_WORLD, {bar(0.10, false)});
+  // The first in parts and the second as a whole on each rank, where the middle costs three times as much.
+  const auto cost = [](const unsigned int, const std::array<Point<3>, 8> &corners, const unsigned int) {
+    return std::abs(corners[0][0] - 0.10) < 0.02 ? 3. : 1.;
+  };
+  const Mesh from(MPI_COMM_WORLD, {bar(0.05, false)}),
+    to(MPI_COMM_WORLD, {bar(0.10, false)}, 0, cost, true);
+  const Mesh in_parts(MPI_COMM_WORLD, {bar(0.10, false)});
+  check.that("made as a whole there are as many cells and nodes as in parts",
+             to.n_global_cells == in_parts.n_global_cells && to.n_global_nodes == in_parts.n_global_nodes &&
+               to.n_global_hanging_nodes == in_parts.n_global_hanging_nodes);
+  double of_rank = 0.;
+  for (unsigned int c = 0; c < to.cells.size(); ++c)
+    of_rank += cost(0, to.corners(c), 0);
+  const auto costs = dealii::Utilities::MPI::min_max_avg(of_rank, MPI_COMM_WORLD);
+  check.below("dearest rank over the mean", costs.max / costs.avg, 1.1);
+  check.absolute("cells of all ranks", dealii::Utilities::MPI::sum(double(to.cells.size()), MPI_COMM_WORLD),
+                 to.n_global_cells, 0.);
   check.that("cells are fine elsewhere", from.n_global_hanging_nodes > 0 && to.n_global_hanging_nodes > 0);
   const NodalField before_linear = field_of(from, linear), before_rough = field_of(from, rough);
   const auto       moved = moved_fields(from, {&before_linear, &before_rough}, to);

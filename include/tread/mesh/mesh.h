@@ -108,11 +108,13 @@ namespace tread
     /// Refine each body by its own rule and distribute the cells over the ranks of comm.
     /// @param max_level of time steps with which the cells will be run.
     /// @param cost quantity to be divided equally among the ranks if this pays; none: number of cells.
+    /// @param is_small each rank may hold the whole mesh while it is made, which takes less time than parts.
     /// @throws std::runtime_error if a body has a cell that is turned inside out.
     Mesh(const MPI_Comm           comm,
          const std::vector<Body> &bodies,
          const unsigned int       max_level = 0,
-         const CellCost          &cost      = {});
+         const CellCost          &cost      = {},
+         const bool               is_small  = false);
 
     /// Parents receive the forces (or masses) of their hanging nodes.
     void condense_hanging_nodes(Vector3 *field) const

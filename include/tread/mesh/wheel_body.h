@@ -12,7 +12,7 @@
 
 namespace tread
 {
-  /// A piece of a ring that rolls with its outer face on the rail. The reference configuration is the start
+  /// A piece of a ring, or a whole one, that rolls with its outer face on the rail. The reference configuration is the start
   /// of the run: axis through (center_x, 0, radius + lift) along y, lowest point of the running circle at z =
   /// lift.
   struct WheelSector
@@ -34,6 +34,9 @@ namespace tread
     /// The same of a wheel that is not round, over the angle from the lowest point, positive towards +x, and
     /// y. Mass properties leave it out: a flat is some grammes.
     std::function<double(double, double)> deviation;
+
+    /// Whether the arc is a whole turn, so that the piece has no ends.
+    bool is_closed() const;
   };
 
   /// A whole wheel of revolution: rim, straight web and hub, all symmetric to y = 0. Lengths in m.

@@ -231,6 +231,10 @@ namespace tread
     {
       return path_begin(number) + motion.meshed_distance();
     }
+    /// Longest sector of a wheel that is not closed to a ring, m along the tread.
+    double longest_sector() const;
+    /// Whether a sector of the wheel would be longer, for a way of about a turn or more.
+    bool wheel_is_ring() const;
     /// Longitudinal over normal force that the drive of a wheel aims at.
     double traction_coefficient(const unsigned int number) const;
     /// Ends of the rail, m.
@@ -336,6 +340,8 @@ namespace tread
       double begin, end;
     };
     Range peak_range() const;
+    /// Of a wheel of which a sector or a ring is meshed, along the tread from where it is lowest at the start, m.
+    Range meshed_arc() const;
     /// Where 'Mesh/Fine from (mm)' and 'Fine to (mm)' put the cubes of the finest cells, x in m.
     Range cubes() const
     {

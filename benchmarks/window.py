@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a window of fine cells that moves with the wheel costs, and what it changes in the answer.
+
+Runs the metre of smooth rolling and, with --long, three metres; 120 mm of it with windows of several sizes beside all cells fine; and
+the squat on 15 spans with and without a window. Each so many times in turn, of which the fastest counts. Fills the tables of
+doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
+"""
+
+import functools
+import os
+
+import numpy as np
+
+from tread.commands import command_parser, run_command
+from tread.measured_runs import available_ranks, in_turn, run_scene, steps_seconds
+from tread.runs import ROOT, Run
+from tread.tables import fill, markdown, number, provenance
+
+METRES = {"1 m": "benchmarks/one-metre.prm", "3 m": "benchmarks/three-metres.prm"}
+SHORT = {"Motion/Rolled distance (mm)": 120, "Output/Write volume": "false"}
+WINDOWS = {"all fine": {"Mesh/Window": "false"},
+           **{f"{length}, {margin}": {"Mesh/Window length (mm)": length, "Mesh/Window margin (mm)": margin}
+              for length, margin in ((40, 25), (20, 25), (20, 15), (10, 15))}}
+TRACK = {"all along": {}, **{f"windows of {length} mm": {"Mesh/Window": "true", "Mesh/Window length (mm)": length} for length in (75, 40)}}
+AT_REST = 3e-3  # m: the first rows begin at rest
+
+
+def along(folder, column):
+    """Positions of a run's rows behind its start, m, and a column of its history."""
+    history = Run(folder).history
+    place, values = np.array(history["position_m"]), np.array(history[column])
+    rolling = place > place[0] + AT_REST
+    return place[rolling], values[rolling]
+
+
+def difference(folder, beside, column):
+    """Of a column at the places of the rows, from another run's: {largest and RMS, over the mean; RMS over that of its own swing}."""
+    place, values = along(folder, column)
+    other = np.interp(place, *along(beside, column))
+    off = values - other
+    return {"largest": np.abs(off).max() / np.abs(other.mean()), "of swing": np.sqrt(np.mean(off**2)) / other.std()}
+
+
+def main():
+    parser = command_parser(__doc__)
+    parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/window"))
+    parser.add_argument("--long", action="store_true", help="three metres too")
+    parser.add_argument("--turns", type=int, default=1, metavar="N", help="how often each run is made; default 1")
+    arguments = parser.parse_args()
+    folder_of = lambda name, turn: os.path.join(arguments.results, f"{name.replace(', ', '-').replace(' ', '-')}-{turn}")
+    script = "benchmarks/window.py" + (" --long" if arguments.long else "")
+
+    def measured(runs):
+        """{name: summary} of {name: (scene, settings)}."""
+        return in_turn(arguments.turns, {name: functools.partial(lambda scene, settings, name, turn: run_scene(scene, folder_of(name, turn), settings), scene, settings, name)
+                                         for name, (scene, settings) in runs.items()})
+
+    def note(summaries):
+        return f"\n\n{available_ranks()} ranks, the fastest of {arguments.turns}. " + provenance(script, summaries.values())
+
+    metres = measured({name: (scene, {}) for name, scene in METRES.items() if name == "1 m" or arguments.long})
+    fill("performance.md", "window-metres", markdown(
+        ["way", "windows", "cells", "steps", "seconds", "largest process, MB", "window loss, % of what is dissipated", "energy residual, % of the same"],
+        [[name, number(of["windows"]), number(of["cells"]), number(of["steps"]), number(of["seconds"]), number(1e-6 * of["peak_bytes"]),
+          number(100 * of["window_loss_J"] / of["dissipated_work_J"]), number(100 * of["energy_residual_of_dissipated"])] for name, of in metres.items()]) + note(metres))
+
+    short = measured({name: (METRES["1 m"], {**SHORT, **settings}) for name, settings in WINDOWS.items()})
+    off = {name: [difference(folder_of(name, 0), folder_of("all fine", 0), column)["largest"] for column in ("normal_force_N", "longitudinal_force_N")]
+           for name in WINDOWS}
+    fill("performance.md", "window-force", markdown(
+        ["window, margin, mm", "cells", "seconds", "normal force, largest difference, %", "tangential force, %"],
+        [[name, number(of["cells"]), number(of["seconds"]), *(number(100 * value) if name != "all fine" else "-" for value in off[name])]
+         for name, of in short.items()]) + note(short))
+
+    track = measured({name: ("thesis/4.3-M1.prm", settings) for name, settings in TRACK.items()})
+    fill("performance.md", "window-track", markdown(
+        ["", "seconds", "of them steps", "cell updates", "largest force, kN", "least force, kN", "difference of the force, RMS, % of its swing"],
+        [[name, number(of["seconds"]), number(steps_seconds(of)), number(of["element_updates"]), f"{1e-3 * of['largest_normal_force_N']:.2f}", f"{1e-3 * of['least_normal_force_N']:.2f}",
+          number(100 * difference(folder_of(name, 0), folder_of("all along", 0), "normal_force_N")["of swing"]) if name != "all along" else "-"]
+         for name, of in track.items()]) + note(track))
+
+
+if __name__ == "__main__":
+    run_command(main)
