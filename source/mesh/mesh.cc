@@ -143,11 +143,14 @@ namespace tread
     class CostOfCell
     {
     public:
-      CostOfCell(const std::vector<Body> &bodies, const LikelyLevels &likely_level, const Mesh::CellCost &cost)
+      CostOfCell(const std::vector<Body> &bodies,
+                 const LikelyLevels      &likely_level,
+                 const Mesh::CellCost    &cost)
         : bodies(bodies)
         , likely_level(likely_level)
         , cost(cost)
-      {}
+      {
+      }
 
       template <typename Cell>
       double operator()(const Cell &cell) const
@@ -212,10 +215,9 @@ namespace tread
             weights.push_back(std::max(1l, std::lround(of_cell / unit)));
         }
       const auto connection = triangulation.signals.post_refinement.connect([&] {
-        dealii::GridTools::partition_triangulation(dealii::Utilities::MPI::n_mpi_processes(
-                                                     triangulation.get_communicator()),
-                                                   weights, triangulation,
-                                                   dealii::SparsityTools::Partitioner::metis);
+        dealii::GridTools::partition_triangulation(
+          dealii::Utilities::MPI::n_mpi_processes(triangulation.get_communicator()), weights, triangulation,
+          dealii::SparsityTools::Partitioner::metis);
       });
       triangulation.execute_coarsening_and_refinement(); // of none: what makes ghosts of the others' cells
       connection.disconnect();
@@ -251,6 +253,16 @@ namespace tread
       return position;
     }
 
+    /// Of the coarse cell that a cell is a part of, in the order in which bodies list them: p4est has its
+    /// own.
+    template <typename Cell>
+    unsigned int coarse_number(Cell cell)
+    {
+      while (cell->level() > 0)
+        cell = cell->parent();
+      return cell->index();
+    }
+
     /// Add this rank's cells and their faces on the boundary.
     /// @param local_number number of a node by its global one; a new node if it is met for the first time
     /// @param level_of_node the least of the likely levels of the cells around each node
@@ -272,8 +284,8 @@ namespace tread
           {
             cell->get_dof_indices(dofs);
             Mesh::Cell c;
-            c.body    = cell->material_id();
-            c.address = CellAddress(cell->id().get_coarse_cell_id(), cell->id().get_child_indices());
+            c.body                   = cell->material_id();
+            c.address                = CellAddress(coarse_number(cell), cell->id().get_child_indices());
             const unsigned int level = likely_level(cell);
             for (unsigned int v = 0; v < Mesh::nodes_per_cell; ++v)
               {
@@ -338,9 +350,9 @@ namespace tread
              const bool               is_small)
     : comm(comm)
   {
-    const bool                           one_rank   = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
-    const bool                           whole      = is_small || one_rank;
-    const std::unique_ptr<Triangulation> made       = empty_triangulation(comm, whole);
+    const bool                           one_rank      = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
+    const bool                           whole         = is_small || one_rank;
+    const std::unique_ptr<Triangulation> made          = empty_triangulation(comm, whole);
     Triangulation                       &triangulation = *made;
     make_coarse_mesh(triangulation, bodies);
     refine(triangulation, bodies, whole);

@@ -256,7 +256,7 @@ namespace tread
     const double tread   = sector.radius - 0.25 * depth[1];
     const double bottom  = inner_radius + 0.25 * (depth.back() - depth[depth.size() - 2]);
     const double quarter = 0.25 * std::min(angles[1] - angles[0], angles.back() - angles[angles.size() - 2]);
-    body.boundary_at     = [axis, tread, bottom, quarter, closed, first = angles.front(), last = angles.back(),
+    body.boundary_at = [axis, tread, bottom, quarter, closed, first = angles.front(), last = angles.back(),
                         half  = 0.5 * sector.width,
                         reach = sector.contact_half_width](const dealii::Point<3> &p) {
       if (std::abs(p[1]) > half * (1. - 1e-9))

@@ -441,6 +441,10 @@ namespace tread
        [](const R &r) {
          return r.number;
        }},
+      {"skipped", "", "Passages before it over which the change was extrapolated",
+       [](const R &r) {
+         return r.skipped;
+       }},
       {"settlement", "um",
        "Of the rail's surface in the middle of the path since before the first wheel, downwards; without "
        "load",
@@ -454,6 +458,15 @@ namespace tread
       {"equivalent_plastic_strain", "percent", "Largest of the rail's cells in the middle of the path",
        [](const R &r) {
          return r.plastic_strain;
+       }},
+      {"net_plastic_strain", "percent",
+       "Largest there of what is left of the plastic strain, equivalent, without what goes forth and back",
+       [](const R &r) {
+         return r.net_strain;
+       }},
+      {"net_plastic_strain_of_passage", "percent", "Largest change there in this passage",
+       [](const R &r) {
+         return r.growth;
        }},
       {"residual_von_mises", "MPa", "Largest stress there without load",
        [](const R &r) {

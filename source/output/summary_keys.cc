@@ -202,6 +202,18 @@ namespace tread
        "Relative error by inertia in steady rolling, about: density scale x square of the speed over that of "
        "Rayleigh waves in the slower body"},
       {"passages", "'Motion/Passages': wheels that roll over the rail one after the other"},
+      {"passages_rolled", "Those that were rolled, and not left out by 'Ratcheting/Jumps'"},
+      {"passages_left_out", "Those over which the change of the steel was extrapolated"},
+      {"jumps", "How often passages were left out"},
+      {"net_plastic_strain", "Largest equivalent of what is left of the rail's plastic strain after the last "
+                             "passage, without what goes "
+                             "forth and back, of the cells in the middle of the path"},
+      {"net_plastic_strain_depth_m", "Depth of that cell's centre"},
+      {"net_plastic_strain_of_last_passage", "Largest change of it in the last passage, of the same cells"},
+      {"net_plastic_strain_error_estimate", "How far the jumps may have put it off: half the passages left "
+                                            "out times how far the change per passage "
+                                            "behind the jump was from the expected one, summed"},
+      {"passages_to_failure", "Passage with which it reached 'Ratcheting/Strain at failure (%)'"},
       {"rolled_m", "How far the wheel has rolled; of several passages in the last one"},
       {"rolled_patch_lengths", "The same, from the onset of a torque on, over the length of the patch under "
                                "the normal force, by Hertz "

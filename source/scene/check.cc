@@ -55,6 +55,7 @@ namespace tread
     check_track();
     solid.check();
     check_plasticity();
+    check_ratcheting();
     check_numerics();
   }
 
@@ -478,15 +479,40 @@ namespace tread
                   (element_named(solid.element).can_yield && !solid.has_bulk_viscosity()),
                 "'" + section + "/Yield stress (MPa)' needs 'Solid/Element' one-point and no bulk viscosity");
         // Where the wheel has a position both bodies are blocks of one size.
-        material.check(
-          section,
-          of_wheel
-            ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside, meshed_arc().begin,
-                                      meshed_arc().end}
-            : MaterialSection::Meshed{(is_positioned() ? wheel.thickness() : rail_thickness()),
+        material.check(section, of_wheel
+                                  ? MaterialSection::Meshed{wheel.thickness(), wheel.half_width() - beside,
+                                                            meshed_arc().begin, meshed_arc().end}
+                                  : MaterialSection::Meshed{
+                                      (is_positioned() ? wheel.thickness() : rail_thickness()),
                                       (is_positioned() ? wheel.half_width() : rail_half_width()) - beside,
                                       rail_begin(), rail_end()});
       }
+  }
+
+
+  void Scene::check_ratcheting() const
+  {
+    const bool fails = ratcheting.strain_at_failure > 0.;
+    if (!fails && !ratcheting.jumps && !ratcheting.uniform)
+      return;
+    const std::string name = fails              ? "'Ratcheting/Strain at failure (%)'"
+                             : ratcheting.jumps ? "'Ratcheting/Jumps'"
+                                                : "'Ratcheting/Uniform rail'";
+    require(motion.passages > 1, name + " needs several 'Motion/Passages'");
+    require(rail.material.yield_stress > 0. || !rail.material.plastic_zones.empty(),
+            name + " needs a rail that yields: 'Rail/Yield stress (MPa)'");
+    require(
+      !ratcheting.uniform || (!is_positioned() && !has_defect() && !rail.is_meshed() && n_wheels() == 1 &&
+                              rail.material.plastic_zones.empty()),
+      "'Ratcheting/Uniform rail' needs one wheel that stands upright and a rail that is alike along its "
+      "length: no defect, mesh file, slices or plastic zones");
+    if (!ratcheting.jumps)
+      return;
+    require(!damage.record,
+            "'Ratcheting/Jumps' cannot be had with 'Damage/Record', which sums what is rolled");
+    require(ratcheting.rolled_between < motion.passages,
+            "'Ratcheting/Rolled between jumps' " + std::to_string(ratcheting.rolled_between) +
+              " must be below 'Motion/Passages', " + std::to_string(motion.passages));
   }
 
 

@@ -93,6 +93,9 @@ namespace tread
           {
             if (wheel)
               add(-beyond, rolled + beyond, depth, material.yield_stress, material.tangent_modulus);
+            else if (scene.ratcheting.uniform)
+              add(scene.rail_begin(), scene.rail_end(), depth, material.yield_stress,
+                  material.tangent_modulus);
             else
               for (unsigned int k = 0; k < scene.n_wheels(); ++k)
                 add(scene.path_begin(k) - beyond, scene.meshed_end(k) + beyond, depth, material.yield_stress,

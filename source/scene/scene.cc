@@ -23,6 +23,7 @@ namespace tread
     start.declare(handler);
     output.declare(handler);
     peak_stress.declare(handler);
+    ratcheting.declare(handler);
     damage.declare(handler);
     profile_wear.declare(handler);
     watchdogs.declare(handler);

@@ -21,7 +21,8 @@ namespace tread
       double      times, over;
     };
 
-    constexpr std::array<Unit, 32> units{{{"mm", 1e-3, 1.},
+    constexpr std::array<Unit, 33> units{{{"mm", 1e-3, 1.},
+                                          {"%", 1., 100.},
                                           {"m", 1., 1.},
                                           {"GPa", 1e9, 1.},
                                           {"MPa", 1e6, 1.},

@@ -399,8 +399,8 @@ namespace tread
 
   unsigned int Scene::n_windows() const
   {
-    // A change takes as long as three millimetres of rolling with the true density (0.63 mm, 25 000 cells), and
-    // on a track of many spans as long as twenty. @see doc/performance.md
+    // A change takes as long as three millimetres of rolling with the true density (0.63 mm, 25 000 cells),
+    // and on a track of many spans as long as twenty. @see doc/performance.md
     const double semi_axes = (track.has_supports() ? 12. : 2.5) * std::pow(general.density_scale, 0.25);
     const double length =
       mesh.window_length > 0. ? mesh.window_length : semi_axes * hertz(*this, static_load()).semi_axis_x;

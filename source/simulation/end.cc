@@ -99,21 +99,50 @@ namespace tread
   } // namespace
 
 
-  void Simulation::end_passage(RunFolder &folder)
+  bool Simulation::is_in_middle(const dealii::Point<3> &p) const
+  {
+    constexpr double half_length = 5e-3;
+    return std::abs(p[0] - 0.5 * (scene.path_begin() + scene.path_end())) <= half_length;
+  }
+
+
+  void Simulation::make_growth()
+  {
+    std::vector<char> judged(mesh.cells.size(), false), of_rail(mesh.nodes.size(), false);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      judged[c] = solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
+                  is_in_middle(mesh.nodes[mesh.cells[c].nodes[0]]);
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      of_rail[i] = mesh.node_bodies[i] == rail_body;
+    std::function<bool(const dealii::Point<3> &)> uniform;
+    if (scene.ratcheting.uniform)
+      uniform = [this](const dealii::Point<3> &p) {
+        return is_in_middle(p);
+      };
+    growth = std::make_unique<PassageGrowth>(scene.ratcheting, mesh, solid, dynamics.state, judged, of_rail,
+                                             uniform);
+  }
+
+
+  void Simulation::end_passage(RunFolder &folder, Progress &progress)
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
-    const double middle = 0.5 * (scene.path_begin() + scene.path_end()), half_length = 5e-3, on_line = 1e-6;
-    const auto   is_on_path = [&](const dealii::Point<3> &p) {
+    if (interval_steps > 0)
+      end_interval(folder);
+    const double number = (passages.empty() ? 0. : passages.back().number) + skipped + 1.;
+    growth->note(number);
+    constexpr double on_line    = 1e-6;
+    const auto       is_on_path = [&](const dealii::Point<3> &p) {
       return scene.is_positioned() ? scene.placed_wheel().is_on_path(p, scene.mesh.finest_cell)
-                                     : std::abs(p[1]) < on_line && std::abs(p[2]) < on_line;
+                                         : std::abs(p[1]) < on_line && std::abs(p[2]) < on_line;
     };
     ReproducibleSum<double> settled, shifted;
     double                  n_nodes = 0., strain = 0., residual = 0.;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (const dealii::Point<3> &p = mesh.nodes[i]; mesh.node_bodies[i] == rail_body &&
-                                                     mesh.shared_nodes.is_owned(i) &&
-                                                     std::abs(p[0] - middle) <= half_length && is_on_path(p))
+                                                     mesh.shared_nodes.is_owned(i) && is_in_middle(p) &&
+                                                     is_on_path(p))
         {
           settled.add(p[2] - dynamics.state.position(i)[2]);
           shifted.add(dynamics.state.position(i)[0] - p[0]);
@@ -124,7 +153,7 @@ namespace tread
     const std::vector<double> strains = solid.plastic().equivalent_plastic_strain(dynamics.state.history);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
-          std::abs(mesh.nodes[mesh.cells[c].nodes[0]][0] - middle) <= half_length)
+          is_in_middle(mesh.nodes[mesh.cells[c].nodes[0]]))
         {
           strain   = std::max(strain, strains[c]);
           residual = std::max(residual, von_mises(stress[c]));
@@ -132,12 +161,58 @@ namespace tread
     n_nodes                   = sum(n_nodes, comm); // 0: not a number, instead of a settlement of 0
     const Vector3      force  = last_force_on(wheels.front());
     const EnergyLedger energy = dynamics.ledger();
-    passages.push_back({passages.size() + 1., settled.value(comm) / n_nodes, shifted.value(comm) / n_nodes,
-                        max(strain, comm), max(residual, comm), energy.plastic, energy.friction,
-                        force[2] > 0. ? force[0] / force[2] : 0.,
+    passages.push_back({number, double(skipped), settled.value(comm) / n_nodes, shifted.value(comm) / n_nodes,
+                        max(strain, comm), growth->net_strain(), growth->rate(), max(residual, comm),
+                        energy.plastic, energy.friction, force[2] > 0. ? force[0] / force[2] : 0.,
                         measure(solution_patches().front()).max_pressure, energy.residual_share(),
                         energy.of_dissipated(energy.residual())});
     folder.write_passages(passages);
+    progress.say(format("passage %u of %u: settlement %.2f um, largest plastic strain %.3f %%, net %.3f %%",
+                        static_cast<unsigned int>(number), scene.motion.passages,
+                        1e6 * passages.back().settlement, 100. * passages.back().plastic_strain,
+                        100. * growth->net_strain()));
+  }
+
+
+  std::string Simulation::add_growth(Summary &summary, std::vector<std::string> &warnings) const
+  {
+    if (!growth || passages.empty())
+      return "";
+    const double strain = growth->net_strain(), per_passage = growth->rate();
+    summary.set("passages_rolled", passages.size());
+    summary.set("net_plastic_strain", strain);
+    summary.set("net_plastic_strain_of_last_passage", per_passage);
+    const dealii::Point<3> place = growth->place();
+    const double           depth = scene.depth_in_rail(place);
+    summary.set("net_plastic_strain_depth_m", depth);
+    std::string line =
+      format("net plastic strain of the rail %.3f %% after %.0f passages (y = %.2f mm, depth %.2f mm), "
+             "%.3g %% in the last one",
+             100. * strain, passages.back().number, 1e3 * place[1], 1e3 * depth, 100. * per_passage);
+    if (growth->n_jumps() > 0)
+      {
+        summary.set("passages_left_out", growth->n_skipped());
+        summary.set("jumps", growth->n_jumps());
+        summary.set("net_plastic_strain_error_estimate", growth->error_of_strain());
+        line += format("; %u passages left out in %u jumps, off by %.3g %% at most by its own estimate",
+                       growth->n_skipped(), growth->n_jumps(), 100. * growth->error_of_strain());
+        constexpr double too_much = 0.1;
+        if (growth->error_of_strain() > too_much * strain)
+          warnings.push_back(
+            format("the jumps over passages may be off by %.3g %% of the net plastic strain: lower "
+                   "'Ratcheting/Change in a jump (%%)'",
+                   100. * growth->error_of_strain() / strain));
+      }
+    else if (scene.ratcheting.jumps)
+      warnings.push_back("no passages were left out: the change per passage was never regular, see "
+                         "'Ratcheting/Irregularity (%)'");
+    if (growth->has_failed())
+      {
+        summary.set("passages_to_failure", passages.back().number);
+        line += format("\nthe rail's steel reaches its strain at failure, %g %%, in passage %.0f",
+                       100. * scene.ratcheting.strain_at_failure, passages.back().number);
+      }
+    return line + "\n";
   }
 
 
@@ -658,6 +733,7 @@ namespace tread
                rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
     add_damage(summary, folder, warnings);
     const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
+    const std::string grown          = add_growth(summary, warnings);
     const std::string plastic_strain = add_plastic_strain(
       summary, dynamics, wheels.front().body,
       [&](const dealii::Point<3> &place) { return scene.depth_in_rail(place); }, comm);
@@ -689,8 +765,8 @@ namespace tread
           std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
                       scene.is_positioned() ? "vertical" : "normal", 1e-3 * normal, 100. * normal_ripple,
                       traction, by_patch.c_str(), summary.table().c_str());
-        std::printf("\n%s%s%s%s%s", further_wheels.c_str(), plastic_strain.c_str(), quality.lines().c_str(),
-                    note.c_str(), note.empty() ? "" : "\n");
+        std::printf("\n%s%s%s%s%s%s", further_wheels.c_str(), plastic_strain.c_str(), grown.c_str(),
+                    quality.lines().c_str(), note.c_str(), note.empty() ? "" : "\n");
         for (const std::string &warning : warnings)
           std::printf("WARNING: %s\n", warning.c_str());
         const std::string pictures =

@@ -118,8 +118,6 @@ namespace tread
             {
               if (simulation->interval_steps > 0)
                 simulation->end_interval(folder);
-              if (scene.motion.passages > 1 && end == End::complete)
-                simulation->end_passage(folder);
               if (end == End::complete && scene.motion.may_go_on())
                 checkpoint.write(*simulation);
             }

@@ -126,6 +126,8 @@ namespace tread
         rail_peaks  = record(true, rail_body);
         wheel_peaks = record(false, wheels.front().body);
       }
+    if (scene.motion.passages > 1)
+      make_growth();
     if (scene.damage.record)
       damage = std::make_unique<SurfaceDamage>(contact, rail_body, surface_damage_parameters(scene));
     if (const auto points = scene.recorded_cells(); !points.empty())
@@ -160,13 +162,15 @@ namespace tread
         peaks->serialize(archive);
     if (damage)
       damage->serialize(archive);
+    if (growth)
+      growth->serialize(archive);
     archive.same(placement_at_solution);
     if (placement_at_solution && !placed_at_solution && no_half_space.empty())
       place_at_solution();
     for (RollingWheel &wheel : wheels)
       wheel.serialize(archive);
     archive.same(torque_released, solution_taken, starts_with_tractions, passages, next_wheel_due,
-                 interval_steps, interval_start_time, last_steps);
+                 interval_steps, interval_start_time, last_steps, skipped);
     archive.same(relaxation_seconds, relaxation_iterations, wall_seconds);
     double end = end_position;
     archive.same(end);
@@ -506,9 +510,12 @@ namespace tread
           }
 
         // Before any other checkpoint, so that none is made of a wheel at its end that does not know it.
-        if (at_end && passages.size() + 1 < scene.motion.passages)
+        if (at_end && scene.motion.passages > 1)
           {
-            if (!change_wheels(folder, checkpoint, progress))
+            end_passage(folder, progress);
+            if (passages.back().number >= scene.motion.passages || growth->has_failed())
+              return End::complete;
+            if (!change_wheels(checkpoint, progress))
               return End::between_passages;
             n_steps = dynamics.state.n_steps + remaining_steps();
           }
@@ -547,14 +554,15 @@ namespace tread
   }
 
 
-  bool Simulation::change_wheels(RunFolder &folder, Checkpoint &checkpoint, Progress &progress)
+  bool Simulation::change_wheels(Checkpoint &checkpoint, Progress &progress)
   {
-    if (interval_steps > 0)
-      end_interval(folder);
-    end_passage(folder);
-    progress.say(format("passage %u of %u: settlement %.2f um, largest plastic strain %.3f %%",
-                        unsigned(passages.size()), scene.motion.passages, 1e6 * passages.back().settlement,
-                        100. * passages.back().plastic_strain));
+    skipped =
+      growth->passages_to_skip(scene.motion.passages - static_cast<unsigned int>(passages.back().number));
+    if (skipped > 0)
+      progress.say(
+        format("%u passages are left out, in each of which the net plastic strain grows by %.3g %%", skipped,
+               100. * growth->rate()));
+    growth->begin_next(skipped);
     next_wheel_due = true;
     checkpoint.write(*this); // the start of the next wheel may take long, and cannot be kept
     return begin_next_passage(progress);

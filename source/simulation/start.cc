@@ -60,6 +60,10 @@ namespace tread
 
     const auto measure_free_rolling = [&]() {
       contact.complete_state();
+      // Earlier wheels have left the surface stretched where they began and ended, and in the middle of the
+      // path, where passages are compared, displaced alike: there a wheel rolls freely as the first one did.
+      if (!passages.empty() && !scene.ratcheting.uniform)
+        return;
       const NodalField x       = dynamics.state.positions();
       const double     stretch = half_space_stretch(scene);
       for (RollingWheel &wheel : wheels)

@@ -10,11 +10,11 @@
 
 namespace tread
 {
-  namespace
+  std::array<long long, 4> PlasticCells::key_of(const unsigned int body, const dealii::Point<3> &centre)
   {
-    // Where the parts of a cell's history begin.
-    constexpr unsigned int strain_at = 6, hourglass_at = 7, backstress_at = 19;
-  } // namespace
+    return {
+      {body, std::llround(1e9 * centre[0]), std::llround(1e9 * centre[1]), std::llround(1e9 * centre[2])}};
+  }
 
 
   int zone_at(const std::vector<PlasticZone> &zones, const unsigned int body, const dealii::Point<3> &centre)
@@ -87,8 +87,7 @@ namespace tread
                     modes.back().set(lane, *of_surface);
                   for (unsigned int a = 0; a < 8; ++a)
                     batch.node[a][lane] = mesh.cells[c].nodes[a];
-                  keys.push_back({{mesh.cells[c].body, std::llround(1e9 * centers[c][0]),
-                                   std::llround(1e9 * centers[c][1]), std::llround(1e9 * centers[c][2])}});
+                  keys.push_back(key_of(mesh.cells[c].body, centers[c]));
                   ++lane;
                 }
             range.end = batches.size();

@@ -301,15 +301,14 @@ namespace
     ring.arc_begin = -pi * ring.radius;
     ring.arc_end   = pi * ring.radius;
     FineZone zone;
-    zone.finest_cell_size = 4e-3;
+    zone.finest_cell_size = 1e-3;
     zone.x_begin          = pi * ring.radius - 0.04; // across the angle's jump
     zone.x_end            = pi * ring.radius + 0.06;
     const Body body       = make_wheel_sector(ring, zone);
     Mesh       mesh;
     refine(body, mesh);
-    const Measured m =
-      measure(body, mesh, zone.finest_cell_size, in_arc(zone, ring.center_x, ring.radius));
-    const auto exact = wheel_inertia(ring, 1.);
+    const Measured m = measure(body, mesh, zone.finest_cell_size, in_arc(zone, ring.center_x, ring.radius));
+    const auto     exact = wheel_inertia(ring, 1.);
     check_shape(check, "ring", mesh, m, exact.mass, 1e-3);
     check.relative("ring: contact area, cm2", 1e4 * m.areas.at(1), 1e4 * 2. * pi * 0.46 * 0.12, 1e-3);
     check.relative("ring: support area, cm2", 1e4 * m.areas.at(2), 1e4 * 2. * pi * 0.4 * 0.12, 1e-3);

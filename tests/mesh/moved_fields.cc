@@ -78,8 +78,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   const auto cost = [](const unsigned int, const std::array<Point<3>, 8> &corners, const unsigned int) {
     return std::abs(corners[0][0] - 0.10) < 0.02 ? 3. : 1.;
   };
-  const Mesh from(MPI_COMM_WORLD, {bar(0.05, false)}),
-    to(MPI_COMM_WORLD, {bar(0.10, false)}, 0, cost, true);
+  const Mesh from(MPI_COMM_WORLD, {bar(0.05, false)}), to(MPI_COMM_WORLD, {bar(0.10, false)}, 0, cost, true);
   const Mesh in_parts(MPI_COMM_WORLD, {bar(0.10, false)});
   check.that("made as a whole there are as many cells and nodes as in parts",
              to.n_global_cells == in_parts.n_global_cells && to.n_global_nodes == in_parts.n_global_nodes &&

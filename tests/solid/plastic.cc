@@ -320,6 +320,73 @@ namespace
     weld.plastic().forget(0, back);
     check.that("and forgotten", largest_strain(weld, back) == 0.);
   }
+
+  /// The net plastic strain, and histories that are added with its logarithm.
+  void growth(tests::Check &check, const Cube &cube)
+  {
+    const Solid          solid       = cube.solid({{0, steel_that_yields(true), everywhere}});
+    const PlasticCells  &plastic     = solid.plastic();
+    const PlasticHistory virgin      = solid.virgin();
+    const auto           largest_net = [&](const PlasticHistory &logarithmic) {
+      const std::vector<double> strain = plastic.net_plastic_strain(logarithmic);
+      return *std::max_element(strain.begin(), strain.end());
+    };
+    check.that("virgin steel has no net strain", largest_net(plastic.with_logarithms(virgin)) == 0.);
+
+    // Stretched along x, at constant volume.
+    const auto stretched = [&](const double strain) {
+      NodalField x = cube.reference;
+      for (Vector3 &p : x)
+        p = Vector3{std::exp(strain) * p[0], std::exp(-0.5 * strain) * p[1], std::exp(-0.5 * strain) * p[2],
+                    0.};
+      return x;
+    };
+    const auto load = [&](PlasticHistory &history, const double from, const double to) {
+      constexpr unsigned int n = 40;
+      for (unsigned int step = 1; step <= n; ++step)
+        {
+          const NodalField x = stretched(from + (to - from) * step / n);
+          NodalField       f(x.size(), Vector3{});
+          solid.update_internal_forces(x.data(), cube.at_rest.data(), f.data(), history);
+        }
+    };
+    PlasticHistory there = virgin;
+    load(there, 0., 0.05);
+    const PlasticHistory log_there = plastic.with_logarithms(there);
+    const double         forth     = largest_strain(solid, there);
+    check.that("it has yielded", forth > 0.04);
+    check.relative("one way: net strain is the plastic strain", largest_net(log_there), forth, 1e-4);
+    PlasticHistory back = there;
+    load(back, 0.05, -0.02);
+    const double left = 2. * forth - largest_strain(solid, back);
+    check.relative("forth and back: what is left", largest_net(plastic.with_logarithms(back)), std::abs(left),
+                   1e-4);
+
+    const auto largest_change = [](const PlasticHistory &a, const PlasticHistory &b) {
+      double change = 0.;
+      for (std::size_t k = 0; k < a.values.size(); ++k)
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          change = std::max(change, std::abs(a.values[k][lane] - b.values[k][lane]));
+      return change;
+    };
+    // In units of strain and of Pa.
+    check.below("to logarithms and back", largest_change(plastic.from_logarithms(log_there), there), 1e-12);
+    PlasticHistory twice = log_there;
+    for (Lanes &value : twice.values)
+      value *= 2.;
+    const PlasticHistory far = plastic.from_logarithms(twice);
+    check.relative("twice the history: net strain", largest_net(plastic.with_logarithms(far)),
+                   2. * largest_net(log_there), 1e-12);
+    const std::vector<double> limits = plastic.yield_limits(far);
+    check.relative("a backstress that saturates does not leave C/gamma, Pa",
+                   *std::max_element(limits.begin(), limits.end()),
+                   500e6 + 2e9 * 2. * forth + 60e9 / 300. + 10e9 * 2. * forth, 1e-3);
+    double volume = 0.;
+    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      volume =
+        std::max(volume, std::abs(twice.values[0][lane] + twice.values[1][lane] + twice.values[2][lane]));
+    check.below("the first cells keep their volume, strain", volume, 1e-12);
+  }
 } // namespace
 
 
@@ -339,6 +406,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       forces_are_derivatives(check, name, cube, solid, history, kinematic ? 3e-5 : 6e-4);
     }
   small_strain(check, cube);
+  growth(check, cube);
   cauchy_stress(check, cube);
   zones_on_top_of_each_other(check, cube);
 }

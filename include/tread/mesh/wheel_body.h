@@ -12,9 +12,9 @@
 
 namespace tread
 {
-  /// A piece of a ring, or a whole one, that rolls with its outer face on the rail. The reference configuration is the start
-  /// of the run: axis through (center_x, 0, radius + lift) along y, lowest point of the running circle at z =
-  /// lift.
+  /// A piece of a ring, or a whole one, that rolls with its outer face on the rail. The reference
+  /// configuration is the start of the run: axis through (center_x, 0, radius + lift) along y, lowest point
+  /// of the running circle at z = lift.
   struct WheelSector
   {
     double center_x  = 0.;   ///< wheel centre: minus the distance to be rolled to the solution instant (m)

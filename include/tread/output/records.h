@@ -65,8 +65,10 @@ namespace tread
   struct Passage
   {
     double number;                ///< 1 for the first wheel
+    double skipped;               ///< passages before it that were not rolled
     double settlement, shift;     ///< of the surface since the virgin state: downwards, along x (m)
     double plastic_strain;        ///< largest equivalent plastic strain
+    double net_strain, growth;    ///< largest net plastic strain, and what this passage adds to it
     double residual_stress;       ///< largest equivalent (von Mises) stress
     double plastic_work;          ///< of rail and wheel in this passage, J
     double frictional_work;       ///< J

@@ -19,6 +19,7 @@
 #include <tread/scene/sections/peak_stress.h>
 #include <tread/scene/sections/profile_wear.h>
 #include <tread/scene/sections/rail.h>
+#include <tread/scene/sections/ratcheting.h>
 #include <tread/scene/sections/solid.h>
 #include <tread/scene/sections/start.h>
 #include <tread/scene/sections/time_stepping.h>
@@ -71,6 +72,7 @@ namespace tread
     StartSection         start;
     OutputSection        output;
     PeakStressSection    peak_stress;
+    RatchetingSection    ratcheting;
     DamageSection        damage;
     ProfileWearSection   profile_wear;
     WatchdogSection      watchdogs;
@@ -340,15 +342,16 @@ namespace tread
       double begin, end;
     };
     Range peak_range() const;
-    /// Of a wheel of which a sector or a ring is meshed, along the tread from where it is lowest at the start, m.
+    /// Of a wheel of which a sector or a ring is meshed, along the tread from where it is lowest at the
+    /// start, m.
     Range meshed_arc() const;
     /// Where 'Mesh/Fine from (mm)' and 'Fine to (mm)' put the cubes of the finest cells, x in m.
     Range cubes() const
     {
       return {defect.position + mesh.fine_from, defect.position + mesh.fine_to};
     }
-    /// How often the window of fine cells stands somewhere else, the way that the wheel rolls in each, and the
-    /// fine cells before and behind it (m). @pre mesh.window
+    /// How often the window of fine cells stands somewhere else, the way that the wheel rolls in each, and
+    /// the fine cells before and behind it (m). @pre mesh.window
     unsigned int n_windows() const;
     double       window_length() const;
     double       window_margin() const;
@@ -432,6 +435,7 @@ namespace tread
     std::string uneven_in_words() const;
     void        check_defect() const;
     void        check_peak_stress() const;
+    void        check_ratcheting() const;
     void        check_mesh() const;
     void        check_sector() const;
     void        check_window() const;

@@ -17,6 +17,7 @@
 #include <tread/scene/scene.h>
 #include <tread/simulation/force_ripple.h>
 #include <tread/simulation/impact_record.h>
+#include <tread/simulation/passage_growth.h>
 #include <tread/simulation/rolling_wheel.h>
 #include <tread/solid/solid.h>
 #include <tread/track/rail_seats.h>
@@ -140,8 +141,12 @@ namespace tread
     void write_surface(RunFolder &folder) const;
     /// Made when it is first asked for. Collective.
     NodalStresses &nodal_stresses() const;
-    void           end_passage(RunFolder &folder);
-    void           next_passage(Progress &progress);
+    /// Whether a place of the reference configuration is where passages are compared, in the middle of the
+    /// path.
+    bool is_in_middle(const dealii::Point<3> &p) const;
+    void make_growth();
+    void end_passage(RunFolder &folder, Progress &progress);
+    void next_passage(Progress &progress);
     /// How a run ends.
     enum class End
     {
@@ -163,8 +168,9 @@ namespace tread
     void announce_steps(Progress &progress) const;
     End  roll(RunFolder &folder, Checkpoint &checkpoint, Progress &progress, Pace &pace);
     void write_what_is_due(RunFolder &folder);
-    /// End a passage and begin the next. @returns false when interrupted by a signal.
-    bool change_wheels(RunFolder &folder, Checkpoint &checkpoint, Progress &progress);
+    /// Begin the next passage, or a later one where some are left out. @returns false when interrupted by a
+    /// signal.
+    bool change_wheels(Checkpoint &checkpoint, Progress &progress);
     bool begin_next_passage(Progress &progress);
     void keep_checkpoint(Checkpoint &checkpoint, const Progress &progress, Pace &pace);
     /// Not collective: only rank 0 has something to show.
@@ -212,6 +218,8 @@ namespace tread
     void add_doubts(std::vector<std::string> &warnings) const;
     /// @returns lines about the largest stresses for the screen.
     std::string add_recorded(Summary &summary, RunFolder &folder) const;
+    /// What several passages left in the steel. @returns a line of text, or none.
+    std::string add_growth(Summary &summary, std::vector<std::string> &warnings) const;
     /// Tables and figures of what friction did to the surfaces.
     void        add_damage(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
     std::string add_peaks(Summary &summary, RunFolder &folder, std::vector<std::string> &warnings) const;
@@ -263,12 +271,14 @@ namespace tread
     std::shared_ptr<const PlacedWheel> placed_at_solution;
     std::string                        no_half_space; ///< why there is none there
 
-    std::uint64_t        last_steps = 0; ///< in the end of the way before the solution instant
-    std::vector<Passage> passages;
-    bool                 next_wheel_due     = false; ///< a passage has ended, the next wheel has not begun
-    double               relaxation_seconds = 0., relaxation_iterations = 0.;
-    double               wall_seconds   = 0.; ///< including the parts before resuming
-    double               seconds_before = 0.; ///< those parts
+    std::uint64_t                  last_steps = 0; ///< in the end of the way before the solution instant
+    std::vector<Passage>           passages;
+    std::unique_ptr<PassageGrowth> growth;          ///< none: one passage
+    unsigned int                   skipped = 0;     ///< passages before the one that rolls
+    bool   next_wheel_due                  = false; ///< a passage has ended, the next wheel has not begun
+    double relaxation_seconds = 0., relaxation_iterations = 0.;
+    double wall_seconds   = 0.; ///< including the parts before resuming
+    double seconds_before = 0.; ///< those parts
 
     mutable std::unique_ptr<NodalStresses>
       stresses_at_nodes; ///< for pictures and tables; made when asked for

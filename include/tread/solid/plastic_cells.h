@@ -50,6 +50,9 @@ namespace tread
   public:
     PlasticCells() = default;
 
+    /// Where the parts of a cell's history begin that follow G, and how many values the second one has.
+    static constexpr unsigned int strain_at = 6, hourglass_at = 7, n_hourglass = 12, backstress_at = 19;
+
     /// Time of a cell that may yield, as Element::relative_cost counts it: 1.5 to 2.1 times an elastic one
     /// (plastic_benchmark).
     static constexpr double relative_cost = 2.;
@@ -98,10 +101,24 @@ namespace tread
     /// Equivalent plastic strain by cell of the mesh, 0 outside the zones.
     std::vector<double> equivalent_plastic_strain(const PlasticHistory &history) const;
 
+    /// The history with the net plastic strain -1/2 ln G (Hencky; reference configuration) in the place of G:
+    /// in this form histories can be added and multiplied by a number.
+    PlasticHistory with_logarithms(const PlasticHistory &history) const;
+
+    /// Back from that form. Backstresses stay within what they saturate at.
+    PlasticHistory from_logarithms(const PlasticHistory &logarithmic) const;
+
+    /// Equivalent sqrt(2/3 e:e) of the net plastic strain by cell of the mesh, 0 outside the zones.
+    /// @param logarithmic history with_logarithms(), or a sum of such
+    std::vector<double> net_plastic_strain(const PlasticHistory &logarithmic) const;
+
     /// Largest equivalent stress of von Mises, Pa, that the yield condition allows in a cell that has
     /// yielded, by cell of the mesh: the yield stress at its plastic strain and the equivalents of its
     /// backstresses. 0 where no cell has yielded. Empty without zones.
     std::vector<double> yield_limits(const PlasticHistory &history) const;
+
+    /// @param centre in the reference configuration, m. @returns body and centre, nm
+    static std::array<long long, 4> key_of(const unsigned int body, const dealii::Point<3> &centre);
 
     /// Save and restore the histories of this rank's cells by key. Cells that are not in the list keep
     /// theirs.
@@ -145,6 +162,10 @@ namespace tread
     };
     template <unsigned int n>
     struct State;
+
+    /// The history with function(eigenvalue) in the place of the eigenvalues of its first six values.
+    template <typename Function>
+    PlasticHistory of_eigenvalues(const PlasticHistory &history, const Function &function) const;
 
     template <unsigned int n, bool updates, typename History>
     ReproducibleSum<double> add_forces(const Range   &range,

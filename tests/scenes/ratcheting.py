@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Passages over a rail that ratchets: a rail that is alike along its length, jumps over passages beside passages that are rolled, the
+strain at which the steel fails; ranks, Ctrl-C, and what is refused."""
+
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from tread_runner import Check, run, run_stopped, table
+
+program = sys.argv[1]
+check = Check()
+SCENE = "damage/ratcheting.prm"
+COARSE = ["Mesh/Finest cell (mm)=2.6", "Mesh/Fine half width (mm)=10", "Motion/Rolled distance (mm)=30", "Output/History interval (mm)=2"]
+SHORT = COARSE + ["Motion/Passages=16", "Ratcheting/Irregularity (%)=15", "Ratcheting/Change in a jump (%)=40"]
+ROLLED = COARSE + ["Ratcheting/Jumps=false"]
+
+
+def columns(folder, name="passages.csv"):
+    return {key: np.array(values) for key, values in table(folder, name).items()}
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = lambda name: os.path.join(folder, name)
+
+    # The middle of the path is given to all of the rail, before and behind the path too.
+    three = ROLLED + ["Motion/Passages=3", "Output/Table depth (mm)=4"]
+    uniform = run(program, SCENE, path("uniform"), three)
+    cells = columns(path("uniform"), "rail_cells.csv")
+    check.that("rail cells of the table are there", len(cells["x_mm"]) > 100)
+    ahead = cells["x_mm"] > 12.
+    strained = cells["equivalent_plastic_strain_percent"]
+    # The last wheel has rolled up to x = 0 only: ahead of it is what the two before left in the middle.
+    before = columns(path("uniform"))["equivalent_plastic_strain_percent"]
+    check.that("cells ahead of the last wheel", ahead.sum() > 10)
+    check.relative("where no wheel has rolled: as in the middle, %", strained[ahead].max(), before[1], 5e-3)
+    lines = {}
+    for x, y, z, strain in zip(cells["x_mm"][ahead], cells["y_mm"][ahead], cells["z_mm"][ahead], strained[ahead]):
+        lines.setdefault((round(y, 2), round(z, 2)), []).append(strain)
+    # Known: the mean of the middle; regression: beside larger cells they yield a little once more.
+    check.below("along each line all cells have the same, share of the largest", max(np.ptp(values) for values in lines.values()) / before[1], 5e-3)
+
+    # Passages that are rolled beside those that are left out.
+    n = 60
+    rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={n}"])
+    jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
+    all_of, some = columns(path("rolled")), columns(path("jumped"))
+    check.that("all are rolled without jumps", rolled["passages_rolled"] == n and list(all_of["passage"]) == list(range(1, n + 1)) and "jumps" not in rolled)
+    check.that("few with", jumped["passages_rolled"] < 0.7 * n and jumped["passages_rolled"] + jumped["passages_left_out"] == n)
+    check.that("each row says how many were left out before it", np.all(np.diff(some["passage"], prepend=0) == some["skipped"] + 1) and some["skipped"].sum() == jumped["passages_left_out"]
+               and (some["skipped"] > 0).sum() == jumped["jumps"] and some["passage"][-1] == n)
+    at = some["passage"].astype(int) - 1
+    for column, allowed in (("net_plastic_strain_percent", 0.03), ("equivalent_plastic_strain_percent", 0.03), ("shift_um", 0.03), ("settlement_um", 0.03)):
+        check.below(f"{column}: largest difference from all rolled, over the last", np.abs(some[column] - all_of[column][at]).max() / abs(all_of[column][-1]), allowed)
+    off = abs(jumped["net_plastic_strain"] / rolled["net_plastic_strain"] - 1.)
+    check.that("the estimate of the error is no less than a third of it, and no more than a tenth of the strain",
+               off / 3. <= jumped["net_plastic_strain_error_estimate"] / rolled["net_plastic_strain"] <= 0.1)
+    growth = np.diff(all_of["net_plastic_strain_percent"], prepend=0.)
+    check.that("the largest change of a passage is no less than that of the largest strain", np.all(all_of["net_plastic_strain_of_passage_percent"] >= growth - 1e-6))
+    check.that("it ratchets: the surface moves against the wheel, the strain grows, the net one less", np.all(np.diff(all_of["shift_um"]) < 0) and np.all(growth > 0)
+               and np.all(all_of["net_plastic_strain_percent"] <= all_of["equivalent_plastic_strain_percent"] * (1 + 1e-6)))
+    check.relative("summary: net strain", 100 * jumped["net_plastic_strain"], some["net_plastic_strain_percent"][-1], 1e-6)
+    check.relative("summary: of the last passage", 100 * jumped["net_plastic_strain_of_last_passage"], some["net_plastic_strain_of_passage_percent"][-1], 1e-6)
+    check.that("depth is that of a cell", 0. < jumped["net_plastic_strain_depth_m"] < 8e-3)
+
+    # Other ranks; Ctrl-C behind a jump, and on to the end.
+    two = run(program, SCENE, path("two"), SHORT, ranks=2)
+    one = run(program, SCENE, path("one"), SHORT)
+    run_stopped(program, SCENE, path("stopped"), SHORT, 16 * 10)
+    part = columns(path("stopped"))  # it may have ended between two passages, where there is no summary
+    check.that("stopped behind a jump", part["skipped"].sum() > 0 and len(part["passage"]) < one["passages_rolled"])
+    resumed = run(program, SCENE, path("stopped"), SHORT, more=["--resume"])
+    for key in ("net_plastic_strain", "net_plastic_strain_of_last_passage", "passages_rolled", "passages_left_out", "net_plastic_strain_error_estimate", "normal_force_N"):
+        # Regression: each start ends where forces balance to within its tolerance.
+        check.relative(f"two ranks: {key}", two[key], one[key], 1e-3)
+        check.relative(f"stopped and resumed: {key}", resumed[key], one[key], 3e-5)
+
+    # It ends where the steel fails.
+    limit = 0.5 * (all_of["net_plastic_strain_percent"][7] + all_of["net_plastic_strain_percent"][8])
+    failed = run(program, SCENE, path("failed"), ROLLED + ["Motion/Passages=20", f"Ratcheting/Strain at failure (%)={limit:.6f}"])
+    check.that("the ninth passage reaches the strain at failure", failed["passages_to_failure"] == 9 and failed["passages_rolled"] == 9 and failed["completed"] and "passages_to_failure" not in rolled)
+
+    # What cannot be had, and what has no effect.
+    check.refused("a dip", program, SCENE, path("refused"), COARSE + ["Defect/Shape=dip", "Defect/Length (mm)=10", "Defect/Depth (mm)=0.05"], ["alike along its"])
+    for words, setting in (("several 'Motion/Passages'", "Motion/Passages=1"), ("a rail that yields", "Rail/Yield stress (MPa)=0"), ("'Damage/Record'", "Damage/Record=true"),
+                           ("'Ratcheting/Rolled between jumps'", "Ratcheting/Rolled between jumps=1000"),
+                           ("Rolled between jumps", "Ratcheting/Rolled between jumps=2"), ("Irregularity", "Ratcheting/Irregularity (%)=-1"),
+                           ("Strain of a jump", "Ratcheting/Strain of a jump (%)=50"), ("Longest jump", "Ratcheting/Longest jump=1")):
+        check.refused(setting, program, SCENE, path("refused"), COARSE + [setting], [words])
+    unused = run(program, SCENE, path("unused"), ROLLED + ["Motion/Passages=2", "Ratcheting/Longest jump=7"])
+    check.that("what has no effect without jumps is named", any("Longest jump" in line for line in unused["unused_parameters"]))
+check.exit()
