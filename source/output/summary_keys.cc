@@ -208,7 +208,8 @@ namespace tread
       {"net_plastic_strain", "Largest equivalent of what is left of the rail's plastic strain after the last "
                              "passage, without what goes "
                              "forth and back, of the cells in the middle of the path"},
-      {"net_plastic_strain_depth_m", "Depth of that cell's centre"},
+      {"net_plastic_strain_y_m", "y of that cell's centre, before it was deformed"},
+      {"net_plastic_strain_depth_m", "Its depth"},
       {"net_plastic_strain_of_last_passage", "Largest change of it in the last passage, of the same cells"},
       {"net_plastic_strain_error_estimate", "How far the jumps may have put it off: half the passages left "
                                             "out times how far the change per passage "

@@ -184,6 +184,7 @@ namespace tread
     summary.set("net_plastic_strain_of_last_passage", per_passage);
     const dealii::Point<3> place = growth->place();
     const double           depth = scene.depth_in_rail(place);
+    summary.set("net_plastic_strain_y_m", place[1]);
     summary.set("net_plastic_strain_depth_m", depth);
     std::string line =
       format("net plastic strain of the rail %.3f %% after %.0f passages (y = %.2f mm, depth %.2f mm), "

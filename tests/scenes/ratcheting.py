@@ -64,7 +64,9 @@ with tempfile.TemporaryDirectory() as folder:
                and np.all(all_of["net_plastic_strain_percent"] <= all_of["equivalent_plastic_strain_percent"] * (1 + 1e-6)))
     check.relative("summary: net strain", 100 * jumped["net_plastic_strain"], some["net_plastic_strain_percent"][-1], 1e-6)
     check.relative("summary: of the last passage", 100 * jumped["net_plastic_strain_of_last_passage"], some["net_plastic_strain_of_passage_percent"][-1], 1e-6)
-    check.that("depth is that of a cell", 0. < jumped["net_plastic_strain_depth_m"] < 8e-3)
+    # In the uppermost layer of cells, of 2.6 mm, one of the two beside the middle.
+    check.absolute("depth, mm", 1e3 * jumped["net_plastic_strain_depth_m"], 1.3, 0.02)
+    check.absolute("y, to one side or the other, mm", abs(1e3 * jumped["net_plastic_strain_y_m"]), 1.3, 0.02)
 
     # Other ranks; Ctrl-C behind a jump, and on to the end.
     two = run(program, SCENE, path("two"), SHORT, ranks=2)

@@ -565,7 +565,8 @@ with tempfile.TemporaryDirectory() as folder:
                    "Yield stress (MPa)", "Tangent modulus (GPa)", "Finest cell (mm)", "Defect/Length (mm)",
                    "Stiffness damping (time steps)", "Courant number", "Lateral creepage", "Spin (1 per m)")
         start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "0", "Mesh/Fine layers": "2",
-                 "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false"}
+                 "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false",
+                 "Motion/Passages": "1", "Ratcheting/Jumps": "false", "Ratcheting/Uniform rail": "false"}
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
         shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
                    if name.endswith(".prm")]

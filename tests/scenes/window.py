@@ -70,6 +70,19 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"two ranks: {key}", two[key], moving[key], 1e-6)
         check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
 
+    # A small wheel that rolls more than a turn is a ring, and does what it does on a sector.
+    small = ["Mesh/Finest cell (mm)=1.25", "Mesh/Fine half width (mm)=8", "Motion/Speed (km per h)=300", "Wheel/Radius (mm)=100", "Wheel/Mass (kg)=100", "Vehicle/Sprung mass (kg)=6000", "Wheel/Sector width (mm)=60", "Wheel/Sector thickness (mm)=30",
+             "Scene/Density scale=1", "Time stepping/Levels=2", "Mesh/Window=true", "Mesh/Window length (mm)=60", "Mesh/Window margin (mm)=20", "Output/Write volume=false"]
+    sector = run(program, SCENE, path("sector"), small + ["Motion/Rolled distance (mm)=60"])
+    ring = run(program, SCENE, path("ring"), small + ["Motion/Rolled distance (mm)=640"])
+    check.that("a turn is 628 mm", ring["rolled_m"] > 2 * np.pi * 0.1 and ring["windows"] == 11 and sector["windows"] == 1)
+    for key, allowed in (("normal_force_N", 5e-3), ("traction_coefficient", 0.01), ("max_pressure_Pa", 0.02), ("patch_area_m2", 0.02)):
+        check.relative(f"ring beside sector: {key}", ring[key], sector[key], allowed)
+    check.energy("ring: ", ring, 0.01)
+    of_ring = table(path("ring"), "history.csv")
+    rolling = np.array(of_ring["position_m"]) > -0.6
+    check.below("ring: swing of the force over a turn", np.ptp(np.array(of_ring["normal_force_N"])[rolling]) / ring["normal_force_N"], 0.05)
+
     dry = must_end_well(execute([*arguments_of(SCENE, WINDOW), "--dry-run"], program=program)).stdout
     check.that("--dry-run says that it knows the first place alone", "4 places; what follows is of the first one" in dry)
 

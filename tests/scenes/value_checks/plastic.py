@@ -21,7 +21,14 @@ def passages(runs: Runs, expect: Expect) -> None:
     table, history, summary = runs.of(RUN, "passages.csv"), runs.of(RUN, "history.csv"), runs.of(RUN)
     number = table["passage"]
     expect.near("numbers", number, [1, 2])
-    expect.near("passages", summary["passages"], len(number))
+    expect.near("passages", [summary["passages"], summary["passages_rolled"]], len(number))
+    expect.that("none is left out", np.all(table["skipped"] == 0))
+    net, added, all_flow = table["net_plastic_strain_percent"], table["net_plastic_strain_of_passage_percent"], table["equivalent_plastic_strain_percent"]
+    # In the first passage the stress turns by half a turn at least: of what flows a part goes back.
+    expect.that("net strain is a part of all strain", np.all((0.3 * all_flow < net) & (net <= all_flow)))
+    expect.near("what the first passage adds is all there is", added[0], net[0], relative=1e-6)
+    expect.that("what the second one adds", net[1] - net[0] <= added[1] < 0.7 * added[0])
+    expect.near("summary", [100. * summary["net_plastic_strain"], 100. * summary["net_plastic_strain_of_last_passage"]], [net[-1], added[-1]], relative=1e-6)
     position = history["position_m"]
     ends = [*np.flatnonzero(np.diff(position) < 0), len(position) - 1]
     for column in ("plastic_work_J", "frictional_work_J"):

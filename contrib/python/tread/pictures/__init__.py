@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..plots import Figure, save, style  # before the modules: it says that matplotlib is missing
-from . import contact_points, contact_way, crossing, damage, history, impact, mesh, patch, peaks, profile_wear, profiles
+from . import contact_points, contact_way, crossing, damage, growth, history, impact, mesh, patch, peaks, profile_wear, profiles
 
 if TYPE_CHECKING:
     from ..runs import Run
@@ -27,7 +27,7 @@ def all_figures(run: Run, contact: str | None = None) -> Iterator[tuple[str, Fig
         yield from profile_wear.figures(run)
         return
     yield from patch.figures(run, contact)
-    for module in (history, impact, crossing, peaks, damage, mesh, profiles):
+    for module in (history, impact, crossing, growth, peaks, damage, mesh, profiles):
         yield from module.figures(run)
 
 
