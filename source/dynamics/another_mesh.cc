@@ -107,6 +107,8 @@ namespace tread
     before.matched_surface.serialize(kept);
     Archive found(mesh.comm, kept.stored_by_all());
     matched_surface.serialize(found);
+    if (contact) // which has been searched anew
+      matched_surface.select(contact->nodes_near());
     prepare_step();
 
     totals              = before.totals;

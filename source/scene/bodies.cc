@@ -87,7 +87,7 @@ namespace tread
       on_wheel.cubes_begin -= scene.path_begin(wheel);
       on_wheel.cubes_end -= scene.path_begin(wheel);
       on_wheel.x_begin = -beyond_path(scene, ellipse);
-      on_wheel.x_end   = scene.motion.meshed_distance() + beyond_path(scene, ellipse);
+      on_wheel.x_end   = scene.meshed_tread() + beyond_path(scene, ellipse);
       return on_wheel;
     }
 
@@ -192,11 +192,10 @@ namespace tread
   {
     if (!scene.mesh.window)
       return {};
-    // The tread rolls off by its creepage more than the way, or less.
-    constexpr double with_creepage = 1.02;
-    const double     margin = scene.window_margin(), length = scene.window_length(),
-                 begin = scene.path_begin() + number * length;
-    return {begin - margin, begin + length + margin, tread - margin, tread + with_creepage * length + margin};
+    const double margin = scene.window_margin(), length = scene.window_length(),
+                 begin   = scene.path_begin() + number * length,
+                 rolling = (1. + scene.largest_creepage()) * length;
+    return {begin - margin, begin + length + margin, tread - margin, tread + rolling + margin};
   }
 
 

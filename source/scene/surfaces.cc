@@ -375,6 +375,24 @@ namespace tread
   }
 
 
+  double Scene::largest_creepage() const
+  {
+    constexpr double with_traction = 0.01;
+    if (motion.angular_velocity)
+      return std::max(with_traction, *motion.angular_velocity * rolling_radius() / motion.speed - 1.);
+    return std::max(with_traction, motion.creepage.value_or(0.));
+  }
+
+
+  double Scene::meshed_tread() const
+  {
+    // Cells are fine a quarter of a semi-axis before the patch.
+    constexpr double spare = 0.25;
+    const double     way   = motion.meshed_distance();
+    return way + std::max(0., largest_creepage() * way - spare * hertz(*this, static_load()).semi_axis_x);
+  }
+
+
   double Scene::longest_sector() const
   {
     constexpr double of_a_turn = 0.95;
@@ -384,14 +402,14 @@ namespace tread
 
   bool Scene::wheel_is_ring() const
   {
-    return !wheel.is_full() && motion.meshed_distance() + 2. * wheel.sector_margin > longest_sector();
+    return !wheel.is_full() && meshed_tread() + 2. * wheel.sector_margin > longest_sector();
   }
 
 
   Scene::Range Scene::meshed_arc() const
   {
     if (!wheel_is_ring())
-      return {-wheel.sector_margin, motion.meshed_distance() + wheel.sector_margin};
+      return {-wheel.sector_margin, meshed_tread() + wheel.sector_margin};
     const double half = dealii::numbers::PI * wheel.radius;
     return {-half, half};
   }

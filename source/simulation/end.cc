@@ -732,6 +732,11 @@ namespace tread
       warnings.push_back(
         format("only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
                rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
+    constexpr double large_loss = 0.02;
+    if (const double loss = energy.of_dissipated(energy.window); std::abs(loss) > large_loss)
+      warnings.push_back(format("the changes of the window of fine cells %s %.1f %% of what was dissipated: a larger "
+                                "'Mesh/Window margin (mm)' or 'Window length (mm)', or 'Scene/Density scale' 1",
+                                loss > 0. ? "took" : "gave", 100. * std::abs(loss)));
     add_damage(summary, folder, warnings);
     const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     const std::string grown          = add_growth(summary, warnings);

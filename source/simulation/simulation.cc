@@ -522,7 +522,11 @@ namespace tread
         if (look_at_signals.due(dynamics.state.n_steps) && interrupted())
           return End::interrupted;
         if (at_end_of_window())
-          return End::of_window;
+          {
+            dynamics.check_stability();
+            dynamics.check_cells();
+            return End::of_window;
+          }
         if (checks)
           {
             keep_checkpoint(checkpoint, progress, pace);

@@ -269,6 +269,9 @@ namespace
   {
     Passage passage;
     passage.number                        = 3.;
+    passage.skipped                       = 7.;
+    passage.net_strain                    = 0.0017;
+    passage.growth                        = 0.00042;
     passage.settlement                    = 1.7e-6;
     passage.shift                         = -0.9e-6;
     passage.plastic_strain                = 0.0021;
@@ -281,6 +284,9 @@ namespace
     passage.energy_residual_of_dissipated = -0.0017;
     compare(check, "passages.csv", passage_columns(), passage,
             {{"passage", 3.},
+             {"skipped", 7.},
+             {"net_plastic_strain_percent", 0.17},
+             {"net_plastic_strain_of_passage_percent", 0.042},
              {"settlement_um", 1.7},
              {"shift_um", -0.9},
              {"equivalent_plastic_strain_percent", 0.21},

@@ -56,6 +56,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # With added density: the mass that chords lack is not taken for a loss.
     scaled = run(program, SCENE, path("scaled"), WINDOW + ["Scene/Density scale=25"])
+    check.that("it is told of", any("changes of the window" in line for line in scaled["warnings"]) and not any("changes of the window" in line for line in moving["warnings"]))
     # 0.039 was found, and 0.87 where the kinetic energy of that mass is booked without its centrifugal potential.
     check.below("density scale 25: window loss over what was dissipated", scaled["window_loss_J"] / scaled["dissipated_work_J"], 0.06)
 
@@ -90,7 +91,7 @@ with tempfile.TemporaryDirectory() as folder:
     for words, setting in (("'Damage/Record'", "Damage/Record=true"), ("Peak stress", "Peak stress/Record=true"),
                            ("steel that yields", "Rail/Yield stress (MPa)=400"), ("several passages", "Motion/Passages=2"),
                            ("'Output/Cells'", "Output/Cells=0 0 1"), ("Reproducible", "Scene/Reproducible=true"),
-                           ("Window margin", "Mesh/Window margin (mm)=5"), ("position", "Wheelset/Lateral shift (mm)=0")):
+                           ("Window margin", "Mesh/Window margin (mm)=5"), ("four cells", "Mesh/Window length (mm)=5"), ("position", "Wheelset/Lateral shift (mm)=0")):
         check.refused(f"a window with {setting}", program, SCENE, path("refused"), WINDOW + [setting], [words])
     without = run(program, SCENE, path("unused"), COARSE + ["Motion/Rolled distance (mm)=4", "Mesh/Window length (mm)=10"])
     check.that("a length without a window is named", any("Window length" in line for line in without["unused_parameters"]))

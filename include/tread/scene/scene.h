@@ -233,6 +233,12 @@ namespace tread
     {
       return path_begin(number) + motion.meshed_distance();
     }
+    /// How much longer the way along the tread may be than that along the rail, m per m: the creepage that is
+    /// given, or what rolling with traction takes.
+    double largest_creepage() const;
+    /// Way along the tread for which its cells are fine, m: that of the axle, and more where the creepage would
+    /// use up what is fine behind it.
+    double meshed_tread() const;
     /// Longest sector of a wheel that is not closed to a ring, m along the tread.
     double longest_sector() const;
     /// Whether a sector of the wheel would be longer, for a way of about a turn or more.
