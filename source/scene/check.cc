@@ -365,7 +365,8 @@ namespace tread
             "'Mesh/Window margin (mm)' " + text_in_mm(mesh.window_margin) +
               " must hold the patch and a quarter of it more; at least " + text_in_mm(least));
     constexpr double shortest = 4.; // cells: a change costs more than so short a way
-    require(std::max(window_length(), mesh.window_length) >= shortest * mesh.finest_cell * (1. - 1e-9),
+    require(n_windows() == 1 ||
+              std::max(window_length(), mesh.window_length) >= shortest * mesh.finest_cell * (1. - 1e-9),
             "'Mesh/Window length (mm)' " + text_in_mm(mesh.window_length) + " must be at least four cells, " +
               text_in_mm(shortest * mesh.finest_cell));
     const auto yields = [](const MaterialSection &material) {
