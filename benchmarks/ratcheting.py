@@ -4,9 +4,10 @@
 
 Runs the ratcheting scene over 200 passages, all rolled and with jumps of several sizes, and over 10 000 with --long; then a dozen
 passages of steels of other strengths with and without traction. Fills the tables of doc/ratcheting.md. Runs that have complete results
-are not repeated; remove RESULTS to measure anew.
+are not repeated; remove RESULTS to measure anew. Each run has one rank, and there are as many at a time as processors.
 """
 
+import concurrent.futures
 import math
 import os
 
@@ -18,7 +19,7 @@ from tread.tables import fill, markdown, number, provenance
 SCENE = "damage/ratcheting.prm"
 PASSAGES = 200
 JUMPS = {"all rolled": {"Ratcheting/Jumps": "false"},
-         **{f"change in a jump {change} %": {"Ratcheting/Change in a jump (%)": change} for change in (20, 40)}}
+         **{f"change in a jump {change} %": {"Ratcheting/Change in a jump (%)": change} for change in (20,)}}
 LONG, STRONGER = 10000, 600  # passages over steel with a yield stress, MPa, that ratchets slowly
 # Pressure of Hertz over the yield stress in shear, and the traction coefficient. Shakedown limits of a point contact: 4.7 without
 # traction, and at the surface the inverse of the traction coefficient (Ponter, Hearle & Johnson 1985; Johnson 1989).
@@ -33,20 +34,27 @@ def main():
     parser.add_argument("--long", action="store_true", help=f"{LONG} passages too")
     arguments = parser.parse_args()
     script = "benchmarks/ratcheting.py" + (" --long" if arguments.long else "")
-    summaries = []
+    workers = concurrent.futures.ThreadPoolExecutor(available_ranks())
 
-    def run(name, settings):
+    def begin(name, settings):
+        """What will be a run's summary and its passages."""
         folder = os.path.join(arguments.results, name.replace(" ", "-").replace("%", "percent"))
-        summaries.append(run_scene(SCENE, folder, settings))
-        return summaries[-1], Run(folder).table("passages.csv")
+        return workers.submit(lambda: (run_scene(SCENE, folder, settings, ranks=1), Run(folder).table("passages.csv")))
 
-    def note():
-        return f"\n\n{available_ranks()} ranks. " + provenance(script, summaries)
+    def note(runs):
+        return f"\n\nOne rank each, {available_ranks()} runs at a time. " + provenance(script, [run.result()[0] for run in runs])
+
+    longer = [(f"yield stress {STRONGER} MPa", LONG, {"Rail/Yield stress (MPa)": STRONGER})] if arguments.long else []
+    jumps = {(name, n): begin(f"{n}-{name}", {"Motion/Passages": n, **settings})
+             for name, n, settings in [(name, PASSAGES, settings) for name, settings in JUMPS.items()] + longer}
+    steels = {(traction, strength, hardening): begin(f"{hardening} {strength} {traction}", {
+        "Ratcheting/Jumps": "false", "Motion/Passages": SHAKEDOWN, "Motion/Traction coefficient": traction,
+        "Rail/Hardening": hardening, "Rail/Yield stress (MPa)": f"{1e-6 * math.sqrt(3) * HERTZ / strength:.2f}"})
+        for traction in TRACTIONS for strength in STRENGTHS for hardening in ("isotropic", "kinematic")}
 
     rows, base = [], None
-    runs = [(name, PASSAGES, settings) for name, settings in JUMPS.items()] + ([(f"yield stress {STRONGER} MPa", LONG, {"Rail/Yield stress (MPa)": STRONGER})] if arguments.long else [])
-    for name, n, settings in runs:
-        summary, passages = run(f"{n}-{name}", {"Motion/Passages": n, **settings})
+    for (name, n), run in jumps.items():
+        summary, passages = run.result()
         base = base or (summary, passages)
         off = lambda value, of: "-" if n != PASSAGES or summary is base[0] else f"{100 * (value / of - 1):+.2f}"
         rows.append([name, number(n), number(summary["passages_rolled"]), f"{100 * summary['net_plastic_strain']:.3f}",
@@ -55,22 +63,18 @@ def main():
                      f"{100 * summary['net_plastic_strain_of_last_passage']:.4f}", f"{passages['shift_um'][-1]:.1f}",
                      off(passages["shift_um"][-1], base[1]["shift_um"][-1]), number(summary["seconds"])])
     fill("ratcheting.md", "ratcheting-jumps", markdown(
-        ["", "passages", "rolled", "net plastic strain, %", "off, %", "own estimate, %", "of the last passage, %", "shift, um", "off, %", "seconds"], rows) + note())
+        ["", "passages", "rolled", "net plastic strain, %", "off, %", "own estimate, %", "of the last passage, %", "shift, um", "off, %", "seconds"], rows) + note(jumps.values()))
 
-    rows, summaries[:] = [], []
-    for traction in TRACTIONS:
-        for strength in STRENGTHS:
-            for hardening in ("isotropic", "kinematic"):
-                _, passages = run(f"{hardening} {strength} {traction}", {
-                    "Ratcheting/Jumps": "false", "Motion/Passages": SHAKEDOWN, "Motion/Traction coefficient": traction,
-                    "Rail/Hardening": hardening, "Rail/Yield stress (MPa)": f"{1e-6 * math.sqrt(3) * HERTZ / strength:.2f}"})
-                work = passages["plastic_work_J"]
-                shakes_down = strength < LIMIT[traction] or hardening == "isotropic"
-                rows.append([f"{strength:g}", f"{traction:g}", hardening, number(work[0]), number(work[1]), number(work[-1]),
-                             f"{passages['net_plastic_strain_percent'][-1]:.4f}", f"{passages['net_plastic_strain_of_passage_percent'][-1]:.5f}", "yes" if shakes_down else "no"])
+    rows = []
+    for (traction, strength, hardening), run in steels.items():
+        passages = run.result()[1]
+        work = passages["plastic_work_J"]
+        shakes_down = strength < LIMIT[traction] or hardening == "isotropic"
+        rows.append([f"{strength:g}", f"{traction:g}", hardening, number(work[0]), number(work[1]), number(work[-1]),
+                     f"{passages['net_plastic_strain_percent'][-1]:.4f}", f"{passages['net_plastic_strain_of_passage_percent'][-1]:.5f}", "yes" if shakes_down else "no"])
     fill("ratcheting.md", "ratcheting-shakedown", markdown(
         ["p0/k", "traction coefficient", "hardening", "plastic work of passage 1, J", "2", str(SHAKEDOWN), "net plastic strain, %", "of the last passage, %",
-         "shakes down by the map"], rows) + note())
+         "shakes down by the map"], rows) + note(steels.values()))
 
 
 if __name__ == "__main__":
