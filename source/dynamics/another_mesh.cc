@@ -101,14 +101,13 @@ namespace tread
     take_nodes(before);
     if (contact)
       contact->go_on_from(*before.contact);
-    set_inertia();
 
+    // Before what is near the contact is chosen anew, with the inertia.
     Archive kept(mesh.comm);
     before.matched_surface.serialize(kept);
     Archive found(mesh.comm, kept.stored_by_all());
     matched_surface.serialize(found);
-    if (contact) // which has been searched anew
-      matched_surface.select(contact->nodes_near());
+    set_inertia();
     prepare_step();
 
     totals              = before.totals;

@@ -223,17 +223,18 @@ namespace tread
       {
         if (cell.key[0] != rail_body)
           continue;
-        Mean mean;
-        if (const auto same = means.find({{cell.key[2], cell.key[3]}}); same != means.end())
+        Mean       mean;
+        const auto same      = means.find({{cell.key[2], cell.key[3]}});
+        const bool is_larger = same == means.end(); // than those of the middle, before or behind the path
+        if (!is_larger)
           mean = same->second;
-        else // a larger cell, before or behind the path
+        else
           for (const auto &[line, of_line] : means)
             if (sections.at(cell.key).contains(line))
               mean.add(of_line.value());
         if (mean.n == 0.)
           continue;
-        const bool is_larger = means.count({{cell.key[2], cell.key[3]}}) == 0;
-        cell.values          = mean.value();
+        cell.values = mean.value();
         if (is_larger) // its own hourglass modes are others
           std::fill_n(cell.values.begin() + PlasticCells::hourglass_at, PlasticCells::n_hourglass, 0.);
         changed.push_back(cell);
