@@ -90,6 +90,28 @@ extern "C"
                                                   const tread_half_space_case *problem,
                                                   tread_half_space_answer     *answer);
 
+  /* The way that a wheel rolls, one element in rolling direction in each of n steps. */
+  typedef struct
+  {
+    size_t        n;
+    const double *heights;      /* of the rail's surface, alike across [m]; 0: level. The first belongs to the
+                                 * element under the wheel (x = 0) in the first step; before and behind the way
+                                 * it is as high as at its ends. */
+    const double *normal_force; /* in each step, > 0 [N]; 0: the case's */
+    const double *creepage;     /* longitudinal, in each step [-]; 0: the case's */
+  } tread_half_space_way;
+
+  /* Transient rolling over an uneven way, from steady rolling in the first step. The case must have a gap, with
+   * an element centre at x = 0, and friction. What is not 0 is filled: approach [m] and longitudinal_force on the
+   * wheel [N] with n values, work of friction per area of the rail [J/m^2] with n_y rows of n elements of the
+   * way; elements near both ends have not been passed by all of the patch. Returns the status. */
+  TREAD_HALF_SPACE_API int tread_half_space_roll(tread_half_space            *solver,
+                                                 const tread_half_space_case *problem,
+                                                 const tread_half_space_way  *way,
+                                                 double                      *approach,
+                                                 double                      *longitudinal_force,
+                                                 double                      *work);
+
   /* What was wrong with the last case, "" if nothing; until the next call with this solver. */
   TREAD_HALF_SPACE_API const char *tread_half_space_message(const tread_half_space *solver);
 

@@ -3,6 +3,7 @@
 #include <tread/reference/all_cores.h>
 #include <tread/reference/hertz.h>
 #include <tread/reference/planar_contact.h>
+#include <tread/reference/uneven_way.h>
 
 #include "require.h"
 #include "rolling_solve.h"
@@ -234,9 +235,8 @@ namespace
                                   std::to_string(steepest).substr(0, 3) + ": see that it is in m, not in mm");
   }
 
-  void solve_gap(tread_half_space            &solver,
-                 const tread_half_space_case &problem,
-                 tread_half_space_answer     &answer)
+  /// Without the load.
+  PlanarCase planar_case(const tread_half_space_case &problem)
   {
     PlanarCase c;
     c.grid = {problem.n_x,       problem.n_y,     problem.element_x,
@@ -247,14 +247,22 @@ namespace
                  j = std::lround((y - problem.y_first) / problem.element_y);
       return problem.gap[j * problem.n_x + i];
     };
-    require_positive("normal_force", problem.normal_force, "N");
-    c.normal_force = problem.normal_force;
     c.friction     = problem.friction;
     c.longitudinal = problem.creepage;
     c.lateral      = problem.lateral_creepage;
     c.spin         = problem.spin;
-    c.wheel = c.rail    = {problem.young, problem.poisson};
-    c.order             = order_of(problem);
+    c.wheel = c.rail = {problem.young, problem.poisson};
+    c.order          = order_of(problem);
+    return c;
+  }
+
+  void solve_gap(tread_half_space            &solver,
+                 const tread_half_space_case &problem,
+                 tread_half_space_answer     &answer)
+  {
+    PlanarCase c = planar_case(problem);
+    require_positive("normal_force", problem.normal_force, "N");
+    c.normal_force      = problem.normal_force;
     PlanarResult result = solve_planar(c);
     check_resolution(problem, result);
     set_common(answer, result);
@@ -269,44 +277,79 @@ namespace
     return {TREAD_HALF_SPACE_NOT_SOLVED, 0, nan, nan, nan, nan, nan, nan, nan, nan};
   }
 
-  /// Texts of exceptions are short: what has no memory for them has none for a case either.
-  int solve(tread_half_space            &solver,
-            const tread_half_space_case &problem,
-            tread_half_space_answer     &answer) noexcept
+  /// Status of what is done; the solver's message says why it was not. Texts of exceptions are short: what has no
+  /// memory for them has none for a case either.
+  template <typename Task>
+  int status_of(tread_half_space &solver, const Task &task) noexcept
   {
-    answer = no_answer();
     solver.message.clear();
     solver.state.clear();
     try
       {
-        check_magnitudes(problem);
-        if (problem.gap)
-          solve_gap(solver, problem, answer);
-        else
-          solve_ellipse(solver, problem, answer);
-        if (!is_finite(answer))
-          throw std::runtime_error("numbers overflow");
-        answer.frictional_work = std::max(answer.frictional_work, 0.); // no negative round-off
-        answer.status          = TREAD_HALF_SPACE_SOLVED;
+        task();
+        return TREAD_HALF_SPACE_SOLVED;
       }
     catch (const std::bad_alloc &)
       {
-        answer         = no_answer();
-        answer.status  = TREAD_HALF_SPACE_OUT_OF_MEMORY;
         solver.message = "no memory";
+        return TREAD_HALF_SPACE_OUT_OF_MEMORY;
       }
     catch (const std::invalid_argument &error)
       {
-        answer         = no_answer();
-        answer.status  = TREAD_HALF_SPACE_WRONG_INPUT;
         solver.message = error.what();
+        return TREAD_HALF_SPACE_WRONG_INPUT;
       }
     catch (const std::exception &error)
       {
-        answer         = no_answer();
         solver.message = error.what();
+        return TREAD_HALF_SPACE_NOT_SOLVED;
       }
-    return answer.status;
+  }
+
+  int solve(tread_half_space            &solver,
+            const tread_half_space_case &problem,
+            tread_half_space_answer     &answer) noexcept
+  {
+    answer           = no_answer();
+    const int status = status_of(solver, [&] {
+      check_magnitudes(problem);
+      if (problem.gap)
+        solve_gap(solver, problem, answer);
+      else
+        solve_ellipse(solver, problem, answer);
+      if (!is_finite(answer))
+        throw std::runtime_error("numbers overflow");
+      answer.frictional_work = std::max(answer.frictional_work, 0.); // no negative round-off
+    });
+    if (status != TREAD_HALF_SPACE_SOLVED)
+      answer = no_answer();
+    return answer.status = status;
+  }
+
+  void roll(const tread_half_space_case &problem,
+            const tread_half_space_way  &way,
+            double                      *approach,
+            double                      *longitudinal_force,
+            double                      *work)
+  {
+    check_magnitudes(problem);
+    if (!problem.gap)
+      throw std::invalid_argument("rolling over an uneven way needs a gap");
+    if (way.n == 0)
+      throw std::invalid_argument("n: a way has at least one step");
+    UnevenWay  uneven{planar_case(problem), {}, {}, {}};
+    const auto numbers = [&](const double *values, const double otherwise) {
+      return values ? std::vector<double>(values, values + way.n) : std::vector<double>(way.n, otherwise);
+    };
+    uneven.heights            = numbers(way.heights, 0.);
+    uneven.normal_force       = numbers(way.normal_force, problem.normal_force);
+    uneven.longitudinal       = numbers(way.creepage, problem.creepage);
+    const UnevenResult result = roll_over(uneven);
+    for (const auto &[from, to] : {std::pair(&result.approach, approach),
+                                   std::pair(&result.longitudinal_force, longitudinal_force),
+                                   std::pair(&result.work, work)})
+      if (to)
+        std::copy(from->begin(), from->end(), to);
   }
 } // namespace
 
@@ -333,6 +376,16 @@ extern "C"
                              tread_half_space_answer     *answer)
   {
     return solve(*solver, *problem, *answer);
+  }
+
+  int tread_half_space_roll(tread_half_space            *solver,
+                            const tread_half_space_case *problem,
+                            const tread_half_space_way  *way,
+                            double                      *approach,
+                            double                      *longitudinal_force,
+                            double                      *work)
+  {
+    return status_of(*solver, [&] { roll(*problem, *way, approach, longitudinal_force, work); });
   }
 
   const char *tread_half_space_message(const tread_half_space *solver)

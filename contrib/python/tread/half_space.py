@@ -39,6 +39,7 @@ _CASE = np.dtype([(name, float) for name in _NUMBERS] + [
 _ANSWER = np.dtype([("status", np.intc), ("iterations", np.intc)] + [(name, float) for name in (
     "longitudinal_force", "lateral_force", "spin_moment", "max_pressure", "adhesion_share", "area", "approach", "frictional_work")],
     align=True)
+_WAY = np.dtype([("n", np.uintp), ("heights", np.uintp), ("normal_force", np.uintp), ("creepage", np.uintp)], align=True)
 _GRID = np.dtype([("n_x", np.uintc), ("n_y", np.uintc)] + [(name, float) for name in ("element_x", "element_y", "x_first", "y_first")],
                  align=True)
 FIELDS = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state")
@@ -70,6 +71,7 @@ def _library() -> ctypes.CDLL:
     library.tread_half_space_create.restype = pointer
     library.tread_half_space_destroy.argtypes = [pointer]
     library.tread_half_space_solve.argtypes = [pointer] * 3
+    library.tread_half_space_roll.argtypes = [pointer] * 6
     library.tread_half_space_message.argtypes = [pointer]
     library.tread_half_space_message.restype = ctypes.c_char_p
     library.tread_half_space_get_grid.argtypes = [pointer] * 2
@@ -145,8 +147,56 @@ class _Solver:
     def solve(self, case: np.ndarray, what: str = "") -> np.ndarray:
         answer = np.zeros(1, _ANSWER)
         if self.library.tread_half_space_solve(self.handle, case.ctypes.data, answer.ctypes.data):
-            raise HalfSpaceError(what + self.library.tread_half_space_message(self.handle).decode())
+            raise HalfSpaceError(what + self.message())
         return answer
+
+    def message(self) -> str:
+        return self.library.tread_half_space_message(self.handle).decode()
+
+
+def _set_gap(case: np.ndarray, gap: ArrayLike, x_first: float, y_first: float) -> np.ndarray:
+    """What must live as long as the case is used."""
+    if np.ma.is_masked(gap):
+        raise TypeError("gap has masked values, which are no numbers: fill them with a height that is out of contact")
+    gap = np.ascontiguousarray(gap, dtype=float)
+    if gap.ndim != 2:
+        raise TypeError("gap must be an (n_y, n_x) array")
+    case["gap"], case["n_y"], case["n_x"] = gap.ctypes.data, *gap.shape
+    case["x_first"], case["y_first"] = x_first, y_first
+    return gap
+
+
+def roll(*, gap: ArrayLike, x_first: float, y_first: float, heights: ArrayLike | None = None, normal_force: ArrayLike, creepage: ArrayLike = 0.,
+         slip_order: int = 2, **settings: float) -> dict[str, np.ndarray]:
+    """Transient rolling over a rail whose height changes along the way, from steady rolling in the first step.
+
+    gap, x_first, y_first     as for solve_patch(); an element has its centre at x = 0
+    heights                   (n,) of the rail's surface, m, alike across: of the elements along the way, one for each step; 0 by default
+    normal_force, creepage    N and longitudinal creepage, a number or (n,) arrays
+    Others as for solve(), numbers all; element_x and element_y must be given, friction above 0.
+
+    Returns {name: array}: approach (n,) in m, longitudinal_force (n,) in N on the wheel, and work (n_y, n), the work of friction per area of
+    the rail, J/m^2; elements near both ends of the way have not been passed by all of the patch. Raises HalfSpaceError.
+    """
+    given = {"heights": heights, "normal_force": normal_force, "creepage": creepage}
+    along = {name: np.array(values, dtype=float) for name, values in given.items() if values is not None}
+    sizes = {values.size for values in along.values() if values.ndim == 1}
+    if len(sizes) != 1 or any(values.ndim > 1 or np.ma.is_masked(given[name]) for name, values in along.items()):
+        raise TypeError("heights, normal_force and creepage must be numbers or arrays of one length, one of them an array, without masked values")
+    case, _ = _cases({**settings, **{name: float(values) for name, values in along.items() if values.ndim == 0 and name != "heights"}}, slip_order, False)
+    gap = _set_gap(case, gap, x_first, y_first)
+    way, n = np.zeros(1, _WAY), sizes.pop()
+    way["n"] = n
+    for name, values in along.items():
+        if values.ndim == 1:
+            way[name] = values.ctypes.data
+        elif name == "heights":
+            raise TypeError("heights must be an array")
+    result = {"approach": np.empty(n), "longitudinal_force": np.empty(n), "work": np.empty((len(gap), n))}
+    with _Solver() as solver:
+        if solver.library.tread_half_space_roll(solver.handle, case.ctypes.data, way.ctypes.data, *[values.ctypes.data for values in result.values()]):
+            raise HalfSpaceError(solver.message())
+    return result
 
 
 def solve_patch(*, gap: ArrayLike | None = None, x_first: float = 0., y_first: float = 0., slip_order: int = 2, contact_sixth: bool = False,
@@ -167,13 +217,7 @@ def solve_patch(*, gap: ArrayLike | None = None, x_first: float = 0., y_first: f
         void = sorted({"curvature_x", "curvature_y"} & set(settings))
         if void:
             raise TypeError(f"gap excludes {' and '.join(void)}: it is the whole gap")
-        if np.ma.is_masked(gap):
-            raise TypeError("gap has masked values, which are no numbers: fill them with a height that is out of contact")
-        gap = np.ascontiguousarray(gap, dtype=float)
-        if gap.ndim != 2:
-            raise TypeError("gap must be an (n_y, n_x) array")
-        case["gap"], case["n_y"], case["n_x"] = gap.ctypes.data, *gap.shape
-        case["x_first"], case["y_first"] = x_first, y_first
+        gap = _set_gap(case, gap, x_first, y_first)
     with _Solver() as solver:
         answer = solver.solve(case)
         grid = np.zeros(1, _GRID)
