@@ -51,7 +51,7 @@ GROUPS = (
     ("Wheels that are not round", "flat/*.prm", ("wheel-flat.md",),
      ("wheel-flat-force.png", "flat/scanned-flat.prm at several speeds, beside a mass on a Hertz spring on a beam")),
     ("Test rigs", "rigs/*.prm", ("twin-disc.md",), None),
-    ("What rolling does to the surfaces", "damage/*.prm", ("damage.md", "ratcheting.md"),
+    ("What rolling does to the surfaces", "damage/*.prm", ("damage.md", "corrugation.md", "ratcheting.md"),
      ("damage.png", "damage/wear-passage.prm: work of friction, slip, temperature, wear and pressure by place")),
     ("Half-spaces: Kalker's case and its relatives", "verification/*.prm", ("verification.md", "track.md"),
      ("half-space-axis.png", "verification/half-space-0.33-mu0.30.prm: pressure, shear stress and micro-slip along the patch, beside Hertz and CONTACT")),

@@ -46,7 +46,7 @@ def main() -> None:
     parser.add_argument("--program", default=PROGRAM, help="tread")
     arguments = parser.parse_args()
     height, stiffness = heights(arguments.program)
-    model = lambda velocity: roll(Track(), height, velocity, WAY, LOAD, MASS, stiffness, START, min(10e-6, 5e-5 / velocity))
+    model = lambda velocity: roll(Track(), height, velocity, WAY, LOAD, MASS, stiffness, START, min(10e-6, 5e-5 / velocity))[:2]
     rows = []
     for folder in arguments.runs:
         history = Run(folder).table("history.csv")

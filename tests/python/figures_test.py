@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import blows, comparison, contact_cases, creep_table, crossing_force, differences, flat_force, hertz, limits, measured_runs, plots, rail_mesh, schema, studies, subsurface, tables, vtu, wavelets
+from tread import blows, comparison, contact_cases, corrugation, creep_table, crossing_force, differences, flat_force, half_space, hertz, limits, measured_runs, plots, rail_mesh, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch
 from tread.runs import Run
 
@@ -56,7 +56,7 @@ class FlatForce(unittest.TestCase):
     LOAD, MASS, STIFFNESS = 1e5, 900., 1e11
 
     def rolled(self, track, height, speed, way):
-        return flat_force.roll(track, height, speed, way, self.LOAD, self.MASS, self.STIFFNESS, 0., 5e-6)
+        return flat_force.roll(track, height, speed, way, self.LOAD, self.MASS, self.STIFFNESS, 0., 5e-6)[:2]
 
     def test_a_mass_on_its_spring(self):
         # On a track that does not yield, over a support, after a step of 1 um: the linearised spring's cosine.
@@ -77,8 +77,13 @@ class FlatForce(unittest.TestCase):
         beam = flat_force.Beam(flat_force.Track(spans=2, elements=4))
         own, shape = beam.shape(0.4)
         x = np.repeat(beam.size * np.arange(beam.n), 2)
-        cubic = np.where(np.arange(2 * beam.n) % 2 == 0, x**3, 3. * x**2)
+        # Sections of a beam with the deflection x^3 are turned by 3 x^2 and by what shear leaves, 6 E I/(kappa G A).
+        sheared = 0.5 * beam.phi * beam.size**2
+        cubic = np.where(np.arange(2 * beam.n) % 2 == 0, x**3, 3. * x**2 + sheared)
         self.assertAlmostEqual(shape @ cubic[own], 0.4**3, delta=1e-12)
+        self.assertAlmostEqual(beam.turning(0.4) @ cubic[own], 3. * 0.4**2 + sheared, delta=1e-12)
+        track = flat_force.Track(spans=2, elements=4)
+        self.assertAlmostEqual(sheared / (6. * track.young * track.second_moment / (track.shear_factor * track.area * track.young / 2.56)), 1., delta=1e-12)
         track = flat_force.Track(spans=2, elements=4, pad_stiffness=0., ballast_stiffness=1.)
         beam = flat_force.Beam(track)
         free = slice(2, 2 * beam.n)
@@ -99,6 +104,208 @@ class Blows(unittest.TestCase):
         self.assertAlmostEqual(blows.speed({"position_m": np.array([-0.3, 0.1, 0.5]), "time_s": np.array([0.01, 0.03, 0.09])}), 10.)
         places, forces = np.array([1., 2., 4., 7., 9.]), np.array([5., 0., 3., 0., -0.])
         self.assertAlmostEqual(blows.off_the_rail(places, forces), 1. + 3. + 2.)
+
+
+class TrackOfBeam(unittest.TestCase):
+    """Receptances and mobilities of the beam that half a span ends at planes of symmetry."""
+
+    TRACK = flat_force.Track(spans=21, half_ends=True)
+
+    def test_at_rest_a_rail_on_supports_is_a_rail_on_a_bed(self):
+        track = flat_force.Track(spans=41, half_ends=True, shear_factor=100., pad_stiffness=60e6)
+        bed = 1. / (1. / track.pad_stiffness + 1. / track.ballast_stiffness) / track.spacing
+        beta = (bed / (4. * track.young * track.second_moment))**0.25
+        found = flat_force.receptance(track, [0., 0.3], [1e-3])[:, 0]
+        self.assertAlmostEqual(float(found.mean().real) / (beta / (2. * bed)), 1., delta=0.02)
+
+    def test_a_long_bar_takes_waves_away(self):
+        track = flat_force.Track(spans=60, half_ends=True, elements=2, absorbing=15.)
+        found = flat_force.bar_mobility(track, [0.], np.arange(200., 1000., 10.)).mean()  # over what comes back from the ends
+        self.assertAlmostEqual(found * 2. * track.area * math.sqrt(track.young * track.density), 1., delta=0.05)
+
+    def test_between_planes_of_symmetry_a_bar_vibrates_with_half_a_wave(self):
+        frequencies = np.arange(195., 215., 0.25)
+        found = np.abs(flat_force.bar_mobility(self.TRACK, [0.], frequencies)[0])
+        expected = math.sqrt(self.TRACK.young / self.TRACK.density) / (2. * self.TRACK.spans * self.TRACK.spacing)
+        self.assertAlmostEqual(frequencies[found.argmax()] / expected, 1., delta=0.005)
+        # Below it is a spring of both halves.
+        half = self.TRACK.young * self.TRACK.area / (0.5 * self.TRACK.spans * self.TRACK.spacing)
+        self.assertAlmostEqual(flat_force.bar_mobility(self.TRACK, [0.], [1.])[0, 0] / (2j * math.pi / (2. * half)), 1., delta=0.01)
+
+    def test_a_section_turns_with_its_head(self):
+        """A force along the head turns the section by its moment: the head moves by the square of its height."""
+        track = flat_force.Track(spans=2, half_ends=True, pad_stiffness=1e3, ballast_stiffness=1e3, sleeper_mass=1., shear_factor=100.)
+        # A moment in the middle of a beam whose ends do not turn: the slope is M L/(4 E I).
+        length = track.spans * track.spacing
+        found = flat_force.receptance(track, [0.5 * length - track.middle_support], [1e-2], turns=True)[0, 0].real
+        self.assertAlmostEqual(found / (track.head**2 * length / (4. * track.young * track.second_moment)), 1., delta=0.02)
+
+    def test_traction_moves_the_rail_along_itself(self):
+        """On a rail that does not bend: backwards under a driving wheel, by the bar's mobility."""
+        stiff = flat_force.Track(spans=8, pad_stiffness=1e13, ballast_stiffness=1e13, second_moment=10., shear_factor=100., half_ends=True, absorbing=1.5)
+        places, force, along = flat_force.roll(stiff, lambda x: 1e-6 * math.sin(2. * math.pi * x / 0.05), 25., 0.5, 1e5, 1e9, 1e11, 0., 1e-5, traction=0.3)
+        found = corrugation.Waves(0.2, np.array([4]), np.array([1.]))
+        late = (places > 0.3) & (places <= 0.5)
+        of_force, of_along = (found.found_in(places[late], values[late])[0] for values in (force, along))
+        mobility = flat_force.bar_mobility(stiff, np.linspace(0.3, 0.5, 9), [500.]).mean()
+        self.assertAlmostEqual(of_along / (-0.3 * mobility * of_force), 1., delta=0.1)
+
+    def test_damped_ends(self):
+        track = flat_force.Track(absorbing=2., spans=10)
+        self.assertEqual([track.damping_rate(place) for place in (2., 3., 4.)], [0., 0., 0.])
+        shear_speed = math.sqrt(track.young / (2. * (1. + track.poisson)) / track.density)
+        for place, share in ((0., 1.), (1., 0.25), (6., 1.), (5.5, 0.5625)):
+            self.assertAlmostEqual(track.damping_rate(place) / (6. * shear_speed / 2. * share), 1., delta=1e-12)
+
+    def test_a_compliance_in_series_with_the_spring(self):
+        """On a stiff rail: force over the height of a long wave that moves the wheel up and down slowly; and at rest."""
+        stiff = flat_force.Track(pad_stiffness=1e13, ballast_stiffness=1e13, second_moment=1., shear_factor=100., spans=4)
+        _, force, _ = flat_force.roll(stiff, lambda x: 1e-6 * math.sin(2. * math.pi * x / 0.05), 25., 0.05, 1e5, 1e9, 1e11, 0., 5e-6, compliance=1e-9)
+        _, without, _ = flat_force.roll(stiff, lambda x: 1e-6 * math.sin(2. * math.pi * x / 0.05), 25., 0.05, 1e5, 1e9, 1e11, 0., 5e-6)
+        soft = 2. / 3. * (1e5 / 1e11)**(2. / 3.) / 1e5
+        self.assertAlmostEqual(np.ptp(without) / np.ptp(force), (soft + 1e-9) / soft, delta=0.01 * (soft + 1e-9) / soft)
+
+
+class Corrugation(unittest.TestCase):
+    """Waves, what wear does to them, and the linear model, against what was put in and closed forms."""
+
+    def waves(self, *lengths_mm, period=0.6, amplitude=1e-6):
+        orders = np.round(period / (1e-3 * np.array(lengths_mm))).astype(int)
+        return corrugation.Waves(period, orders, amplitude * np.exp(1j * np.arange(1., len(orders) + 1.)))
+
+    def test_waves_that_are_drawn_divide_the_period(self):
+        waves = corrugation.Waves.draw(0.6, 0.02, 0.12, 0.4e-6, 3)
+        self.assertEqual(list(waves.orders), list(range(5, 31)))
+        np.testing.assert_allclose(np.abs(waves.amplitudes), 0.4e-6)
+        np.testing.assert_allclose(waves.wavelengths[[0, -1]], [0.12, 0.02])
+        self.assertGreater(np.ptp(np.angle(waves.amplitudes)), 3.)
+        with self.assertRaises(corrugation.DataError):
+            corrugation.Waves.draw(0.6, 0.5, 0.55, 1e-6)
+
+    def test_waves_are_found_again(self):
+        waves = self.waves(100., 24.)
+        places = np.arange(-0.1, 0.9, 2.4e-3)
+        values = 5. + 3e-6 * np.cos(2. * np.pi / 0.1 * places + 0.7) - 2e-6 * np.sin(2. * np.pi / 0.024 * places)
+        way = corrugation.Way(waves, -0.2, 1.)
+        np.testing.assert_allclose(way.found_in(places, values), [3e-6 * np.exp(0.7j), 2e-6j], rtol=1e-4)
+        np.testing.assert_allclose(waves.heights(np.array([0.03])), 1e-6 * (math.cos(2. * math.pi * 0.3 + 1.) + math.cos(2. * math.pi * 1.25 + 2.)))
+        with self.assertRaises(corrugation.DataError):
+            way.found_in(places[::20], values[::20])
+        with self.assertRaises(corrugation.DataError):
+            way.found_in(places[:200], values[:200])
+
+    def test_ramps(self):
+        way = corrugation.Way(self.waves(100.), -0.2, 1.)
+        np.testing.assert_allclose(way.share(np.array([-0.3, -0.2, -0.17, -0.14, 0.5, 0.94, 0.97, 1.2])), [0., 0., 0.5, 1., 1., 1., 0.5, 0.], atol=1e-12)
+
+    def test_gain_of_two_runs(self):
+        """Wear that is twice as deep in troughs as it swings on average, a quarter of a wave further on for the second wave."""
+        waves = self.waves(100., 40.)
+        way = corrugation.Way(waves, -0.2, 1.)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, share in (("rough", 1.), ("smooth", 0.)):
+                x = np.repeat(np.arange(-0.1, 0.8, 2.5e-3), 3)
+                y = np.tile([-2.5, 0., 2.5], len(x) // 3)
+                swing = np.real(waves.amplitudes[0] * -1e4 * np.exp(2j * np.pi * x / 0.1) + waves.amplitudes[1] * 2e4j * np.exp(2j * np.pi * x / 0.04))
+                work = 300. * (1. + share * swing) * np.where(y == 0., 1., 0.5)
+                write_table(os.path.join(folder, name, "rail_surface_damage.csv"), {
+                    "x_mm": 1e3 * x, "y_mm": y, "friction_work_J_per_m2": work})
+                at = np.arange(-0.1, 0.8, 1e-3)
+                force = 1e5 + share * np.real(waves.amplitudes @ (1e9 * np.array([[2.], [3j]]) * np.exp(2j * np.pi * np.outer([10., 25.], at - 0.5e-3))))
+                write_table(os.path.join(folder, name, "history.csv"), {"time_s": at / 25., "position_m": at, "normal_force_N": force})
+            rough, smooth = Run(os.path.join(folder, "rough")), Run(os.path.join(folder, "smooth"))
+            places, work = corrugation.work_along(smooth, 2.5e-3)
+            np.testing.assert_allclose([len(places), work[7], corrugation.work_along(smooth, 1e-3)[1][7]], [360, 225., 270.])
+            found = corrugation.gain_of_runs(way, rough, smooth, 2.5e-3)
+        np.testing.assert_allclose(found.gain, [1e4, -2e4j], rtol=1e-3)
+        np.testing.assert_allclose(found.force, [2e9, 3e9j], rtol=1e-3)
+
+    def test_means_across(self):
+        """A triangle over 4 mm, in the middle half of it, beyond it, and of two columns at once."""
+        y, values = np.array([-2e-3, 0., 2e-3]), np.array([[0., 1.], [1., 1.], [0., 1.]])
+        np.testing.assert_allclose(corrugation.mean_across(y, values, 1e-3), [0.75, 1.])
+        np.testing.assert_allclose(corrugation.mean_across(y, values, 2e-3), [0.5, 1.])
+        np.testing.assert_allclose(corrugation.mean_across(y, values, 4e-3), [0.25, 0.5], atol=0.03)
+
+    def test_settings_and_the_file_of_waves(self):
+        way = corrugation.Way(self.waves(100.), -0.2, 1.)
+        with tempfile.TemporaryDirectory() as folder:
+            settings = way.settings(os.path.join(folder, "waves.txt"))
+            x, z = np.loadtxt(settings["Defect/Profile file"]).T
+        self.assertEqual((settings["Defect/Position (mm)"], settings["Defect/Ramp (mm)"], settings["Defect/Lateral law"]), (-200., 60., "uniform"))
+        np.testing.assert_allclose(z, 1e-3 * np.cos(2. * np.pi * (x - 200.) / 100. + 1.), atol=2e-9)
+
+    CONTACT = corrugation.Contact(1.087, 1.667, 1e5, 0.3, -0.02, element=1e-3, half_width=12e-3)
+
+    def test_full_slip_over_long_waves(self):
+        """All slides: work is friction times load times creepage, on crests for longer: the patch moves more slowly than the wheel by the ratio of curvatures."""
+        waves = self.waves(200., period=0.2)
+        parts = corrugation.responses(self.CONTACT, waves)
+        bent = (2. * math.pi / 0.2)**2
+        load, creepage = parts["load"], parts["creepage"]
+        # A long wave: 2 a is a sixteenth of it.
+        self.assertAlmostEqual(load.work[0] * 1e5, 1., delta=0.06)
+        self.assertAlmostEqual(creepage.work[0] * -0.02, 1., delta=0.06)
+        self.assertAlmostEqual(load.longitudinal_force[0], 0.3, delta=3e-3)
+        self.assertAlmostEqual(parts["heights"].work[0].real / (bent / (2. * 1.087)), 1., delta=0.1)
+        self.assertAlmostEqual(-parts["heights"].approach[0].real, 1., delta=0.02)
+        spring = 1.5 * self.CONTACT.stiffness**(2. / 3.) * 1e5**(1. / 3.)
+        self.assertAlmostEqual(load.approach[0].real * spring, 1., delta=0.03)
+
+    def test_gain_on_a_rail_that_does_not_move(self):
+        """A heavy wheel stays where it is: the load swings with the height that the patch rides on."""
+        waves = self.waves(50., period=0.1)
+        stiff = flat_force.Track(pad_stiffness=1e13, ballast_stiffness=1e13, second_moment=1., shear_factor=100., area=1., spans=4)
+        model = corrugation.Model(self.CONTACT, stiff, 25., 1e7, -0.1, 0.)
+        way = corrugation.Way(waves, -0.08, 0.18)
+        parts = corrugation.responses(self.CONTACT, waves)
+        spring = 1.5 * self.CONTACT.stiffness**(2. / 3.) * 1e5**(1. / 3.)
+        found = corrugation.gain_of_model(model, way)
+        self.assertAlmostEqual(found.force[0] / (-parts["heights"].approach[0] * spring), 1., delta=0.02)
+        expected = -(parts["heights"].work[0] + parts["load"].work[0] * found.force[0])
+        self.assertAlmostEqual(found.gain[0] / expected, 1., delta=0.01)
+        np.testing.assert_allclose(corrugation.gain_at_rest(model, waves), -parts["heights"].work)
+
+    def test_a_track_is_fitted(self):
+        hidden = flat_force.Track(spans=5, elements=4, half_ends=True, absorbing=0.9, pad_stiffness=110e6, pad_damping=16e3, shear_factor=0.37)
+        frequencies = np.arange(200., 1200., 100.)
+        track, compliance, left = corrugation.fitted(flat_force.Track(spans=5, elements=4, half_ends=True, absorbing=0.9, pad_stiffness=120e6, pad_damping=20e3), [0., 0.3], frequencies,
+                                                     flat_force.receptance(hidden, [0., 0.3], frequencies) + 0.2e-9)
+        np.testing.assert_allclose([track.pad_stiffness, track.pad_damping, track.shear_factor, compliance], [110e6, 16e3, 0.37, 0.2e-9], rtol=1e-3)
+        self.assertLess(left, 1e-4)
+
+
+class HalfSpaceRoll(unittest.TestCase):
+    """Rolling over a way, beside the library's steady rolling, and what it refuses."""
+
+    EDGE = 0.8e-3
+    X, Y = EDGE * np.arange(-14, 15), EDGE * np.arange(-12, 13)
+    CASE = {"gap": 1.087 * X**2 + 1.667 * Y[:, None]**2, "x_first": X[0], "y_first": Y[0], "element_x": EDGE, "element_y": EDGE, "friction": 0.3}
+
+    def test_a_level_way_is_steady_rolling(self):
+        for creepage in (-1e-3, -0.03):
+            steady = half_space.solve_patch(normal_force=1e5, creepage=creepage, **self.CASE)
+            rolled = half_space.roll(heights=np.zeros(30), normal_force=1e5, creepage=creepage, **self.CASE)
+            np.testing.assert_allclose(rolled["approach"], steady["approach"], rtol=1e-6)
+            np.testing.assert_allclose(rolled["longitudinal_force"], steady["longitudinal_force"], rtol=1e-3)
+            self.assertEqual(rolled["work"].shape, (25, 30))
+            self.assertAlmostEqual(self.EDGE * rolled["work"][:, 15].sum() / steady["frictional_work"], 1., delta=0.08)
+
+    def test_load_and_creepage_may_change(self):
+        load, creepage = np.linspace(0.9e5, 1.1e5, 20), np.full(20, -0.03)
+        rolled = half_space.roll(normal_force=load, creepage=creepage, **self.CASE)
+        np.testing.assert_allclose(rolled["longitudinal_force"], 0.3 * load, rtol=2e-3)
+        raised = half_space.roll(heights=np.full(20, 5e-6), normal_force=load, creepage=-0.03, **self.CASE)
+        np.testing.assert_allclose(raised["approach"], rolled["approach"] - 5e-6, rtol=1e-6)
+
+    def test_what_is_refused(self):
+        for words, error, settings in (("one length", TypeError, {"heights": np.zeros(3), "normal_force": np.ones(4)}),
+                                       ("one length", TypeError, {"normal_force": 1e5}), ("heights", TypeError, {"heights": 0., "normal_force": np.ones(4)}),
+                                       ("normal_force", half_space.HalfSpaceError, {"heights": np.zeros(3), "normal_force": -1.}),
+                                       ("x_first", half_space.HalfSpaceError, {"heights": np.zeros(3), "normal_force": 1e5, "x_first": 0.1e-3}),
+                                       ("masked", TypeError, {"heights": np.ma.masked_less(np.arange(3.), 1.), "normal_force": 1e5})):
+            with self.assertRaisesRegex(error, words):
+                half_space.roll(**{**self.CASE, "creepage": -1e-3, **settings})
 
 
 class CrossingForce(unittest.TestCase):

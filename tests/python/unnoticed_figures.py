@@ -245,7 +245,7 @@ def unnoticed(watch: Watch, tests: dict[str, unittest.TestCase]) -> tuple[dict[s
 CONTACT = "of whole cases: compared by tests/scenes/contact_inp.py beside CONTACT's own answers"
 KNOWN: list[tuple[str, str]] = [
     (r"contact_(cases|inp|mat|rolled|track|examples)\..*", CONTACT),
-    (r"half_space\.solve(_patch)?", "the library's answers: compared by tests/scenes/unchecked.py and batch.py"),
+    (r"half_space\.solve(_patch)?.*", "the library's answers: compared by tests/scenes/unchecked.py and batch.py"),
     (r"creep_table\..*", "rows of contrib/contact-data/creep_table.csv and random input: compared with the library's answers by tests/scenes/batch.py"),
     (r"manchester\..*", "rolled and solved by tests/scenes/wheelset.py and wheelset_rolling.py"),
     (r"(flats|positions)\..*", "answers of the program for whole tables: compared by tests/scenes/positions.py beside CONTACT's"),
@@ -255,6 +255,9 @@ KNOWN: list[tuple[str, str]] = [
     (r"differences\.figures_of\[.*\]", "names of what a test puts in: figures_test.py compares all of an answer"),
     (r"schema\.(check_scenes|make_schema|parameter_schema)", "made with the program's help: schema_test.py compares the whole with the file"),
     (r"(studies\.main|runs\.processes_below|files\.read_toml)", "an exit code, numbers of processes, a file as it is"),
+    (r"half_space\.roll.*", "the library's answers: compared by tests/reference/uneven_way.cc, and with its other answers in figures_test.py"),
+    (r"corrugation\.fitted\[\].*", "what the track that is fitted has unchanged; the rest is compared"),
+    (r"corrugation_runs\..*", "runs of scenes: compared by tests/scenes/corrugation.py"),
     (r"crossing_force\.AtRest\.height", "what a force at rest must have: those that have it are compared"),
 ]
 

@@ -8,7 +8,7 @@ Implicit steps of Newmark's constant mean acceleration; the force follows from t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,12 +25,27 @@ class Track:
     density: float = 7800.
     spacing: float = 0.6
     spans: int = 30
-    elements: int = 12  # of a span
+    elements: int = 12  # of a span, even
+    head: float = 91e-3  # of the rail over its neutral axis
+    half_ends: bool = False  # the rail ends in the middle of a span, in planes of symmetry as those of the program; otherwise free, a span behind a support
+    absorbing: float = 0.  # length of the damped part at each end, as 'Rail/Absorbing length (m)'
     pad_stiffness: float = 1300e6
     pad_damping: float = 45e3
     sleeper_mass: float = 200.
     ballast_stiffness: float = 45e6
     ballast_damping: float = 32e3
+
+    @property
+    def middle_support(self) -> float:
+        """Its place from the rail's begin."""
+        return self.spacing * (self.spans // 2 + (0.5 if self.half_ends else 0.))
+
+    def damping_rate(self, place: float) -> float:
+        """Damping force over mass and velocity, 1/s, of the absorbing ends (include/tread/track/rail_ends.h)."""
+        depth = self.absorbing - min(place, self.spans * self.spacing - place)
+        if depth <= 0.:
+            return 0.
+        return 6. * np.sqrt(self.young / (2. * (1. + self.poisson)) / self.density) / self.absorbing * (depth / self.absorbing)**2
 
 
 class Beam:
@@ -41,22 +56,27 @@ class Beam:
         self.n = track.spans * track.elements + 1
         bending = track.young * track.second_moment
         shear = track.shear_factor * track.area * track.young / (2. * (1. + track.poisson))
-        phi = 12. * bending / (shear * size**2)
+        self.phi = phi = 12. * bending / (shear * size**2)
         k = bending / ((1. + phi) * size**3) * np.array([
             [12., 6. * size, -12., 6. * size], [6. * size, (4. + phi) * size**2, -6. * size, (2. - phi) * size**2],
             [-12., -6. * size, 12., -6. * size], [6. * size, (2. - phi) * size**2, -6. * size, (4. + phi) * size**2]])
         m = track.density * track.area * size / 420. * np.array([
             [156., 22. * size, 54., -13. * size], [22. * size, 4. * size**2, 13. * size, -3. * size**2],
             [54., 13. * size, 156., -22. * size], [-13. * size, -3. * size**2, -22. * size, 4. * size**2]])
-        n_supports = track.spans - 1
+        n_supports = track.spans if track.half_ends else track.spans - 1
+        self.first_support = track.elements // 2 if track.half_ends else track.elements
         total = 2 * self.n + n_supports
         self.stiffness, self.mass, self.damping = (np.zeros((total, total)) for _ in range(3))
         for e in range(self.n - 1):
             own = slice(2 * e, 2 * e + 4)
             self.stiffness[own, own] += k
             self.mass[own, own] += m
+            self.damping[own, own] += m * track.damping_rate((e + 0.5) * size)
+        if track.half_ends:
+            for end in (1, 2 * self.n - 1):
+                self.stiffness[end, end] += 1e3 * self.stiffness[3, 3]
         for s in range(n_supports):
-            rail, sleeper = 2 * (s + 1) * track.elements, 2 * self.n + s
+            rail, sleeper = 2 * (self.first_support + s * track.elements), 2 * self.n + s
             self.mass[sleeper, sleeper] += track.sleeper_mass
             for matrix, pad, ballast in ((self.stiffness, track.pad_stiffness, track.ballast_stiffness),
                                          (self.damping, track.pad_damping, track.ballast_damping)):
@@ -65,38 +85,108 @@ class Beam:
 
     def shape(self, x: float) -> tuple[slice, np.ndarray]:
         """The four entries that a force at x from the rail's begin acts on, and its shares."""
+        e, u = self.element(x)
+        h, phi = self.size, self.phi
+        return slice(2 * e, 2 * e + 4), np.array([
+            1. - 3. * u**2 + 2. * u**3 + phi * (1. - u), h * (u - 2. * u**2 + u**3 + 0.5 * phi * (u - u**2)),
+            3. * u**2 - 2. * u**3 + phi * u, h * (u**3 - u**2 - 0.5 * phi * (u - u**2))]) / (1. + phi)
+
+    def turning(self, x: float) -> np.ndarray:
+        """Shares of the same entries in how far the section at x is turned, rad, rising along the rail."""
+        _, u = self.element(x)
+        h, phi = self.size, self.phi
+        return np.array([6. * (u**2 - u) / h, 1. - 4. * u + 3. * u**2 + phi * (1. - u), 6. * (u - u**2) / h, 3. * u**2 - 2. * u + phi * u]) / (1. + phi)
+
+    def element(self, x: float) -> tuple[int, float]:
+        """(number of the element at x, place in it from 0 to 1)"""
         e = min(int(x / self.size), self.n - 2)
-        u, h = x / self.size - e, self.size
-        return slice(2 * e, 2 * e + 4), np.array([1. - 3. * u**2 + 2. * u**3, h * (u - 2. * u**2 + u**3), 3. * u**2 - 2. * u**3, h * (u**3 - u**2)])
+        return e, x / self.size - e
+
+
+def receptance(track: Track, places: np.ndarray | Sequence[float], frequencies: np.ndarray | Sequence[float], turns: bool = False) -> np.ndarray:
+    """(places, frequencies) complex, m/N: of the rail under a force at places from the middle support. @param turns of its head along the rail, by the
+    turning of the section alone, under a force there along the rail"""
+    beam = Beam(track)
+    forces = np.zeros((len(beam.mass), len(places)))
+    for column, place in enumerate(places):
+        own, shape = beam.shape(track.middle_support + place)
+        forces[own, column] = track.head * beam.turning(track.middle_support + place) if turns else shape
+    turning = 2. * np.pi * np.asarray(frequencies)
+    moved = [np.linalg.solve(beam.stiffness + 1j * w * beam.damping - w**2 * beam.mass, forces) for w in turning]
+    return np.array([(forces * of_frequency).sum(axis=0) for of_frequency in moved]).T
+
+
+class Bar:
+    """Matrices of the rail along itself, which pads do not hold; in planes of symmetry it does not move."""
+
+    def __init__(self, track: Track):
+        self.size = size = track.spacing / track.elements
+        self.n = track.spans * track.elements + 1
+        self.stiffness, self.mass, self.damping = (np.zeros((self.n, self.n)) for _ in range(3))
+        for e in range(self.n - 1):
+            own = slice(e, e + 2)
+            of_element = track.density * track.area * size / 6. * np.array([[2., 1.], [1., 2.]])
+            self.stiffness[own, own] += track.young * track.area / size * np.array([[1., -1.], [-1., 1.]])
+            self.mass[own, own] += of_element
+            self.damping[own, own] += of_element * track.damping_rate((e + 0.5) * size)
+        if track.half_ends:
+            for end in (0, self.n - 1):
+                self.stiffness[end, end] += 1e3 * self.stiffness[1, 1]
+
+    def shape(self, x: float) -> tuple[slice, np.ndarray]:
+        """The two entries that a force at x from the rail's begin acts on, and its shares."""
+        e = min(int(x / self.size), self.n - 2)
+        u = x / self.size - e
+        return slice(e, e + 2), np.array([1. - u, u])
+
+
+def bar_mobility(track: Track, places: np.ndarray | Sequence[float], frequencies: np.ndarray | Sequence[float]) -> np.ndarray:
+    """(places, frequencies) complex, m/s/N: along the rail under a force along it at places from the middle support."""
+    bar = Bar(track)
+    forces = np.zeros((bar.n, len(places)))
+    for column, place in enumerate(places):
+        own, shape = bar.shape(track.middle_support + place)
+        forces[own, column] = shape
+    return np.array([(1j * w * forces * np.linalg.solve(bar.stiffness + 1j * w * bar.damping - w**2 * bar.mass, forces)).sum(axis=0)
+                     for w in 2. * np.pi * np.asarray(frequencies)]).T
 
 
 def roll(track: Track, height: Callable[[float], float], speed: float, way: float, load: float, mass: float, stiffness: float,
-         start: float = 0., step: float = 10e-6) -> tuple[np.ndarray, np.ndarray]:
-    """(places from the start, contact force). @param height of the axle over that of the round wheel, over the place; @param stiffness of the Hertz spring,
-    N/m^1.5; @param start of the wheel from a support in the middle of the rail; @param way to roll"""
+         start: float = 0., step: float = 10e-6, compliance: float = 0., traction: float = 0.) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(places from the start, contact force, speed of the rail's head along the rail under the wheel). @param height of the axle over that of the round wheel, over the place; @param stiffness of the Hertz spring,
+    N/m^1.5; @param start of the wheel from a support in the middle of the rail; @param way to roll; @param compliance in series with the spring, m/N; @param traction force along the rail over the contact force, driving; it
+    acts on the head, whose section it turns, and moves the rail along itself"""
     beam = Beam(track)
-    begin = track.spacing * (track.spans // 2) + start
+    begin = track.middle_support + start
     effective = beam.stiffness + 2. / step * beam.damping + 4. / step**2 * beam.mass
     inverse = np.linalg.inv(effective)
+    def under(x: float) -> tuple[slice, np.ndarray, np.ndarray]:
+        """Entries of the beam under the wheel, their shares in the height there, and what the contact force does to them."""
+        own, shape = beam.shape(x)
+        return own, shape, shape - traction * track.head * beam.turning(x)
+
+    # Along the rail the mean force is left out, as if it had come slowly.
+    bar = Bar(track)
+    bar_inverse = np.linalg.inv(bar.stiffness + 2. / step * bar.damping + 4. / step**2 * bar.mass)
+    u, u_speed, u_acceleration = (np.zeros(bar.n) for _ in range(3))
     # At rest under the load.
-    own, shape = beam.shape(begin)
+    own, shape, acting = under(begin)
     force = np.zeros(len(effective))
-    force[own] = -load * shape
+    force[own] = -load * acting
     w = np.linalg.solve(beam.stiffness, force)
     v, a = np.zeros_like(w), np.zeros_like(w)
     # z of the wheel up; the spring is pressed by what the rail and the flat are above the wheel.
-    z, z_speed, z_acceleration = shape @ w[own] + height(0.) - (load / stiffness)**(2 / 3), 0., 0.
+    z, z_speed, z_acceleration = shape @ w[own] + height(0.) - (load / stiffness)**(2 / 3) - compliance * load, 0., 0.
     compliance_of_wheel = step**2 / (4. * mass)
     n = int(way / (speed * step))
-    places, forces = np.empty(n), np.empty(n)
+    places, forces, along = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         place = speed * step * (i + 1)
-        own, shape = beam.shape(begin + place)
+        own, shape, acting = under(begin + place)
         w_free = inverse @ (beam.damping @ (2. / step * w + v) + beam.mass @ (4. / step**2 * w + 4. / step * v + a))
-        compliance = shape @ inverse[own, own] @ shape
         z_free = z + step * z_speed + 0.25 * step**2 * z_acceleration - compliance_of_wheel * load
         # Pressed by d - c F, where d is what it would be without the force.
-        free, total = shape @ w_free[own] + height(place) - z_free, compliance + compliance_of_wheel
+        free, total = shape @ w_free[own] + height(place) - z_free, shape @ inverse[own, own] @ acting + compliance_of_wheel + compliance
         if free <= 0.:
             contact = 0.
         else:
@@ -108,7 +198,7 @@ def roll(track: Track, height: Callable[[float], float], speed: float, way: floa
                     break
             contact = stiffness * pressed**1.5
         w_next = w_free.copy()
-        w_next -= contact * (inverse[:, own] @ shape)
+        w_next -= contact * (inverse[:, own] @ acting)
         a_next = 4. / step**2 * (w_next - w) - 4. / step * v - a
         v = v + 0.5 * step * (a + a_next)
         w, a = w_next, a_next
@@ -116,5 +206,12 @@ def roll(track: Track, height: Callable[[float], float], speed: float, way: floa
         z += step * z_speed + 0.25 * step**2 * (z_acceleration + acceleration)
         z_speed += 0.5 * step * (z_acceleration + acceleration)
         z_acceleration = acceleration
-        places[i], forces[i] = place, contact
-    return places, forces
+        own_bar, shares = bar.shape(begin + place)
+        pull = bar.damping @ (2. / step * u + u_speed) + bar.mass @ (4. / step**2 * u + 4. / step * u_speed + u_acceleration)
+        pull[own_bar] -= traction * (contact - load) * shares
+        u_next = bar_inverse @ pull
+        u_acceleration_next = 4. / step**2 * (u_next - u) - 4. / step * u_speed - u_acceleration
+        u_speed = u_speed + 0.5 * step * (u_acceleration + u_acceleration_next)
+        u, u_acceleration = u_next, u_acceleration_next
+        places[i], forces[i], along[i] = place, contact, shares @ u_speed[own_bar] - track.head * (beam.turning(begin + place) @ v[own])
+    return places, forces, along
