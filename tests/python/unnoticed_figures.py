@@ -48,6 +48,8 @@ LEFT_OUT = (
     "package_test.Crossings.test_what_is_missing_is_said",
     "package_test.Wavelets.test_the_axle_box_of_a_run",
     "package_test.Wavelets.test_power_of_a_sine_and_of_white_noise",
+    "figures_test.Corrugation.test_full_slip_over_long_waves",
+    "figures_test.Corrugation.test_gain_on_a_rail_that_does_not_move",
     "pictures_test.Pictures.test_one_call_draws_what_is_there",
 )
 MUCH = 1.  # s of a processor: tests that take more are told, for LEFT_OUT
@@ -256,6 +258,7 @@ KNOWN: list[tuple[str, str]] = [
     (r"schema\.(check_scenes|make_schema|parameter_schema)", "made with the program's help: schema_test.py compares the whole with the file"),
     (r"(studies\.main|runs\.processes_below|files\.read_toml)", "an exit code, numbers of processes, a file as it is"),
     (r"half_space\.roll.*", "the library's answers: compared by tests/reference/uneven_way.cc, and with its other answers in figures_test.py"),
+    (r"corrugation\.(Contact|Model|gain_at_rest|gain_of_model|responses).*", "compared in figures_test.py in tests that take too long to be watched"),
     (r"corrugation\.fitted\[\].*", "what the track that is fitted has unchanged; the rest is compared"),
     (r"corrugation_runs\..*", "runs of scenes: compared by tests/scenes/corrugation.py"),
     (r"crossing_force\.AtRest\.height", "what a force at rest must have: those that have it are compared"),

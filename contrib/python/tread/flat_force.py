@@ -151,42 +151,58 @@ def bar_mobility(track: Track, places: np.ndarray | Sequence[float], frequencies
                      for w in 2. * np.pi * np.asarray(frequencies)]).T
 
 
+class Implicit:
+    """A linear system in steps of constant mean acceleration (Newmark 1959), from rest at places `w`."""
+
+    def __init__(self, system: Beam | Bar, w: np.ndarray, step: float):
+        self.system, self.step, self.w = system, step, w
+        self.v, self.a = np.zeros_like(w), np.zeros_like(w)
+        self.compliance = np.linalg.inv(system.stiffness + 2. / step * system.damping + 4. / step**2 * system.mass)
+
+    def free(self) -> np.ndarray:
+        """Where it is after the next step without forces; with them `compliance` times the forces further on."""
+        step = self.step
+        return self.compliance @ (self.system.damping @ (2. / step * self.w + self.v) + self.system.mass @ (4. / step**2 * self.w + 4. / step * self.v + self.a))
+
+    def move(self, w: np.ndarray) -> None:
+        """To where the next step ends."""
+        a = 4. / self.step**2 * (w - self.w) - 4. / self.step * self.v - self.a
+        self.v = self.v + 0.5 * self.step * (self.a + a)
+        self.w, self.a = w, a
+
+
 def roll(track: Track, height: Callable[[float], float], speed: float, way: float, load: float, mass: float, stiffness: float,
          start: float = 0., step: float = 10e-6, compliance: float = 0., traction: float = 0.) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(places from the start, contact force, speed of the rail's head along the rail under the wheel). @param height of the axle over that of the round wheel, over the place; @param stiffness of the Hertz spring,
-    N/m^1.5; @param start of the wheel from a support in the middle of the rail; @param way to roll; @param compliance in series with the spring, m/N; @param traction force along the rail over the contact force, driving; it
-    acts on the head, whose section it turns, and moves the rail along itself"""
-    beam = Beam(track)
+    """(places from the start, contact force, speed of the rail's head along the rail under the wheel). @param height of the axle over that of the round wheel,
+    over the place; @param stiffness of the Hertz spring, N/m^1.5; @param start of the wheel from the middle support; @param way to roll; @param compliance in
+    series with the spring, m/N; @param traction force along the rail over the contact force, driving; it acts on the head, whose section it turns, and moves
+    the rail along itself: its mean is left out there, as if it had come slowly"""
+    beam, bar = Beam(track), Bar(track)
     begin = track.middle_support + start
-    effective = beam.stiffness + 2. / step * beam.damping + 4. / step**2 * beam.mass
-    inverse = np.linalg.inv(effective)
+
     def under(x: float) -> tuple[slice, np.ndarray, np.ndarray]:
         """Entries of the beam under the wheel, their shares in the height there, and what the contact force does to them."""
         own, shape = beam.shape(x)
         return own, shape, shape - traction * track.head * beam.turning(x)
 
-    # Along the rail the mean force is left out, as if it had come slowly.
-    bar = Bar(track)
-    bar_inverse = np.linalg.inv(bar.stiffness + 2. / step * bar.damping + 4. / step**2 * bar.mass)
-    u, u_speed, u_acceleration = (np.zeros(bar.n) for _ in range(3))
     # At rest under the load.
     own, shape, acting = under(begin)
-    force = np.zeros(len(effective))
+    force = np.zeros(len(beam.mass))
     force[own] = -load * acting
-    w = np.linalg.solve(beam.stiffness, force)
-    v, a = np.zeros_like(w), np.zeros_like(w)
+    bending = Implicit(beam, np.linalg.solve(beam.stiffness, force), step)
+    stretching = Implicit(bar, np.zeros(bar.n), step)
     # z of the wheel up; the spring is pressed by what the rail and the flat are above the wheel.
-    z, z_speed, z_acceleration = shape @ w[own] + height(0.) - (load / stiffness)**(2 / 3) - compliance * load, 0., 0.
+    z, z_speed, z_acceleration = shape @ bending.w[own] + height(0.) - (load / stiffness)**(2 / 3) - compliance * load, 0., 0.
     compliance_of_wheel = step**2 / (4. * mass)
     n = int(way / (speed * step))
     places, forces, along = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         place = speed * step * (i + 1)
         own, shape, acting = under(begin + place)
-        w_free = inverse @ (beam.damping @ (2. / step * w + v) + beam.mass @ (4. / step**2 * w + 4. / step * v + a))
+        w_free, softness = bending.free(), bending.compliance[:, own] @ acting
         z_free = z + step * z_speed + 0.25 * step**2 * z_acceleration - compliance_of_wheel * load
         # Pressed by d - c F, where d is what it would be without the force.
-        free, total = shape @ w_free[own] + height(place) - z_free, shape @ inverse[own, own] @ acting + compliance_of_wheel + compliance
+        free, total = shape @ w_free[own] + height(place) - z_free, shape @ softness[own] + compliance_of_wheel + compliance
         if free <= 0.:
             contact = 0.
         else:
@@ -197,21 +213,13 @@ def roll(track: Track, height: Callable[[float], float], speed: float, way: floa
                 if abs(value) < 1e-15:
                     break
             contact = stiffness * pressed**1.5
-        w_next = w_free.copy()
-        w_next -= contact * (inverse[:, own] @ acting)
-        a_next = 4. / step**2 * (w_next - w) - 4. / step * v - a
-        v = v + 0.5 * step * (a + a_next)
-        w, a = w_next, a_next
+        bending.move(w_free - contact * softness)
         acceleration = (contact - load) / mass
         z += step * z_speed + 0.25 * step**2 * (z_acceleration + acceleration)
         z_speed += 0.5 * step * (z_acceleration + acceleration)
         z_acceleration = acceleration
         own_bar, shares = bar.shape(begin + place)
-        pull = bar.damping @ (2. / step * u + u_speed) + bar.mass @ (4. / step**2 * u + 4. / step * u_speed + u_acceleration)
-        pull[own_bar] -= traction * (contact - load) * shares
-        u_next = bar_inverse @ pull
-        u_acceleration_next = 4. / step**2 * (u_next - u) - 4. / step * u_speed - u_acceleration
-        u_speed = u_speed + 0.5 * step * (u_acceleration + u_acceleration_next)
-        u, u_acceleration = u_next, u_acceleration_next
-        places[i], forces[i], along[i] = place, contact, shares @ u_speed[own_bar] - track.head * (beam.turning(begin + place) @ v[own])
+        stretching.move(stretching.free() - traction * (contact - load) * (stretching.compliance[:, own_bar] @ shares))
+        places[i], forces[i] = place, contact
+        along[i] = shares @ stretching.v[own_bar] - track.head * (beam.turning(begin + place) @ bending.v[own])
     return places, forces, along
