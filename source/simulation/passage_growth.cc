@@ -97,6 +97,15 @@ namespace tread
   }
 
 
+  void PassageGrowth::Residue::scale(const double factor)
+  {
+    for (Lanes &value : steel.values)
+      value *= factor;
+    for (Vector3 &place : places)
+      place = factor * place;
+  }
+
+
   PassageGrowth::PassageGrowth(const RatchetingSection                             &section,
                                const Mesh                                          &mesh,
                                const Solid                                         &solid,
@@ -165,10 +174,12 @@ namespace tread
   PassageGrowth::Residue PassageGrowth::slope() const
   {
     Residue slope = change - change_at_jump;
-    for (Lanes &value : slope.steel.values)
-      value *= 1. / (number - number_at_jump);
-    for (Vector3 &place : slope.places)
-      place = (1. / (number - number_at_jump)) * place;
+    slope.scale(1. / (number - number_at_jump));
+    if (jumps > 1) // else what one jump has too much of the next has too little
+      {
+        slope.add(1., expected);
+        slope.scale(0.5);
+      }
     return slope;
   }
 

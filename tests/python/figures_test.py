@@ -197,6 +197,7 @@ class Corrugation(unittest.TestCase):
     def test_ramps(self):
         way = corrugation.Way(self.waves(100.), -0.2, 1.)
         np.testing.assert_allclose(way.share(np.array([-0.3, -0.2, -0.17, -0.14, 0.5, 0.94, 0.97, 1.2])), [0., 0., 0.5, 1., 1., 1., 0.5, 0.], atol=1e-12)
+        np.testing.assert_allclose(way.heights(np.array([-0.17, 0.53])), 1e-6 * np.array([0.5 * math.cos(1. - 3.4 * math.pi), math.cos(1. + 10.6 * math.pi)]))
 
     def test_gain_of_two_runs(self):
         """Wear that is twice as deep in troughs as it swings on average, a quarter of a wave further on for the second wave."""

@@ -34,7 +34,7 @@ from tread_runner import Check
 
 BEGINNINGS = ("(", ".", "PYTHONPATH=", "apt", "awk ", "build/", "cd ", "clang-format", "cmake ", "conda ", "contrib/", "export ", "grep ", "head ", "mpirun ", "/usr/", "podman ",
               "prm/", "python3 ", "source ", "spack ", "tread ")
-PYTHON = ("import ", "from ", "answers = ", "patch = ", "run = ", "table = ", "with h5py")
+PYTHON = ("import ", "from ", "answers = ", "patch = ", "run = ", "table = ", "with h5py", "x, y = ")
 
 # Commands that are not run here: (words of them, reason).
 BUILDS = "builds the program: the test doc.quickstart does it as the README says"
@@ -53,6 +53,7 @@ LEFT_OUT = (
     (r"contrib/manual\.sh", "the test doc.manual"),
     (r"contrib/plot/verification-tables\.py --run", "fine meshes, whose figures are the point: an hour; the test scene.verification runs its coarse ones"),
     (r"contrib/plot/plot-plastic\.py", "draws stress 0.7 mm deep, which the coarse cells of this test do not have"),
+    (r"contrib/corrugation\.py", "runs of minutes; the test scene.corrugation makes short ones"),
     (r"build/benchmarks/track_receptance_study", "a program of benchmarks/, which are not built for tests"),
     (r"contrib/plot/plot-receptance\.py", "draws what the program of benchmarks/ wrote"),
 )
