@@ -23,7 +23,7 @@ from tread.runs import ROOT, must_end_well
 from tread.tables import fill, markdown, provenance
 
 SCENE, GROWTH = shipped("damage/corrugation.prm"), shipped("damage/corrugation-growth.prm")
-GROWTH_OPTIONS = ["--period", "240", "--shortest", "30", "--longest", "120", "--passages", "20", "--depth", "4"]
+GROWTH_OPTIONS = ["--period", "240", "--shortest", "30", "--longest", "120", "--passages", "20", "--depth", "4", "--ranks", "1"]
 WAVES = Waves.draw(0.6, 20e-3, 120e-3, 0.4e-6)  # as the command draws them
 DEPTH = 4e-6
 

@@ -45,13 +45,14 @@ def run_scene(scene: str, folder: str, settings: Mapping[str, object] | None = N
     the memory of its largest process.
     """
     line = command([*arguments_of(shipped(scene), settings or {}, folder), *more], ranks or available_ranks())
+    known_line = [part for before, part in zip(["", *line], line) if before != "orte_tmpdir_base"]  # a folder that each start has of its own
     cost_file = os.path.join(folder, "cost.json")
     cost = {}
     if is_complete(folder) and os.path.exists(cost_file):
         with open(cost_file, encoding="utf-8") as stream:
             cost = json.load(stream)
     known = input_of(shipped(scene), settings or {})
-    if cost.get("command") != line or cost.get("input") != known:
+    if cost.get("command") != known_line or cost.get("input") != known:
         print(" ".join(line), flush=True)
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as output:
@@ -63,7 +64,7 @@ def run_scene(scene: str, folder: str, settings: Mapping[str, object] | None = N
             with open(output.name, encoding="utf-8") as stream:
                 said = own_line(stream.read()) or "it did not say why"
             raise ProgramError(f"{scene} ended with {process.returncode} ({said}), see {output.name}", process.returncode)
-        cost = {"command": line, "input": known, "peak_bytes": 1024 * usage.ru_maxrss,
+        cost = {"command": known_line, "input": known, "peak_bytes": 1024 * usage.ru_maxrss,
                 "seconds": os.path.getmtime(os.path.join(folder, "summary.json")) - began}
         with open(cost_file, "w", encoding="utf-8") as stream:
             json.dump(cost, stream, indent=2)
