@@ -11,6 +11,7 @@ Runs that have complete results are not repeated.
 """
 
 import csv
+import math
 import os
 
 import numpy as np
@@ -120,8 +121,13 @@ def main():
     parser.add_argument("--ranks", type=int, default=available_ranks())
     arguments = parser.parse_args()
     for name in ("period", "shortest", "longest", "height", "half_width", "crown", "depth"):
-        if not getattr(arguments, name) > 0.:
-            raise DataError(f"--{name.replace('_', '-')} must be above 0")
+        if not 0. < getattr(arguments, name) < math.inf:
+            raise DataError(f"--{name.replace('_', '-')} must be a number above 0")
+    for name, least in (("passages", 0), ("seed", 0), ("ranks", 1)):
+        if getattr(arguments, name) < least:
+            raise DataError(f"--{name} must be {least} or more")
+    if not math.isfinite(arguments.begin):
+        raise DataError("--begin must be a number")
     waves = Waves.draw(1e-3 * arguments.period, 1e-3 * arguments.shortest, 1e-3 * arguments.longest, 1e-6 * arguments.height, arguments.seed)
     scene = Scene(arguments.scene, arguments.results, settings_in(arguments.settings), arguments.ranks, 1e-3 * arguments.half_width, 1e-3 * arguments.begin)
     write_gain(scene, waves, 1e-3 * arguments.crown)

@@ -101,10 +101,11 @@ extern "C"
     const double *creepage;     /* longitudinal, in each step [-]; 0: the case's */
   } tread_half_space_way;
 
-  /* Transient rolling over an uneven way, from steady rolling in the first step. The case must have a gap, with
-   * an element centre at x = 0, and friction. What is not 0 is filled: approach [m] and longitudinal_force on the
-   * wheel [N] with n values, work of friction per area of the rail [J/m^2] with n_y rows of n elements of the
-   * way; elements near both ends have not been passed by all of the patch. Returns the status. */
+  /* Transient rolling over an uneven way, from steady rolling in the first step. The case must have a gap,
+   * with an element centre at x = 0, and friction. What is not 0 is filled: approach [m] and
+   * longitudinal_force on the wheel [N] with n values, work of friction per area of the rail [J/m^2] with n_y
+   * rows of n elements of the way; elements near both ends have not been passed by all of the patch. The
+   * solver has no fields and no grid afterwards. Returns the status. */
   TREAD_HALF_SPACE_API int tread_half_space_roll(tread_half_space            *solver,
                                                  const tread_half_space_case *problem,
                                                  const tread_half_space_way  *way,

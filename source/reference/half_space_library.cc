@@ -43,13 +43,18 @@ namespace
     return problem.slip_order == 1 ? 1 : 2;
   }
 
+  void check_creepage(const char *name, const double value)
+  {
+    require(std::abs(value) <= 1e3, name, value, "a number up to 1000 in size");
+  }
+
   /// What no contact has, and what would overflow.
   void check_magnitudes(const tread_half_space_case &problem)
   {
+    check_creepage("creepage", problem.creepage);
+    check_creepage("lateral_creepage", problem.lateral_creepage);
     for (const auto &[name, value, largest] :
-         {std::tuple("creepage", problem.creepage, 1e3),
-          std::tuple("lateral_creepage", problem.lateral_creepage, 1e3),
-          std::tuple("spin", problem.spin, 1e6), std::tuple("friction", problem.friction, 1e6)})
+         {std::tuple("spin", problem.spin, 1e6), std::tuple("friction", problem.friction, 1e6)})
       require(std::abs(value) <= largest, name, value,
               "a number up to " + std::to_string(static_cast<int>(largest)) + " in size");
   }
@@ -277,8 +282,8 @@ namespace
     return {TREAD_HALF_SPACE_NOT_SOLVED, 0, nan, nan, nan, nan, nan, nan, nan, nan};
   }
 
-  /// Status of what is done; the solver's message says why it was not. Texts of exceptions are short: what has no
-  /// memory for them has none for a case either.
+  /// Status of what is done; the solver's message says why it was not. Texts of exceptions are short: what
+  /// has no memory for them has none for a case either.
   template <typename Task>
   int status_of(tread_half_space &solver, const Task &task) noexcept
   {
@@ -341,13 +346,34 @@ namespace
     const auto numbers = [&](const double *values, const double otherwise) {
       return values ? std::vector<double>(values, values + way.n) : std::vector<double>(way.n, otherwise);
     };
-    uneven.heights            = numbers(way.heights, 0.);
-    uneven.normal_force       = numbers(way.normal_force, problem.normal_force);
-    uneven.longitudinal       = numbers(way.creepage, problem.creepage);
+    uneven.heights      = numbers(way.heights, 0.);
+    uneven.normal_force = numbers(way.normal_force, problem.normal_force);
+    uneven.longitudinal = numbers(way.creepage, problem.creepage);
+    for (const double creepage : uneven.longitudinal)
+      check_creepage("creepage", creepage);
+    for (std::size_t k = 1; k < way.n; ++k)
+      if (const double rise = std::abs(uneven.heights[k] - uneven.heights[k - 1]);
+          !(rise <= steepest * problem.element_x))
+        throw std::invalid_argument("heights: they change by " + std::to_string(rise / problem.element_x) +
+                                    " of the way from one element to the next; half-spaces allow " +
+                                    std::to_string(steepest).substr(0, 3) +
+                                    ": see that they are in m, not in mm");
+    // The patch at the start tells whether the elements are small enough.
+    tread_half_space_case   at_start = problem;
+    tread_half_space        of_start;
+    tread_half_space_answer unused;
+    at_start.normal_force = uneven.normal_force.front();
+    at_start.creepage     = uneven.longitudinal.front();
+    solve_gap(of_start, at_start, unused);
+
     const UnevenResult result = roll_over(uneven);
-    for (const auto &[from, to] : {std::pair(&result.approach, approach),
-                                   std::pair(&result.longitudinal_force, longitudinal_force),
-                                   std::pair(&result.work, work)})
+    for (const std::vector<double> *values : {&result.approach, &result.longitudinal_force, &result.work})
+      for (const double value : *values)
+        if (!std::isfinite(value))
+          throw std::runtime_error("numbers overflow");
+    for (const auto &[from, to] :
+         {std::pair(&result.approach, approach), std::pair(&result.longitudinal_force, longitudinal_force),
+          std::pair(&result.work, work)})
       if (to)
         std::copy(from->begin(), from->end(), to);
   }

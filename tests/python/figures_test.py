@@ -304,6 +304,11 @@ class HalfSpaceRoll(unittest.TestCase):
                                        ("one length", TypeError, {"normal_force": 1e5}), ("heights", TypeError, {"heights": 0., "normal_force": np.ones(4)}),
                                        ("normal_force", half_space.HalfSpaceError, {"heights": np.zeros(3), "normal_force": -1.}),
                                        ("x_first", half_space.HalfSpaceError, {"heights": np.zeros(3), "normal_force": 1e5, "x_first": 0.1e-3}),
+                                       ("numbers", TypeError, {"heights": np.zeros(3), "normal_force": 1e5, "friction": np.array([0.3, 0.2])}),
+                                       ("curvature_x", TypeError, {"heights": np.zeros(3), "normal_force": 1e5, "curvature_x": 1.}),
+                                       ("mm", half_space.HalfSpaceError, {"heights": np.array([0., 1., 0.]), "normal_force": 1e5}),
+                                       ("creepage", half_space.HalfSpaceError, {"normal_force": 1e5, "creepage": np.full(3, 1e200)}),
+                                       ("elements along", half_space.HalfSpaceError, {"heights": np.zeros(3), "normal_force": 3.}),
                                        ("masked", TypeError, {"heights": np.ma.masked_less(np.arange(3.), 1.), "normal_force": 1e5})):
             with self.assertRaisesRegex(error, words):
                 half_space.roll(**{**self.CASE, "creepage": -1e-3, **settings})

@@ -82,6 +82,12 @@ with tempfile.TemporaryDirectory() as folder:
             ("waves that do not divide the period", "divides", ["--period", "80", "--shortest", "50", "--longest", "60"]),
             ("a height of nothing", "--height", ["--height", "0"]),
             ("a way that is too short", "must begin at", [*settings, "--period", "160", "--shortest", "40", "--longest", "80"]),
+            ("a period that is no number", "--period", ["--period", "inf"]),
+            ("passages before the first", "--passages", ["--passages", "-1"]),
+            ("no rank", "--ranks", ["--ranks", "0"]),
+            ("waves shorter than six cells", "need cells of at most", [*settings, "--period", "80", "--shortest", "10", "--longest", "80"]),
+            ("a defect of the scene's own", "defect of its own", [*settings, "-s", "Defect/Shape=corrugation", "-s", "Defect/Wavelength (mm)=40", "-s", "Defect/Depth (mm)=0.01",
+                                                                  "-s", "Defect/Length (mm)=80", "--period", "80", "--shortest", "40", "--longest", "80"]),
             ("a setting that is none", "SECTION/NAME=VALUE", ["-s", "Motion"]),
             ("a parameter that is none", "Motion/Sped", ["-s", "Motion/Sped=3"])):
         code, text = said(SCENE, os.path.join(folder, "refused"), *arguments)

@@ -37,6 +37,9 @@ def run_command(main: Callable[[], int | None]) -> None:
     """End with the exit code that main() returns, none being 0, or with what went wrong on one line."""
     try:
         sys.exit(main())
+    except KeyboardInterrupt:
+        print(f"{NAME}: interrupted", file=sys.stderr)
+        sys.exit(130)
     except Error as error:
         sys.exit(f"{NAME}: {error}")
     except OSError as error:

@@ -99,6 +99,9 @@ def work_along(run: Run, half_width: float) -> tuple[np.ndarray, np.ndarray]:
     table = run.table("rail_surface_damage.csv", ("x_mm", "y_mm", "friction_work_J_per_m2"))
     places, row = np.unique(np.round(table["x_mm"], 4), return_inverse=True)
     lines, column = np.unique(np.round(table["y_mm"], 4), return_inverse=True)
+    if half_width > 1e-3 * np.abs(lines).max():
+        raise DataError(f"{run.path('rail_surface_damage.csv')}: its lines lie within {np.abs(lines).max():.4g} mm of the middle, the strip is {1e3 * half_width:.4g} mm "
+                        "wide on each side")
     work = np.zeros((len(lines), len(places)))  # 0 where no wheel came
     work[column, row] = table["friction_work_J_per_m2"]
     return 1e-3 * places, mean_across(1e-3 * lines, work, half_width)
@@ -220,7 +223,7 @@ class Model:
 def fitted(track: flat_force.Track, places: Sequence[float], frequencies: np.ndarray, receptances: np.ndarray) -> tuple[flat_force.Track, float, float]:
     """(track, compliance in series, root mean square of the relative difference that is left): the track whose receptances, with a compliance that all
     frequencies have, are nearest to given ones, (places, frequencies) complex at places from the middle support. The stiffness of its pads has the rail's foot in it
-    then, its shear factor the section as its cells have it."""
+    then, its shear factor the section as its cells have it. @raises DataError"""
     start = np.array([track.pad_stiffness, track.pad_damping, track.shear_factor, 0.1e-9])
     scale = np.maximum(np.abs(receptances), 0.1 * np.abs(receptances).max())
 
@@ -241,6 +244,8 @@ def fitted(track: flat_force.Track, places: Sequence[float], frequencies: np.nda
         ratios = ratios + step * min(1., 0.2 / np.abs(step).max())
         if np.abs(step).max() < 1e-5:
             break
+    else:
+        raise DataError("no track of the linear model comes near the receptances of the cells")
     changed, compliance = track_of(ratios)
     return changed, float(compliance), float(np.sqrt(np.mean(off(ratios)**2)))
 

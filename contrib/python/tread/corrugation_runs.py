@@ -50,8 +50,15 @@ class Scene:
         return Run(folder)
 
     def way(self, waves: Waves) -> Way:
-        """@raises DataError where the wheel does not roll over a period and what it needs before and behind"""
+        """@raises DataError of scenes with a defect of their own, of waves with less than six cells, and where the wheel does not roll over a period and what it needs
+        before and behind"""
         known = self.parameters
+        if known["Defect/Shape"] != "none":
+            raise DataError(f"{self.path}: has a defect of its own, in whose place the waves would be: set Defect/Shape=none")
+        cell = 1e-3 * max(float(known[f"Mesh/{name} cell (mm)"]) for name in ("Finest", "Path"))
+        if waves.wavelengths.min() < 6. * cell:
+            raise DataError(f"{self.path}: waves of {1e3 * waves.wavelengths.min():.4g} mm need cells of at most {1e3 * waves.wavelengths.min() / 6.:.4g} mm; "
+                            f"they have {1e3 * cell:g} mm")
         rolled = 1e-3 * float(known["Motion/Rolled distance (mm)"])
         start = -rolled if known["Motion/Start (mm)"] == "automatic" else 1e-3 * float(known["Motion/Start (mm)"])
         way = Way(waves, start + BEFORE, start + rolled + BEHIND, self.begin)
@@ -94,6 +101,8 @@ class Scene:
                   "Wheel/Tread profile": "cylinder", "Motion/Drive": "creepage", "Scene/Quasi-static": "false"}
         other = [f"{name}={known[name]}" for name, value in needed.items() if known[name] != value]
         other += [f"{name}={known[name]}" for name in ("Motion/Creepage", "Rail/Begin (mm)", "Motion/Start (mm)") if not is_number(known[name])]
+        if known["Motion/Creepage"] in ("0", "0.0"):
+            other.append("Motion/Creepage=0, with which nothing wears")
         if other:
             raise DataError(f"{self.path}: the linear model needs {', '.join(f'{name}={value}' for name, value in needed.items())}, and numbers for the "
                             f"creepage and where rail and wheel begin; the scene has {', '.join(other)}")
@@ -112,6 +121,8 @@ class Scene:
         highest = speed / waves.wavelengths.min()
         frequency, rail, wheel = self.receptances((middle - 0.5 * spacing, middle), highest)
         looked_at = (frequency > 0.7 * speed / waves.wavelengths.max()) & (frequency < 1.1 * highest)
+        if not looked_at.any():
+            raise DataError(f"{self.path}: `tread --modes` has no frequencies of these waves")
         some = np.flatnonzero(looked_at)[::max(1, looked_at.sum() // 30)]
         track, compliance, left = fitted(track, (-0.5 * spacing, 0.), frequency[some], rail[:, some])
         load = number("Vehicle/Gravity (m per s2)") * (mass + number("Vehicle/Sprung mass (kg)"))

@@ -154,6 +154,12 @@ class _Solver:
         return self.library.tread_half_space_message(self.handle).decode()
 
 
+def _exclude_curvatures(settings: Mapping[str, object]) -> None:
+    void = sorted({"curvature_x", "curvature_y"} & set(settings))
+    if void:
+        raise TypeError(f"gap excludes {' and '.join(void)}: it is the whole gap")
+
+
 def _set_gap(case: np.ndarray, gap: ArrayLike, x_first: float, y_first: float) -> np.ndarray:
     """What must live as long as the case is used."""
     if np.ma.is_masked(gap):
@@ -178,12 +184,15 @@ def roll(*, gap: ArrayLike, x_first: float, y_first: float, heights: ArrayLike |
     Returns {name: array}: approach (n,) in m, longitudinal_force (n,) in N on the wheel, and work (n_y, n), the work of friction per area of
     the rail, J/m^2; elements near both ends of the way have not been passed by all of the patch. Raises HalfSpaceError.
     """
+    _exclude_curvatures(settings)
     given = {"heights": heights, "normal_force": normal_force, "creepage": creepage}
     along = {name: np.array(values, dtype=float) for name, values in given.items() if values is not None}
     sizes = {values.size for values in along.values() if values.ndim == 1}
     if len(sizes) != 1 or any(values.ndim > 1 or np.ma.is_masked(given[name]) for name, values in along.items()):
         raise TypeError("heights, normal_force and creepage must be numbers or arrays of one length, one of them an array, without masked values")
-    case, _ = _cases({**settings, **{name: float(values) for name, values in along.items() if values.ndim == 0 and name != "heights"}}, slip_order, False)
+    case, shape = _cases({**settings, **{name: float(values) for name, values in along.items() if values.ndim == 0 and name != "heights"}}, slip_order, False)
+    if shape:
+        raise TypeError("all but heights, normal_force and creepage must be numbers")
     gap = _set_gap(case, gap, x_first, y_first)
     way, n = np.zeros(1, _WAY), sizes.pop()
     way["n"] = n
@@ -214,9 +223,7 @@ def solve_patch(*, gap: ArrayLike | None = None, x_first: float = 0., y_first: f
     if len(case) != 1:
         raise TypeError(f"solve_patch() solves one case and was given {len(case)}: call it for each, or solve() for the forces of ellipses")
     if gap is not None:
-        void = sorted({"curvature_x", "curvature_y"} & set(settings))
-        if void:
-            raise TypeError(f"gap excludes {' and '.join(void)}: it is the whole gap")
+        _exclude_curvatures(settings)
         gap = _set_gap(case, gap, x_first, y_first)
     with _Solver() as solver:
         answer = solver.solve(case)

@@ -97,8 +97,9 @@ namespace tread
     /// Root of the sum of squares, and the largest, of the net plastic strain over the judged cells.
     double norm(const Residue &residue) const;
     double largest(const Residue &residue) const;
-    /// Change of the rate per passage since the last jump, from the second on the mean of that and of what
-    /// the last jump had: a jump with too large a slope leaves a rate that makes the next slope too small.
+    /// Change of the rate per passage since the last jump; from the second on its mean with what the last
+    /// jump had, so that older slopes count half, a quarter ... as much: a jump with too large a slope leaves
+    /// a rate that makes the next slope too small.
     Residue slope() const;
     /// With names for the fields of the state that keep their places in checkpoints.
     std::array<std::pair<const char *, Residue *>, 5> residues();
