@@ -75,6 +75,8 @@ def write_gain(scene, waves, crown):
     axes[1].set(ylabel="moves along [1/mm of wear]")
     axes[2].set(ylabel="contact force over\nroughness [kN/um]", xlabel="wavelength [mm]")
     other = axes[0].secondary_xaxis("top", functions=(lambda x: 1e3 * speed / np.maximum(x, 1e-9), lambda f: 1e3 * speed / np.maximum(f, 1e-9)))
+    frequencies = np.array([50, 75, 100, 150, 200, 300, 400, 600, 1000, 2000, 4000])
+    other.set_xticks(frequencies[(frequencies >= columns["frequency_Hz"].min()) & (frequencies <= columns["frequency_Hz"].max())])
     other.set_xlabel("frequency [Hz]")
     save(figure, os.path.join(scene.results, "gain.png"))
 
@@ -93,6 +95,7 @@ def write_passages(scene, waves, depth, passages):
         axes[0].plot(1e6 * np.abs(found[:, n]), "o-", ms=4, color=colour, label=f"{1e3 * waves.wavelengths[n]:.3g} mm")
         axes[0].plot(1e6 * np.abs(expected[:, n]), "--", color=colour)
     axes[0].legend(title="dashed: by the gain")
+    axes[0].set_xticks(np.unique(np.linspace(0, passages, min(passages, 10) + 1).astype(int)))
     axes[0].set(xlabel=f"passages of {1e6 * depth:g} um mean wear", ylabel="height of the wave [um]", title="waves that are highest in the end")
     places = np.linspace(scene.begin, scene.begin + waves.period, 1201)
     for passage, colour in ((0, GREY), (passages, BLUE)):
