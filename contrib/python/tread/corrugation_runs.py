@@ -83,7 +83,7 @@ class Scene:
         indentation of half-spaces by its disc is taken off."""
         rail = []
         for place in places:
-            folder = os.path.join(self.results, f"modes-{1e3 * place:g}")
+            folder = os.path.join(self.results, f"modes-{round(1e3 * place)}")
             settings = {**self.settings, "Motion/Start (mm)": 1e3 * place, "Motion/Rolled distance (mm)": 10, "Damage/Record": "false",
                         "Mesh/Path cell (mm)": 0, "Mesh/Longest row (mm)": 60}
             must_end_well(execute([*arguments_of(self.path, settings, folder), "--modes", "--up-to", f"{1.2 * highest:.0f}"], self.ranks))
