@@ -87,7 +87,7 @@ with tempfile.TemporaryDirectory() as folder:
             ("no rank", "--ranks", ["--ranks", "0"]),
             ("waves shorter than six cells", "need cells of at most", [*settings, "--period", "80", "--shortest", "10", "--longest", "80"]),
             ("a defect of the scene's own", "defect of its own", [*settings, "-s", "Defect/Shape=corrugation", "-s", "Defect/Wavelength (mm)=40", "-s", "Defect/Depth (mm)=0.01",
-                                                                  "-s", "Defect/Length (mm)=80", "--period", "80", "--shortest", "40", "--longest", "80"]),
+                                                                  "-s", "Defect/Length (mm)=80", "-s", "Defect/Lateral law=uniform", "--period", "80", "--shortest", "40", "--longest", "80"]),
             ("a setting that is none", "SECTION/NAME=VALUE", ["-s", "Motion"]),
             ("a parameter that is none", "Motion/Sped", ["-s", "Motion/Sped=3"])):
         code, text = said(SCENE, os.path.join(folder, "refused"), *arguments)

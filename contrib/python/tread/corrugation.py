@@ -142,8 +142,8 @@ class Contact:
     load: float
     friction: float
     creepage: float  # negative: driving
-    young: float = 209.92e9
-    poisson: float = 0.28
+    young: float = 210e9
+    poisson: float = 0.3
     element: float = 0.5e-3
     half_width: float = 2.5e-3  # of the strip in which the work is looked at
 

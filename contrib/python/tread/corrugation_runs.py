@@ -16,9 +16,7 @@ from .measured_runs import run_scene
 from .runs import Run, arguments_of, execute, must_end_well, parameters_of
 
 BEFORE, BEHIND = 20e-3, 50e-3  # the waves begin behind the wheel's start, and end behind the end of its way
-YOUNG = 209.92e9  # of the steel; the model's as the program's default
-# Mean indentation of a half-space by an even pressure over the disc in which `tread --modes` measures, times Young's modulus over the force, 1/m.
-DISC = 16. * (1. - 0.28**2) / (3. * np.pi**2 * 15e-3)
+DISC = 15e-3  # radius of the disc in which `tread --modes` measures
 PATCH = 10e-3  # what a place needs before and behind it to be passed by all of the patch
 
 
@@ -27,6 +25,11 @@ def is_number(text: str) -> bool:
         return np.isfinite(float(text))
     except ValueError:
         return False
+
+
+def indentation(young: float, poisson: float) -> float:
+    """Of a half-space by an even pressure over the disc, mean over it, over the force (Johnson 1985, section 3.4), m/N."""
+    return 16. * (1. - poisson**2) / (3. * np.pi**2 * young * DISC)
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,8 @@ class Scene:
     def receptances(self, places: Sequence[float], highest: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(frequencies, (places, n) complex of the rail, (n,) of the wheel less that of its mass) in m/N, by `tread --modes` under a wheel at each place; the
         indentation of half-spaces by its disc is taken off."""
+        known = self.parameters
+        by_disc = {body: indentation(1e9 * float(known[f"{body}/Young's modulus (GPa)"]), float(known[f"{body}/Poisson's ratio"])) for body in ("Rail", "Wheel")}
         rail = []
         for place in places:
             folder = os.path.join(self.results, f"modes-{round(1e3 * place)}")
@@ -89,9 +94,9 @@ class Scene:
             must_end_well(execute([*arguments_of(self.path, settings, folder), "--modes", "--up-to", f"{1.2 * highest:.0f}"], self.ranks))
             table = Run(folder).table("receptance.csv")
             complex_of = lambda body: table[f"{body}_magnitude_m_per_N"] * np.exp(1j * np.radians(table[f"{body}_phase_degrees"]))
-            rail.append(complex_of("rail") - DISC / YOUNG)
-        frequency, mass = table["frequency_Hz"], float(self.parameters["Wheel/Mass (kg)"])
-        return frequency, np.array(rail), complex_of("wheel") + 1. / (mass * (2. * np.pi * frequency)**2) - DISC / YOUNG
+            rail.append(complex_of("rail") - by_disc["Rail"])
+        frequency, mass = table["frequency_Hz"], float(known["Wheel/Mass (kg)"])
+        return frequency, np.array(rail), complex_of("wheel") + 1. / (mass * (2. * np.pi * frequency)**2) - by_disc["Wheel"]
 
     def model(self, crown: float, waves: Waves) -> tuple[Model, float]:
         """(model, relative difference of its track's receptances from those of the cells) of a cylindrical wheel that slides with a given creepage on a rail on
@@ -101,6 +106,9 @@ class Scene:
                   "Wheel/Tread profile": "cylinder", "Motion/Drive": "creepage", "Scene/Quasi-static": "false"}
         other = [f"{name}={known[name]}" for name, value in needed.items() if known[name] != value]
         other += [f"{name}={known[name]}" for name in ("Motion/Creepage", "Rail/Begin (mm)", "Motion/Start (mm)") if not is_number(known[name])]
+        steel = [known[f"{body}/{name}"] for name in ("Young's modulus (GPa)", "Poisson's ratio", "Yield stress (MPa)") for body in ("Rail", "Wheel")]
+        if steel[::2] != steel[1::2] or steel[-1] != "0":
+            other.append("unlike steels, or steel that yields")
         if known["Motion/Creepage"] in ("0", "0.0"):
             other.append("Motion/Creepage=0, with which nothing wears")
         if other:
@@ -113,7 +121,8 @@ class Scene:
         if abs((support - begin) / spacing % 1. - 0.5) > 1e-6 or abs(1e-3 * number("Rail/Length (mm)") / spacing - spans) > 1e-6:
             raise DataError(f"{self.path}: the linear model needs a rail that begins and ends in the middle of a span")
         middle = begin + spacing * (spans // 2 + 0.5)
-        track = Track(spacing=spacing, spans=spans, half_ends=True, absorbing=number("Rail/Absorbing length (m)") if known["Rail/Ends"] == "absorbing" else 0.,
+        young, poisson = 1e9 * number("Rail/Young's modulus (GPa)"), number("Rail/Poisson's ratio")
+        track = Track(young=young, poisson=poisson, density=number("Rail/Density (kg per m3)"), spacing=spacing, spans=spans, half_ends=True, absorbing=number("Rail/Absorbing length (m)") if known["Rail/Ends"] == "absorbing" else 0.,
                       pad_stiffness=1e6 * number("Track/Pad stiffness (MN per m)"), pad_damping=1e3 * number("Track/Pad damping (kN s per m)"),
                       sleeper_mass=number("Track/Sleeper mass (kg)"), ballast_stiffness=1e6 * number("Track/Ballast stiffness (MN per m)"),
                       ballast_damping=1e3 * number("Track/Ballast damping (kN s per m)"))
@@ -127,7 +136,7 @@ class Scene:
         track, compliance, left = fitted(track, (-0.5 * spacing, 0.), frequency[some], rail[:, some])
         load = number("Vehicle/Gravity (m per s2)") * (mass + number("Vehicle/Sprung mass (kg)"))
         contact = Contact(0.5e3 / number("Wheel/Radius (mm)"), 0.5 / crown, load, number("Contact/Friction coefficient"), -number("Motion/Creepage"),
-                          half_width=self.half_width)
+                          young, poisson, half_width=self.half_width)
         return Model(contact, track, speed, mass, 1e-3 * number("Motion/Start (mm)"), middle, compliance + float(wheel.real[some].mean())), left
 
 

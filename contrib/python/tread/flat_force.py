@@ -111,8 +111,12 @@ def receptance(track: Track, places: np.ndarray | Sequence[float], frequencies: 
     for column, place in enumerate(places):
         own, shape = beam.shape(track.middle_support + place)
         forces[own, column] = track.head * beam.turning(track.middle_support + place) if turns else shape
-    turning = 2. * np.pi * np.asarray(frequencies)
-    moved = [np.linalg.solve(beam.stiffness + 1j * w * beam.damping - w**2 * beam.mass, forces) for w in turning]
+    return answers(beam, forces, frequencies)
+
+
+def answers(system: Beam | Bar, forces: np.ndarray, frequencies: np.ndarray | Sequence[float]) -> np.ndarray:
+    """(columns, frequencies) complex: how far each column of forces moves where it acts."""
+    moved = [np.linalg.solve(system.stiffness + 1j * w * system.damping - w**2 * system.mass, forces) for w in 2. * np.pi * np.asarray(frequencies)]
     return np.array([(forces * of_frequency).sum(axis=0) for of_frequency in moved]).T
 
 
@@ -147,8 +151,7 @@ def bar_mobility(track: Track, places: np.ndarray | Sequence[float], frequencies
     for column, place in enumerate(places):
         own, shape = bar.shape(track.middle_support + place)
         forces[own, column] = shape
-    return np.array([(1j * w * forces * np.linalg.solve(bar.stiffness + 1j * w * bar.damping - w**2 * bar.mass, forces)).sum(axis=0)
-                     for w in 2. * np.pi * np.asarray(frequencies)]).T
+    return 2j * np.pi * np.asarray(frequencies) * answers(bar, forces, frequencies)
 
 
 class Implicit:
