@@ -60,6 +60,7 @@ KNOWN: list[tuple[str, str, str]] = [
      "figures of files in another unit, which are compared; on the line within the digits that are shown"),
     ("tread_half_space_case", "slip_order|gap|n_x|n_y|x_first|y_first", "of a gap of one's own, whose answers are compared as `own gap`; slip_order: tests/scenes/batch.py"),
     ("tread_half_space_case", "poisson", "of like bodies only its square counts: the sign is not noticed"),
+    ("tread_half_space_way", "n|heights|normal_force|creepage", "what a wheel rolls over: tests/python/figures_test.py changes each, tests/reference/uneven_way.cc compares"),
     ("library|own gap|fields|tread_half_space_.*", "iterations|status", COUNTS),
 ]
 
