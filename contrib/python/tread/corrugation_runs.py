@@ -13,7 +13,7 @@ from .corrugation import Contact, Gain, Model, Waves, Way, fitted, gain_of_runs,
 from .files import DataError
 from .flat_force import Track
 from .measured_runs import run_scene
-from .runs import Run, arguments_of, execute, must_end_well, parameters_of
+from .runs import Run, arguments_of, execute, must_end_well, parameters_of, scene_path
 
 BEFORE, BEHIND = 20e-3, 50e-3  # the waves begin behind the wheel's start, and end behind the end of its way
 DISC = 15e-3  # radius of the disc in which `tread --modes` measures
@@ -49,7 +49,7 @@ class Scene:
     def run(self, name: str, waves: Mapping[str, object]) -> Run:
         """Unless its results are there."""
         folder = os.path.join(self.results, name)
-        run_scene(os.path.abspath(self.path), folder, {**self.settings, "Damage/Record": "true", "Output/History interval (mm)": 0.5, **waves}, self.ranks)
+        run_scene(os.path.abspath(scene_path(self.path)), folder, {**self.settings, "Damage/Record": "true", "Output/History interval (mm)": 0.5, **waves}, self.ranks)
         return Run(folder)
 
     def way(self, waves: Waves) -> Way:
