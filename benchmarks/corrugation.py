@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.corrugation import Model, Waves, gain_at_rest, gain_of_model
+from tread.corrugation import Model, Waves, gain_at_rest, gain_of_model, responses
 from tread.corrugation_runs import Scene
 from tread.files import read_summary, read_table
 from tread.measured_runs import available_ranks, shipped
@@ -52,7 +52,8 @@ def gain_tables(folder, note):
     scene = Scene(SCENE, folder, {}, available_ranks())
     way, found = scene.way(WAVES), scene.gain(WAVES)
     model, left = scene.model(0.3, WAVES)
-    known, at_rest = gain_of_model(model, way), gain_at_rest(model, WAVES)
+    parts = responses(model.contact, WAVES)
+    known, at_rest = gain_of_model(model, way, parts), gain_at_rest(parts)
     lengths = WAVES.wavelengths
     fill("corrugation.md", "corrugation-gain", markdown(
         ["wavelength, mm", "frequency, Hz", "force over height, kN/um", "model", "off, %", "gain, 1/m", "model", "off, %", "half-spaces without inertia"],
@@ -64,10 +65,10 @@ def gain_tables(folder, note):
     rms = lambda values, where: float(np.sqrt(np.mean(np.abs((values - found.gain) / found.gain)[where]**2)))
     fields = {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}
     variants = {
-        "whole": known.gain, "no compliance of head and wheel": gain_of_model(replace(model, compliance=0.), way).gain,
-        "sections do not turn": gain_of_model(replace(model, track=replace(model.track, head=0.)), way).gain,
-        "nothing moves along the rail": gain_of_model(Held(**{**fields, "track": replace(model.track, head=0.)}), way).gain,
-        "pads and shear factor as given": gain_of_model(replace(model, track=replace(model.track, pad_stiffness=120e6, pad_damping=20e3, shear_factor=0.4)), way).gain,
+        "whole": known.gain, "no compliance of head and wheel": gain_of_model(replace(model, compliance=0.), way, parts).gain,
+        "sections do not turn": gain_of_model(replace(model, track=replace(model.track, head=0.)), way, parts).gain,
+        "nothing moves along the rail": gain_of_model(Held(**{**fields, "track": replace(model.track, head=0.)}), way, parts).gain,
+        "pads and shear factor as given": gain_of_model(replace(model, track=replace(model.track, pad_stiffness=120e6, pad_damping=20e3, shear_factor=0.4)), way, parts).gain,
         "half-spaces without inertia": at_rest}
     fill("corrugation.md", "corrugation-parts", markdown(
         ["model", "up to 33 mm, %", "from 50 mm, %"],

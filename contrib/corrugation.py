@@ -17,7 +17,7 @@ import os
 import numpy as np
 
 from tread.commands import command_parser, run_command
-from tread.corrugation import Waves, gain_at_rest, gain_of_model
+from tread.corrugation import Waves, gain_at_rest, gain_of_model, responses
 from tread.corrugation_runs import Scene, expected_passages, wear_passages
 from tread.files import DataError
 from tread.measured_runs import available_ranks
@@ -47,7 +47,8 @@ def write_gain(scene, waves, crown):
         model, left = scene.model(crown, waves)
         print(f"track of the model: pads {1e-6 * model.track.pad_stiffness:.3g} MN/m and {1e-3 * model.track.pad_damping:.3g} kNs/m, shear factor "
               f"{model.track.shear_factor:.3f}; its receptances are within {100 * left:.2g} % (RMS) of the cells'")
-        of["model"], at_rest = gain_of_model(model, scene.way(waves)), gain_at_rest(model, waves)
+        parts = responses(model.contact, waves)
+        of["model"], at_rest = gain_of_model(model, scene.way(waves), parts), gain_at_rest(parts)
     except DataError as error:
         print(f"no model beside it: {error}")
         at_rest = None

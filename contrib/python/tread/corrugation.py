@@ -10,7 +10,7 @@ rolling of half-spaces over waves, with loads and creepages that swing (half_spa
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -250,13 +250,14 @@ def fitted(track: flat_force.Track, places: Sequence[float], frequencies: np.nda
     return changed, float(compliance), float(np.sqrt(np.mean(off(ratios)**2)))
 
 
-def gain_at_rest(model: Model, waves: Waves) -> np.ndarray:
+def gain_at_rest(parts: Mapping[str, Response]) -> np.ndarray:
     """Without inertia and track: of half-spaces under constant load and creepage."""
-    return -responses(model.contact, waves)["heights"].work
+    return -parts["heights"].work
 
 
-def gain_of_model(model: Model, way: Way) -> Gain:
-    waves, parts = way.waves, responses(model.contact, way.waves)
+def gain_of_model(model: Model, way: Way, parts: Mapping[str, Response]) -> Gain:
+    """@param parts responses of its contact to the waves"""
+    waves = way.waves
     # The patch rides on less than the height of short waves: the approach under constant load is lower by what it rides on.
     ridden = replace(way, waves=replace(waves, amplitudes=-parts["heights"].approach * waves.amplitudes))
     places, rough_force, rough_along = model.roll(way, lambda x: float(ridden.heights(np.array(x))))

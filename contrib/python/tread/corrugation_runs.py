@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -42,7 +43,7 @@ class Scene:
     half_width: float = 2.5e-3
     begin: float = 0.
 
-    @property
+    @functools.cached_property
     def parameters(self) -> dict[str, str]:
         return parameters_of(self.path, {name: str(value) for name, value in self.settings.items()})
 
@@ -140,6 +141,12 @@ class Scene:
         return Model(contact, track, speed, mass, 1e-3 * number("Motion/Start (mm)"), middle, compliance + float(wheel.real[some].mean())), left
 
 
+def worn(scene: Scene, way: Way, run: Run, depth: float) -> np.ndarray:
+    """(n,) complex: what a passage that wears the rail by a mean depth adds to each wave."""
+    places, work = work_along(run, scene.half_width)
+    return -depth * way.found_in(places, work) / work[way.looked_at(places)].mean()
+
+
 def wear_passages(scene: Scene, waves: Waves, depth: float, passages: int) -> Iterator[np.ndarray]:
     """(n,) complex amplitudes before the first and after each of so many passages, or blocks of passages alike, that wear the rail by a mean depth: what a
     passage wears off of each wavelength, alike across the head and in each period, is missing before the next. The mean is not taken off, so that the
@@ -148,8 +155,7 @@ def wear_passages(scene: Scene, waves: Waves, depth: float, passages: int) -> It
     for passage in range(1, passages + 1):
         way = scene.way(waves)
         name = "waves" if passage == 1 else f"passage-{passage:03}"  # the first rolls over what the gain was found on
-        places, work = work_along(scene.over_waves(name, way), scene.half_width)
-        change = -depth * way.found_in(places, work) / work[way.looked_at(places)].mean()
+        change = worn(scene, way, scene.over_waves(name, way), depth)
         if np.abs(change).max() > 0.5 * np.abs(waves.amplitudes).max():
             raise DataError(f"passage {passage} changes waves by {1e6 * np.abs(change).max():.3g} um, the largest of which has "
                             f"{1e6 * np.abs(waves.amplitudes).max():.3g} um: take a smaller depth")
@@ -159,9 +165,7 @@ def wear_passages(scene: Scene, waves: Waves, depth: float, passages: int) -> It
 
 def expected_passages(scene: Scene, waves: Waves, depth: float, passages: int) -> np.ndarray:
     """(passages + 1, n) complex amplitudes by the gain at small amplitude, and by what a passage wears into a smooth rail on its supports."""
-    gain, way, smooth = scene.gain(waves).gain, scene.way(waves), scene.smooth()
-    places, work = work_along(smooth, scene.half_width)
-    by_itself = -depth * way.found_in(places, work) / work[way.looked_at(places)].mean()
+    gain, by_itself = scene.gain(waves).gain, worn(scene, scene.way(waves), scene.smooth(), depth)
     amplitudes = [waves.amplitudes]
     for _ in range(passages):
         amplitudes.append(amplitudes[-1] * (1. + depth * gain) + by_itself)

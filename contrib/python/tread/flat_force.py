@@ -48,6 +48,12 @@ class Track:
         return 6. * np.sqrt(self.young / (2. * (1. + self.poisson)) / self.density) / self.absorbing * (depth / self.absorbing)**2
 
 
+def element_at(x: float, size: float, n: int) -> tuple[int, float]:
+    """(number of the element at x from the first of n nodes, place in it from 0 to 1)"""
+    e = min(int(x / size), n - 2)
+    return e, x / size - e
+
+
 class Beam:
     """Matrices of rail and sleepers: w and the slope at each node, then the sleepers."""
 
@@ -85,7 +91,7 @@ class Beam:
 
     def shape(self, x: float) -> tuple[slice, np.ndarray]:
         """The four entries that a force at x from the rail's begin acts on, and its shares."""
-        e, u = self.element(x)
+        e, u = element_at(x, self.size, self.n)
         h, phi = self.size, self.phi
         return slice(2 * e, 2 * e + 4), np.array([
             1. - 3. * u**2 + 2. * u**3 + phi * (1. - u), h * (u - 2. * u**2 + u**3 + 0.5 * phi * (u - u**2)),
@@ -93,14 +99,9 @@ class Beam:
 
     def turning(self, x: float) -> np.ndarray:
         """Shares of the same entries in how far the section at x is turned, rad, rising along the rail."""
-        _, u = self.element(x)
+        _, u = element_at(x, self.size, self.n)
         h, phi = self.size, self.phi
         return np.array([6. * (u**2 - u) / h, 1. - 4. * u + 3. * u**2 + phi * (1. - u), 6. * (u - u**2) / h, 3. * u**2 - 2. * u + phi * u]) / (1. + phi)
-
-    def element(self, x: float) -> tuple[int, float]:
-        """(number of the element at x, place in it from 0 to 1)"""
-        e = min(int(x / self.size), self.n - 2)
-        return e, x / self.size - e
 
 
 def receptance(track: Track, places: np.ndarray | Sequence[float], frequencies: np.ndarray | Sequence[float], turns: bool = False) -> np.ndarray:
@@ -139,8 +140,7 @@ class Bar:
 
     def shape(self, x: float) -> tuple[slice, np.ndarray]:
         """The two entries that a force at x from the rail's begin acts on, and its shares."""
-        e = min(int(x / self.size), self.n - 2)
-        u = x / self.size - e
+        e, u = element_at(x, self.size, self.n)
         return slice(e, e + 2), np.array([1. - u, u])
 
 
