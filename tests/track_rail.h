@@ -5,6 +5,7 @@
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/dynamics/parts/nodes.h>
 #include <tread/dynamics/parts/supports.h>
+#include <tread/dynamics/parts/track_beyond.h>
 #include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/whole_rail.h>
 #include <tread/reference/supported_beam.h>
@@ -116,7 +117,8 @@ namespace tread::tests
               const std::vector<double> &probes,
               const bool                 solid_sleepers = false,
               const unsigned int         max_level      = 0,
-              const double               sleeper_cell   = SleeperBox().coarsest_cell_size)
+              const double               sleeper_cell   = SleeperBox().coarsest_cell_size,
+              const TrackBeyondBoth     &beyond         = {})
       : section(rail.section)
       , height(rail.height)
       , end(0.5 * spacing * n_supports)
@@ -144,8 +146,11 @@ namespace tread::tests
       supports                   = std::make_unique<Supports>(*mesh, 0, positions, track, sleepers);
       for (const double x : probes)
         supports->add_probe(x);
-      dynamics->add<RailOnSupports>(*supports, steel());
-      dynamics->guide_nodes(dynamics->boundary_nodes(0, Boundary::end), 0);
+      dynamics->add<RailOnSupports>(*supports, steel(), beyond);
+      if (beyond)
+        dynamics->add<RailOnTrackBeyond>(0, steel(), *beyond);
+      else
+        dynamics->guide_nodes(dynamics->boundary_nodes(0, Boundary::end), 0);
       dynamics->guide_nodes(supports->guided_nodes(1), 1);
       for (const SolidSleeper &sleeper : sleepers)
         dynamics->guide_nodes(dynamics->boundary_nodes(sleeper.body, Boundary::end), 1);

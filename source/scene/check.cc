@@ -441,6 +441,19 @@ namespace tread
                   "most " +
                   text_of(std::max(0., clear)) + " fits this rail");
       }
+    if (rail.ends == EndKind::endless)
+      {
+        require(track.pads_pull,
+                "'Rail/Ends' endless needs 'Track/Pads pull' true: the beam beyond the ends is "
+                "linear");
+        require(general.density_scale == 1., "'Rail/Ends' endless needs 'Scene/Density scale' 1: waves that "
+                                             "leave the cells would find another rail");
+        const double clear = std::min(path_begin(last_wheel()) - rail_begin(), rail_end() - meshed_end());
+        require(clear >= 0.5 * track.sleeper_spacing - round_off,
+                "'Rail/Ends' endless: the wheel's path comes within " + text_in_mm(std::max(0., clear)) +
+                  " mm of an end of the rail; at least half a sleeper spacing, " +
+                  text_in_mm(0.5 * track.sleeper_spacing) + " mm, is needed");
+      }
     const int first = first_support(), last = first + static_cast<int>(support_positions().size()) - 1;
     for (const auto &[support, springs] : support_springs)
       require(support >= first && support <= last, "'Track/Support file' has support " +

@@ -145,6 +145,27 @@ namespace tread
   }
 
 
+  std::optional<std::array<TrackBeyondParameters, 2>> Scene::track_beyond() const
+  {
+    if (rail.ends != EndKind::endless)
+      return {};
+    TrackParameters alike = track_parameters();
+    alike.exceptions.clear();
+    TrackBeyondParameters p;
+    p.n_spans                        = rail.spans_beyond;
+    p.spacing                        = track.sleeper_spacing;
+    p.stiffness_along                = track.stiffness_along;
+    p.shear_speed                    = rail.material.elastic().shear_wave_speed();
+    p.gravity                        = vehicle.gravity;
+    p.layers                         = alike.layers(0);
+    const std::vector<double> places = support_positions();
+    TrackBeyondParameters     before = p, behind = p;
+    before.first_support = track.sleeper_spacing - (places.front() - rail_begin());
+    behind.first_support = track.sleeper_spacing - (rail_end() - places.back());
+    return std::array{before, behind};
+  }
+
+
   dealii::Point<3> Scene::base_middle() const
   {
     return dealii::Point<3>(0., std::sin(rail.angle()) * rail.height(),

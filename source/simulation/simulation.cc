@@ -6,6 +6,7 @@
 #include <tread/dynamics/parts/nodes.h>
 #include <tread/dynamics/parts/rail_base.h>
 #include <tread/dynamics/parts/supports.h>
+#include <tread/dynamics/parts/track_beyond.h>
 #include <tread/dynamics/parts/wheel.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/parts.h>
@@ -68,8 +69,12 @@ namespace tread
           supports->add_probe(mid_span_beside(scene, number));
         if (!scene.recorded_supports().empty())
           seats = std::make_unique<RailSeats>(*supports, scene.recorded_supports(), scene.first_support());
-        dynamics.add<RailOnSupports>(*supports, scene.rail.material.elastic());
-        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
+        const auto beyond = scene.track_beyond();
+        dynamics.add<RailOnSupports>(*supports, scene.rail.material.elastic(), beyond);
+        if (beyond)
+          dynamics.add<RailOnTrackBeyond>(rail_body, scene.rail.material.elastic(), *beyond);
+        else
+          dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
         if (const AbsorbingEnds ends = scene.absorbing_ends(); ends.length > 0.)
           dynamics.add<DampedNodes>(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
         dynamics.guide_nodes(supports->guided_nodes(1), 1);

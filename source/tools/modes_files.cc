@@ -547,6 +547,10 @@ namespace tread
     if (!(request.up_to >= lowest_allowed && request.up_to <= highest_allowed))
       throw InputError(format("--up-to %g: the highest frequency must lie between %g and %g Hz",
                               request.up_to, lowest_allowed, highest_allowed));
+    if (scene.track_beyond())
+      throw InputError(
+        "--modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "
+        "rail of the cells has");
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const Mesh mesh(comm, make_bodies(scene));
     // Where the rail is struck: at the defect, otherwise under the wheel.

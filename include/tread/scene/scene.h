@@ -31,6 +31,7 @@
 #include <tread/scene/wheelset_motion.h>
 #include <tread/track/rail_base.h>
 #include <tread/track/rail_ends.h>
+#include <tread/track/track_beyond.h>
 #include <tread/track/supports.h>
 
 #include <cmath>
@@ -202,6 +203,8 @@ namespace tread
     RailBaseParameters rail_base_parameters() const;
     /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
     AbsorbingEnds absorbing_ends() const;
+    /// The track beyond the ends of the rail, if these are endless.
+    std::optional<std::array<TrackBeyondParameters, 2>> track_beyond() const;
     /// Coordinates x of the supports on the rail, m, and the number of the first one. Support 0 lies where
     /// the scene places it.
     std::vector<double> support_positions() const;

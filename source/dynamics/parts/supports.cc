@@ -21,9 +21,12 @@ namespace tread
   } // namespace
 
 
-  RailOnSupports::RailOnSupports(const PartOf &of, Supports &supports, const ElasticMaterial &rail_material)
+  RailOnSupports::RailOnSupports(const PartOf          &of,
+                                 Supports              &supports,
+                                 const ElasticMaterial &rail_material,
+                                 const TrackBeyondBoth &beyond)
     : supports(supports)
-    , beam(of.mesh, of.solid, supports, rail_material)
+    , beam(of.mesh, of.solid, supports, rail_material, beyond)
   {
     supports.set_gravity(of.parameters.gravity);
     supports.set_quanta(of.quanta.force, of.quanta.stiffness);

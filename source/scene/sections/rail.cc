@@ -62,7 +62,9 @@ namespace tread
       {EndKind::symmetric, "symmetric", "planes of symmetry, which reflect waves."},
       {EndKind::absorbing, "absorbing",
        "the same planes behind a length of rail in which damping grows towards the end and takes up most of "
-       "the waves, as if the rail went on."}};
+       "the waves, as if the rail went on."},
+      {EndKind::endless, "endless",
+       "the track goes on as a beam on supports ('Spans beyond'), which costs next to nothing."}};
     return list;
   }
 
@@ -71,6 +73,7 @@ namespace tread
   {
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
     Section section(handler, "Rail");
 
     section.choose("Shape", shape);
@@ -139,6 +142,10 @@ namespace tread
                 "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
                 "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
                 Double(0.05, 100.));
+    section.add("Spans beyond", spans_beyond,
+                "Sleeper spans of the beam behind each endless end, whose farther half absorbs what arrives. "
+                "Their supports are those of section Track, with rigid sleepers.",
+                Integer(4, 1000));
     material.declare(section);
   }
 

@@ -92,6 +92,10 @@ namespace tread
                 "Vertical stiffness of the ballast under one rail's half of a sleeper.", stiffness);
     section.add("Ballast damping (kN s per m)", ballast_damping,
                 "Vertical damping of the ballast under one rail's half of a sleeper.", damping);
+    section.add("Stiffness along the rail (MN per m)", stiffness_along,
+                "With which each support beyond endless ends ('Rail/Ends') holds the rail along itself. Those "
+                "under the cells hold it vertically only.",
+                Double(0., 1e6));
     section.add(
       "Support file", support_file,
       "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "

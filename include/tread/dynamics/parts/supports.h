@@ -14,8 +14,12 @@ namespace tread
   class RailOnSupports : public Part
   {
   public:
-    /// @param rail_material a beam of it is used to find the equilibrium at the start. Collective.
-    RailOnSupports(const PartOf &part_of, Supports &supports, const ElasticMaterial &rail_material);
+    /// @param rail_material a beam of it is used to find the equilibrium at the start, with the track
+    /// @param beyond its ends if there is one: @see RailOnTrackBeyond. Collective.
+    RailOnSupports(const PartOf          &part_of,
+                   Supports              &supports,
+                   const ElasticMaterial &rail_material,
+                   const TrackBeyondBoth &beyond = {});
 
     std::vector<unsigned int> nodes_of_every_step() const override
     {

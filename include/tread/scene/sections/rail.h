@@ -54,7 +54,8 @@ namespace tread
   enum class EndKind
   {
     symmetric,
-    absorbing
+    absorbing,
+    endless
   };
 
   template <>
@@ -79,6 +80,7 @@ namespace tread
     double                margin           = 0.06; ///< beyond the path, at each end
     EndKind               ends             = EndKind::symmetric;
     double                absorbing_length = 0.6;
+    unsigned int          spans_beyond     = 20; ///< behind each endless end
     MaterialSection       material;
 
     bool is_sliced() const

@@ -39,6 +39,7 @@ namespace tread
     double       sleeper_length = 2.52, sleeper_width = 0.25, rail_distance = 1.5;
     double       sleeper_young_modulus = 38.4e9, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
     double       ballast_stiffness = 45e6, ballast_damping = 32e3;
+    double       stiffness_along = 40e6; ///< of a support beyond endless ends
     bool         pads_pull = true;
     std::string  support_file; ///< supports with springs of their own; empty: none
     double       co_running_mass    = 450.;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_track_track_beyond_h
+#define tread_track_track_beyond_h
+
+#include <tread/base/archive.h>
+#include <tread/reference/supported_beam.h>
+
+#include <vector>
+
+namespace tread
+{
+  struct TrackBeyondParameters
+  {
+    unsigned int             n_spans         = 20;
+    double                   spacing         = 0.6;  ///< of the supports, m
+    double                   first_support   = 0.3;  ///< distance from the end of the cells, m
+    double                   stiffness_along = 40e6; ///< of a support, along the rail, N/m
+    double                   shear_speed     = 3200; ///< of the steel, m/s: @see AbsorbingEnds
+    double                   gravity         = 0.;   ///< m/s^2
+    reference::SupportLayers layers;                 ///< of each support
+  };
+
+  /// The track beyond one end of a rail of cells: a Timoshenko beam and bar on supports (springs, dampers and
+  /// rigid sleepers), whose first node is the section where the cells end. In the half that is farther away
+  /// damping grows towards a plane of symmetry, as at absorbing ends. Coordinates point outwards from the
+  /// cells: along the rail, upwards, and the slope of a cross-section. Linear: supports pull and have no
+  /// gaps.
+  ///
+  /// Two-node elements that are exact in statics (one-point integration with the residual bending flexibility
+  /// of MacNeal 1978), lumped inertia, and central differences in step with the cells: forces at the
+  /// displacements of step n, dampers with the velocities of half a step before. The section itself has no
+  /// mass here: half an element's is that of its other node.
+  class TrackBeyond
+  {
+  public:
+    /// Displacement (m, m, rad) or velocity of the section, or force (N, N, N m) on it.
+    struct AtSection
+    {
+      double along = 0., up = 0., slope = 0.;
+    };
+
+    /// @param axial_stiffness E A, N
+    TrackBeyond(const reference::BeamSection &section,
+                const double                  axial_stiffness,
+                const TrackBeyondParameters  &parameters);
+
+    /// Everything is at rest with the section displaced so.
+    void set_at_rest(const AtSection &section);
+    /// Everything follows the section slowly, as it would at rest.
+    void follow_slowly(const AtSection &velocity_of_section);
+
+    /// Find the forces at the present state.
+    void find_forces();
+    /// That of the springs and the beam on the section, as last found.
+    const AtSection &force_on_section() const
+    {
+      return on_section;
+    }
+    /// The same at present, after a step.
+    AtSection present_force_on_section() const;
+    /// Move by one step, with the section's new velocity. @pre find_forces()
+    void advance(const AtSection &velocity_of_section, const double time_step);
+
+    /// Bounds of what moves here, over its masses: 1/s^2 and 1/s.
+    double stiffness_over_mass() const;
+    double damping_over_mass() const;
+    /// Of the first element, as its section feels it: N/m, N/m, N m; row sums.
+    AtSection stiffness_of_section() const;
+
+    /// Energies at present, J, and of weight half a step back. @pre find_forces() is not needed
+    double spring_energy() const;
+    double kinetic_energy(const double time_step) const;
+    double weight_potential(const double time_step) const;
+    double dissipated() const
+    {
+      return damper_work;
+    }
+
+    void serialize(Archive &archive);
+
+  private:
+    /// What an element or a spring does to two unknowns is added up in this order: along, up and slope of the
+    /// nodes behind the section, then the sleepers.
+    std::size_t unknown(const unsigned int kind, const std::size_t node) const
+    {
+      return kind * n_nodes + node;
+    }
+    /// Forces of beam and springs, and of dampers, at these displacements and velocities. @returns what
+    /// acts on the section
+    AtSection spring_forces(const AtSection           &section,
+                            const std::vector<double> &displacement,
+                            std::vector<double>       &force) const;
+    void      add_damping(const std::vector<double> &velocity, std::vector<double> &force) const;
+    void      find_shapes();
+
+    struct Element
+    {
+      double length, axial, bending, shear; ///< m; E A/h, E I/h, N/m and N m; corrected kappa G A, N
+    };
+    TrackBeyondParameters    parameters;
+    std::vector<Element>     elements; ///< of node i - 1 (or the section) and node i
+    std::size_t              n_nodes = 0;
+    std::vector<std::size_t> node_of_support;
+    std::vector<double>      mass, weight, rate; ///< kg, kg m^2; N; 1/s: by unknown
+    bool                     has_sleepers = false;
+
+    // At rest: with a unit displacement of the section each, and with the weight alone.
+    std::vector<double> shapes[3], sagged;
+
+    AtSection                   section, section_velocity, on_section;
+    std::vector<double>         displacement, velocity; ///< by unknown
+    std::vector<double>         force, damping;         ///< as last found
+    double                      damper_work = 0.;       ///< so far, J
+    mutable std::vector<double> strains[3]; ///< of the elements: forces N, Q (N) and moments M (N m)
+  };
+} // namespace tread
+
+#endif

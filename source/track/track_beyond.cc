@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/track/rail_ends.h>
+#include <tread/track/track_beyond.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tread
+{
+  namespace
+  {
+    constexpr unsigned int along = 0, up = 1, slope = 2; // kinds of unknowns
+
+    /// m: lumped inertia makes the bending waves of a rail at 2 kHz (0.9 m long) 0.5 % slower.
+    constexpr double longest_element = 0.05;
+    /// m: half of its mass lies beside the section instead of in it, which reflects 1e-5 of a wave's energy
+    /// along the rail at 2 kHz.
+    constexpr double first_element = 0.0125;
+  } // namespace
+
+
+  TrackBeyond::TrackBeyond(const reference::BeamSection &beam,
+                           const double                  axial_stiffness,
+                           const TrackBeyondParameters  &parameters)
+    : parameters(parameters)
+    , has_sleepers(std::isfinite(parameters.layers.ballast_stiffness))
+  {
+    // Half a span is left behind the last support.
+    std::vector<double> places{0.};
+    const auto          divide = [&](const double to) {
+      const double       from = places.back();
+      const unsigned int n    = std::max(1., std::ceil((to - from) / longest_element - 1e-9));
+      for (unsigned int i = 1; i <= n; ++i)
+        places.push_back(i < n ? from + (to - from) * i / n : to);
+    };
+    divide(std::min(first_element, 0.5 * parameters.first_support));
+    for (unsigned int s = 0; s < parameters.n_spans; ++s)
+      {
+        divide(parameters.first_support + s * parameters.spacing);
+        node_of_support.push_back(places.size() - 2);
+      }
+    divide(places.back() + 0.5 * parameters.spacing);
+    n_nodes                    = places.size() - 1;
+    const std::size_t   n      = 3 * n_nodes + (has_sleepers ? parameters.n_spans : 0);
+    const double        length = places.back();
+    const AbsorbingEnds layer  = {-length, length, 0.5 * length, parameters.shear_speed};
+
+    for (auto *values : {&mass, &weight, &rate, &displacement, &velocity, &force, &damping})
+      values->assign(n, 0.);
+    for (auto &of_elements : strains)
+      of_elements.assign(n_nodes + 1, 0.);
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      {
+        const double h = places[i + 1] - places[i];
+        elements.push_back({h, axial_stiffness / h, beam.bending_stiffness / h,
+                            1. / (1. / beam.shear_stiffness + h * h / (12. * beam.bending_stiffness))});
+        for (const std::size_t node : {i == 0 ? i : i - 1, i}) // the section has none
+          {
+            mass[unknown(along, node)] += 0.5 * h * beam.mass;
+            mass[unknown(up, node)] += 0.5 * h * beam.mass;
+            mass[unknown(slope, node)] += 0.5 * h * beam.rotary_inertia;
+          }
+      }
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      {
+        weight[unknown(up, i)] = -parameters.gravity * mass[unknown(up, i)];
+        for (const unsigned int kind : {along, up, slope})
+          rate[unknown(kind, i)] = layer.rate(places[i + 1]);
+      }
+    if (has_sleepers)
+      for (unsigned int s = 0; s < parameters.n_spans; ++s)
+        {
+          const std::size_t k = 3 * n_nodes + s;
+          mass[k]             = parameters.layers.sleeper_mass;
+          weight[k]           = -parameters.gravity * mass[k];
+          rate[k]             = layer.rate(places[node_of_support[s] + 1]);
+        }
+    find_shapes();
+    set_at_rest(AtSection());
+  }
+
+
+  TrackBeyond::AtSection TrackBeyond::spring_forces(const AtSection           &at,
+                                                    const std::vector<double> &u,
+                                                    std::vector<double>       &f) const
+  {
+    // Tension, shear force and bending moment of the elements.
+    for (std::size_t e = 0; e < n_nodes; ++e)
+      {
+        const Element &element = elements[e];
+        const double   before[3]{e > 0 ? u[unknown(along, e - 1)] : at.along,
+                               e > 0 ? u[unknown(up, e - 1)] : at.up,
+                               e > 0 ? u[unknown(slope, e - 1)] : at.slope};
+        const double turned = u[unknown(slope, e)];
+        strains[along][e]   = element.axial * (u[unknown(along, e)] - before[along]);
+        strains[up][e]      = element.shear *
+                         ((u[unknown(up, e)] - before[up]) / element.length - 0.5 * (turned + before[slope]));
+        strains[slope][e] = element.bending * (turned - before[slope]);
+      }
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      {
+        f[unknown(along, i)] = strains[along][i + 1] - strains[along][i];
+        f[unknown(up, i)]    = strains[up][i + 1] - strains[up][i];
+        f[unknown(slope, i)] = strains[slope][i + 1] - strains[slope][i] +
+                               0.5 * strains[up][i] * elements[i].length +
+                               (i + 1 < n_nodes ? 0.5 * strains[up][i + 1] * elements[i + 1].length : 0.);
+      }
+    const reference::SupportLayers &layers = parameters.layers;
+    for (std::size_t s = 0; s < node_of_support.size(); ++s)
+      {
+        const std::size_t node = node_of_support[s];
+        f[unknown(along, node)] -= parameters.stiffness_along * u[unknown(along, node)];
+        f[unknown(slope, node)] -=
+          layers.pad_stiffness * layers.pad_radius * layers.pad_radius * u[unknown(slope, node)];
+        const double sleeper = has_sleepers ? u[3 * n_nodes + s] : 0.,
+                     pad     = layers.pad_stiffness * (u[unknown(up, node)] - sleeper);
+        f[unknown(up, node)] -= pad;
+        if (has_sleepers)
+          f[3 * n_nodes + s] = pad - layers.ballast_stiffness * sleeper;
+      }
+    // The plane of symmetry.
+    f[unknown(along, n_nodes - 1)] = f[unknown(slope, n_nodes - 1)] = 0.;
+    return {strains[along][0], strains[up][0], strains[slope][0] + 0.5 * strains[up][0] * elements[0].length};
+  }
+
+
+  void TrackBeyond::add_damping(const std::vector<double> &v, std::vector<double> &f) const
+  {
+    for (std::size_t k = 0; k < v.size(); ++k)
+      f[k] -= rate[k] * mass[k] * v[k];
+    const reference::SupportLayers &layers = parameters.layers;
+    for (std::size_t s = 0; s < node_of_support.size(); ++s)
+      {
+        const std::size_t node    = node_of_support[s];
+        const double      sleeper = has_sleepers ? v[3 * n_nodes + s] : 0.,
+                     pad          = layers.pad_damping * (v[unknown(up, node)] - sleeper);
+        f[unknown(up, node)] -= pad;
+        f[unknown(slope, node)] -=
+          layers.pad_damping * layers.pad_radius * layers.pad_radius * v[unknown(slope, node)];
+        if (has_sleepers)
+          f[3 * n_nodes + s] += pad - layers.ballast_damping * sleeper;
+      }
+  }
+
+
+  void TrackBeyond::find_shapes()
+  {
+    // The stiffness matrix by its columns, which unit displacements give.
+    const std::size_t          n = mass.size();
+    std::vector<double>        unit(n, 0.), f(n, 0.);
+    dealii::FullMatrix<double> full(n, n);
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        unit[k] = 1.;
+        spring_forces(AtSection(), unit, f);
+        for (std::size_t i = 0; i < n; ++i)
+          full(i, k) = -f[i];
+        unit[k] = 0.;
+      }
+    for (const unsigned int kind : {along, slope}) // they stay 0
+      for (std::size_t i = 0, held = unknown(kind, n_nodes - 1); i < n; ++i)
+        full(held, i) = full(i, held) = i == held ? 1. : 0.;
+    dealii::SparsityPattern pattern;
+    pattern.copy_from(full);
+    dealii::SparseMatrix<double> sparse(pattern);
+    sparse.copy_from(full);
+    dealii::SparseDirectUMFPACK solver;
+    solver.initialize(sparse);
+
+    const auto at_rest = [&](const AtSection &at, const std::vector<double> *loads) {
+      dealii::Vector<double> solution(n);
+      spring_forces(at, unit, f);
+      for (std::size_t i = 0; i < n; ++i)
+        solution(i) = f[i] + (loads ? (*loads)[i] : 0.);
+      solver.solve(solution);
+      return std::vector<double>(solution.begin(), solution.end());
+    };
+    shapes[along] = at_rest({1., 0., 0.}, nullptr);
+    shapes[up]    = at_rest({0., 1., 0.}, nullptr);
+    shapes[slope] = at_rest({0., 0., 1.}, nullptr);
+    sagged        = at_rest({0., 0., 0.}, &weight);
+  }
+
+
+  void TrackBeyond::set_at_rest(const AtSection &at)
+  {
+    section          = at;
+    section_velocity = AtSection();
+    for (std::size_t k = 0; k < displacement.size(); ++k)
+      displacement[k] =
+        sagged[k] + at.along * shapes[along][k] + at.up * shapes[up][k] + at.slope * shapes[slope][k];
+    std::fill(velocity.begin(), velocity.end(), 0.);
+  }
+
+
+  void TrackBeyond::follow_slowly(const AtSection &at)
+  {
+    section_velocity = at;
+    for (std::size_t k = 0; k < velocity.size(); ++k)
+      velocity[k] = at.along * shapes[along][k] + at.up * shapes[up][k] + at.slope * shapes[slope][k];
+  }
+
+
+  void TrackBeyond::find_forces()
+  {
+    on_section = spring_forces(section, displacement, force);
+    std::fill(damping.begin(), damping.end(), 0.);
+    add_damping(velocity, damping);
+  }
+
+
+  TrackBeyond::AtSection TrackBeyond::present_force_on_section() const
+  {
+    std::vector<double> unused(force.size());
+    return spring_forces(section, displacement, unused);
+  }
+
+
+  void TrackBeyond::advance(const AtSection &velocity_of_section, const double time_step)
+  {
+    for (std::size_t k = 0; k < velocity.size(); ++k)
+      {
+        const double before = velocity[k];
+        velocity[k] += time_step / mass[k] * (force[k] + weight[k] + damping[k]);
+        // In central differences a force works in a step with the mean of the velocities around it.
+        damper_work -= 0.5 * time_step * damping[k] * (before + velocity[k]);
+      }
+    velocity[unknown(along, n_nodes - 1)] = velocity[unknown(slope, n_nodes - 1)] = 0.;
+    for (std::size_t k = 0; k < velocity.size(); ++k)
+      displacement[k] += time_step * velocity[k];
+    section_velocity = velocity_of_section;
+    section.along += time_step * velocity_of_section.along;
+    section.up += time_step * velocity_of_section.up;
+    section.slope += time_step * velocity_of_section.slope;
+  }
+
+
+  double TrackBeyond::stiffness_over_mass() const
+  {
+    // Sums of the rows, each element by itself.
+    std::vector<double> rows(mass.size(), 0.);
+    const auto          add = [&](const unsigned int kind, const std::size_t node, const double value) {
+      rows[unknown(kind, node)] += value;
+    };
+    for (std::size_t e = 0; e < n_nodes; ++e)
+      for (const std::size_t node : {e == 0 ? e : e - 1, e})
+        {
+          const Element &element = elements[e];
+          const double   shear   = element.shear / element.length;
+          add(along, node, 2. * element.axial);
+          add(up, node, shear * (2. + element.length));
+          add(slope, node, 2. * element.bending + shear * element.length * (1. + 0.5 * element.length));
+        }
+    const reference::SupportLayers &layers = parameters.layers;
+    for (std::size_t s = 0; s < node_of_support.size(); ++s)
+      {
+        const std::size_t node = node_of_support[s];
+        add(along, node, parameters.stiffness_along);
+        add(up, node, 2. * layers.pad_stiffness);
+        add(slope, node, layers.pad_stiffness * layers.pad_radius * layers.pad_radius);
+        if (has_sleepers)
+          rows[3 * n_nodes + s] = 2. * layers.pad_stiffness + layers.ballast_stiffness;
+      }
+    double largest = 0.;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      largest = std::max(largest, rows[k] / mass[k]);
+    return largest;
+  }
+
+
+  double TrackBeyond::damping_over_mass() const
+  {
+    const reference::SupportLayers &layers  = parameters.layers;
+    double                          largest = *std::max_element(rate.begin(), rate.end());
+    for (std::size_t s = 0; s < node_of_support.size(); ++s)
+      {
+        const std::size_t node = node_of_support[s];
+        largest =
+          std::max({largest, rate[unknown(up, node)] + 2. * layers.pad_damping / mass[unknown(up, node)],
+                    rate[unknown(slope, node)] + layers.pad_damping * layers.pad_radius * layers.pad_radius /
+                                                   mass[unknown(slope, node)]});
+        if (has_sleepers)
+          largest =
+            std::max(largest, rate[3 * n_nodes + s] +
+                                (2. * layers.pad_damping + layers.ballast_damping) / mass[3 * n_nodes + s]);
+      }
+    return largest;
+  }
+
+
+  TrackBeyond::AtSection TrackBeyond::stiffness_of_section() const
+  {
+    const Element &first = elements[0];
+    const double   shear = first.shear / first.length;
+    return {2. * first.axial, shear * (2. + first.length),
+            2. * first.bending + shear * first.length * (1. + 0.5 * first.length)};
+  }
+
+
+  double TrackBeyond::spring_energy() const
+  {
+    std::vector<double> f(force.size());
+    spring_forces(section, displacement, f);
+    double energy = 0.;
+    for (std::size_t e = 0; e < n_nodes; ++e)
+      {
+        const Element &element = elements[e];
+        energy += 0.5 * (strains[along][e] * strains[along][e] / element.axial +
+                         strains[up][e] * strains[up][e] * element.length / element.shear +
+                         strains[slope][e] * strains[slope][e] / element.bending);
+      }
+    const reference::SupportLayers &layers      = parameters.layers;
+    const auto                      half_square = [](const double x) {
+      return 0.5 * x * x;
+    };
+    for (std::size_t s = 0; s < node_of_support.size(); ++s)
+      {
+        const std::size_t node    = node_of_support[s];
+        const double      sleeper = has_sleepers ? displacement[3 * n_nodes + s] : 0.;
+        energy +=
+          parameters.stiffness_along * half_square(displacement[unknown(along, node)]) +
+          layers.pad_stiffness * (half_square(displacement[unknown(up, node)] - sleeper) +
+                                  half_square(layers.pad_radius * displacement[unknown(slope, node)]));
+        if (has_sleepers)
+          energy += layers.ballast_stiffness * half_square(sleeper);
+      }
+    return energy;
+  }
+
+
+  double TrackBeyond::kinetic_energy(const double time_step) const
+  {
+    // With the product of the velocities half a step before and after now, of the springs' forces alone.
+    std::vector<double> f(force.size());
+    spring_forces(section, displacement, f);
+    double energy = 0.;
+    for (std::size_t k = 0; k < f.size(); ++k)
+      energy += 0.5 * velocity[k] * (mass[k] * velocity[k] + time_step * f[k]);
+    return energy;
+  }
+
+
+  double TrackBeyond::weight_potential(const double time_step) const
+  {
+    double potential = 0.;
+    for (std::size_t k = 0; k < weight.size(); ++k)
+      potential -= weight[k] * (displacement[k] - 0.5 * time_step * velocity[k]);
+    return potential;
+  }
+
+
+  void TrackBeyond::serialize(Archive &archive)
+  {
+    archive.same(section, section_velocity, damper_work);
+    archive.same_number(displacement, velocity);
+  }
+} // namespace tread
