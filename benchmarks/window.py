@@ -3,7 +3,7 @@
 """What a window of fine cells that moves with the wheel costs, and what it changes in the answer.
 
 Runs the metre of smooth rolling and, with --long, three metres; 120 mm of it with windows of several sizes beside all cells fine; and
-the squat on 15 spans with and without a window. Each so many times in turn, of which the fastest counts. Fills the tables of
+the squat on 15 spans with and without a window, and on fewer with endless ends. Each so many times in turn, of which the fastest counts. Fills the tables of
 doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
 """
 
@@ -22,7 +22,10 @@ SHORT = {"Motion/Rolled distance (mm)": 120, "Output/Write volume": "false"}
 WINDOWS = {"all fine": {"Mesh/Window": "false"},
            **{f"{length}, {margin}": {"Mesh/Window length (mm)": length, "Mesh/Window margin (mm)": margin}
               for length, margin in ((40, 25), (20, 25), (20, 15), (10, 15))}}
-TRACK = {"all along": {}, **{f"windows of {length} mm": {"Mesh/Window": "true", "Mesh/Window length (mm)": length} for length in (75, 40)}}
+TRACK = {"15 spans, all along": {}, **{f"15 spans, windows of {length} mm": {"Mesh/Window": "true", "Mesh/Window length (mm)": length} for length in (75, 40)},
+         **{f"{spans} spans, endless, windows of 75 mm": {"Mesh/Window": "true", "Mesh/Window length (mm)": 75, "Rail/Ends": "endless", "Rail/Begin (mm)": begin,
+                                                          "Rail/Length (mm)": 600 * spans + 300}
+            for spans, begin in ((7, -2625), (5, -2025))}}
 AT_REST = 3e-3  # m: the first rows begin at rest
 
 
@@ -45,6 +48,7 @@ def difference(folder, beside, column):
 def main():
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/window"))
+    parser.add_argument("--only", choices=("metres", "short", "track"), help="one of the tables")
     parser.add_argument("--long", action="store_true", help="three metres too")
     parser.add_argument("--turns", type=int, default=1, metavar="N", help="how often each run is made; default 1")
     arguments = parser.parse_args()
@@ -59,12 +63,23 @@ def main():
     def note(summaries):
         return f"\n\n{available_ranks()} ranks, the fastest of {arguments.turns}. " + provenance(script, summaries.values())
 
-    metres = measured({name: (scene, {}) for name, scene in METRES.items() if name == "1 m" or arguments.long})
+    if arguments.only in (None, "metres"):
+        fill_metres(measured, note, arguments.long)
+    if arguments.only in (None, "short"):
+        fill_short(measured, note, folder_of)
+    if arguments.only in (None, "track"):
+        fill_track(measured, note, folder_of)
+
+
+def fill_metres(measured, note, has_long):
+    metres = measured({name: (scene, {}) for name, scene in METRES.items() if name == "1 m" or has_long})
     fill("performance.md", "window-metres", markdown(
         ["way", "windows", "cells", "steps", "seconds", "largest process, MB", "window loss, % of what is dissipated", "energy residual, % of the same"],
         [[name, number(of["windows"]), number(of["cells"]), number(of["steps"]), number(of["seconds"]), number(1e-6 * of["peak_bytes"]),
           number(100 * of["window_loss_J"] / of["dissipated_work_J"]), number(100 * of["energy_residual_of_dissipated"])] for name, of in metres.items()]) + note(metres))
 
+
+def fill_short(measured, note, folder_of):
     short = measured({name: (METRES["1 m"], {**SHORT, **settings}) for name, settings in WINDOWS.items()})
     off = {name: [difference(folder_of(name, 0), folder_of("all fine", 0), column)["largest"] for column in ("normal_force_N", "longitudinal_force_N")]
            for name in WINDOWS}
@@ -73,11 +88,14 @@ def main():
         [[name, number(of["cells"]), number(of["seconds"]), *(number(100 * value) if name != "all fine" else "-" for value in off[name])]
          for name, of in short.items()]) + note(short))
 
+
+def fill_track(measured, note, folder_of):
+    first = next(iter(TRACK))
     track = measured({name: ("thesis/4.3-M1.prm", settings) for name, settings in TRACK.items()})
     fill("performance.md", "window-track", markdown(
         ["", "seconds", "of them steps", "cell updates", "largest force, kN", "least force, kN", "difference of the force, RMS, % of its swing"],
         [[name, number(of["seconds"]), number(steps_seconds(of)), number(of["element_updates"]), f"{1e-3 * of['largest_normal_force_N']:.2f}", f"{1e-3 * of['least_normal_force_N']:.2f}",
-          number(100 * difference(folder_of(name, 0), folder_of("all along", 0), "normal_force_N")["of swing"]) if name != "all along" else "-"]
+          number(100 * difference(folder_of(name, 0), folder_of(first, 0), "normal_force_N")["of swing"]) if name != first else "-"]
          for name, of in track.items()]) + note(track))
 
 

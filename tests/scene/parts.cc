@@ -414,10 +414,49 @@ namespace
     check.that("track: one layer", !plain->track_parameters().two_layers);
     check.that("track: none of the supports differs", plain->track_parameters().exceptions.empty());
     check.below("symmetric ends absorb nothing, m", plain->absorbing_ends().length, 0.);
+    check.that("symmetric ends: nothing beyond", !plain->track_beyond());
     check.that("track: supports that are named are recorded",
                plain->recorded_supports() == std::vector<int>({-3, 2}));
     check.that("rigid sleepers are no bodies", solid_sleepers(*plain).empty());
     check.absolute("materials: rail, wheel", materials(*plain).size(), 2, 0.);
+  }
+
+
+  void check_track_beyond(tests::Check &check, const TemporaryFolder &folder)
+  {
+    // A support that differs is one of the cells' alone.
+    const std::string file = folder.write("soft.csv", "support,pad_stiffness_MN_per_m\n-3,333\n");
+    const auto        scene =
+      scene_of(on_track, {"Track/Support file=" + file, "Track/Pads pull=true", "Rail/Ends=endless",
+                          "Rail/Spans beyond=17", "Track/Stiffness along the rail (MN per m)=37",
+                          "Vehicle/Gravity (m per s2)=9.7"});
+    check.below("endless ends absorb nothing in the cells, m", scene->absorbing_ends().length, 0.);
+    const auto beyond = scene->track_beyond();
+    check.that("endless ends", bool(beyond));
+    if (!beyond)
+      return;
+    // The middles of sleepers go on at 610 mm, from -1780 and 1880 mm.
+    check.absolute("track beyond: first support before the rail, mm", 1e3 * (*beyond)[0].first_support, 340.,
+                   1e-9);
+    check.absolute("track beyond: first support behind the rail, mm", 1e3 * (*beyond)[1].first_support, 440.,
+                   1e-9);
+    for (const TrackBeyondParameters &p : *beyond)
+      {
+        check.absolute("track beyond: spans", p.n_spans, 17, 0.);
+        check.relative("track beyond: spacing, mm", 1e3 * p.spacing, 610., round_off);
+        check.relative("track beyond: stiffness along the rail, MN/m", 1e-6 * p.stiffness_along, 37.,
+                       round_off);
+        check.relative("track beyond: gravity, m/s2", p.gravity, 9.7, round_off);
+        check.relative("track beyond: speed of shear waves, m/s", p.shear_speed,
+                       std::sqrt(207e9 / (2. * 1.28) / 7810.), round_off);
+        check.relative("track beyond: pad stiffness, MN/m", 1e-6 * p.layers.pad_stiffness, 610., round_off);
+        check.relative("track beyond: pad damping, kN s/m", 1e-3 * p.layers.pad_damping, 21., round_off);
+        check.relative("track beyond: sleeper mass, kg", p.layers.sleeper_mass, 171., round_off);
+        check.relative("track beyond: ballast stiffness, MN/m", 1e-6 * p.layers.ballast_stiffness, 47.,
+                       round_off);
+        check.relative("track beyond: ballast damping, kN s/m", 1e-3 * p.layers.ballast_damping, 33.,
+                       round_off);
+      }
   }
 
 
@@ -1034,6 +1073,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_materials(check);
   check_plastic_zones(check);
   check_track(check, folder);
+  check_track_beyond(check, folder);
   check_dips(check);
   check_bumps(check, folder);
   check_detail(check, folder);

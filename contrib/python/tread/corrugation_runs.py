@@ -92,6 +92,8 @@ class Scene:
             folder = os.path.join(self.results, f"modes-{round(1e3 * place)}")
             settings = {**self.settings, "Motion/Start (mm)": 1e3 * place, "Motion/Rolled distance (mm)": 10, "Damage/Record": "false",
                         "Mesh/Path cell (mm)": 0, "Mesh/Longest row (mm)": 60}
+            if known["Rail/Ends"] == "endless":
+                settings["Rail/Ends"] = "symmetric"  # waves that leave have no modes
             must_end_well(execute([*arguments_of(self.path, settings, folder), "--modes", "--up-to", f"{1.2 * highest:.0f}"], self.ranks))
             table = Run(folder).table("receptance.csv")
             complex_of = lambda body: table[f"{body}_magnitude_m_per_N"] * np.exp(1j * np.radians(table[f"{body}_phase_degrees"]))
@@ -135,6 +137,8 @@ class Scene:
             raise DataError(f"{self.path}: `tread --modes` has no frequencies of these waves")
         some = np.flatnonzero(looked_at)[::max(1, looked_at.sum() // 30)]
         track, compliance, left = fitted(track, (-0.5 * spacing, 0.), frequency[some], rail[:, some])
+        if known["Rail/Ends"] == "endless":
+            track = replace(track.endless(int(known["Rail/Spans beyond"])), stiffness_along=1e6 * number("Track/Stiffness along the rail (MN per m)"))
         load = number("Vehicle/Gravity (m per s2)") * (mass + number("Vehicle/Sprung mass (kg)"))
         contact = Contact(0.5e3 / number("Wheel/Radius (mm)"), 0.5 / crown, load, number("Contact/Friction coefficient"), -number("Motion/Creepage"),
                           young, poisson, half_width=self.half_width)

@@ -9,7 +9,7 @@ Implicit steps of Newmark's constant mean acceleration; the force follows from t
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,6 +29,8 @@ class Track:
     head: float = 91e-3  # of the rail over its neutral axis
     half_ends: bool = False  # the rail ends in the middle of a span, in planes of symmetry as those of the program; otherwise free, a span behind a support
     absorbing: float = 0.  # length of the damped part at each end, as 'Rail/Absorbing length (m)'
+    beyond: int = 0  # of the spans, at each end, that lie beyond the rail of cells with endless ends; their supports hold the rail along itself
+    stiffness_along: float = 40e6  # of each of them
     pad_stiffness: float = 1300e6
     pad_damping: float = 45e3
     sleeper_mass: float = 200.
@@ -39,6 +41,10 @@ class Track:
     def middle_support(self) -> float:
         """Its place from the rail's begin."""
         return self.spacing * (self.spans // 2 + (0.5 if self.half_ends else 0.))
+
+    def endless(self, beyond: int) -> Track:
+        """The same rail with so many spans more at each end, whose farther half absorbs: as 'Rail/Ends' endless, 'Spans beyond'."""
+        return replace(self, spans=self.spans + 2 * beyond, beyond=beyond, absorbing=0.5 * beyond * self.spacing)
 
     def damping_rate(self, place: float) -> float:
         """Damping force over mass and velocity, 1/s, of the absorbing ends (include/tread/track/rail_ends.h)."""
@@ -122,7 +128,7 @@ def answers(system: Beam | Bar, forces: np.ndarray, frequencies: np.ndarray | Se
 
 
 class Bar:
-    """Matrices of the rail along itself, which pads do not hold; in planes of symmetry it does not move."""
+    """Matrices of the rail along itself, which pads of the rail of cells do not hold; in planes of symmetry it does not move."""
 
     def __init__(self, track: Track):
         self.size = size = track.spacing / track.elements
@@ -137,6 +143,9 @@ class Bar:
         if track.half_ends:
             for end in (0, self.n - 1):
                 self.stiffness[end, end] += 1e3 * self.stiffness[1, 1]
+        for span in range(track.beyond):
+            for node in (track.elements // 2 + span * track.elements, self.n - 1 - track.elements // 2 - span * track.elements):
+                self.stiffness[node, node] += track.stiffness_along
 
     def shape(self, x: float) -> tuple[slice, np.ndarray]:
         """The two entries that a force at x from the rail's begin acts on, and its shares."""
