@@ -41,14 +41,14 @@ namespace tread
     /// @param heat whose interval is the time in which an element passes
     SurfacePlace passage_of(const std::vector<PatchNode> &row,
                             const double                  spacing,
-                            const SurfaceHeat            &heat,
+                            const reference::SurfaceHeat &heat,
                             const WearLaw                *wear,
                             const double                  heat_share,
                             const double                  effusivity)
     {
-      const double        time = heat.interval();
-      SurfaceHeat::Memory memory{};
-      SurfacePlace        place{};
+      const double                   time = heat.interval();
+      reference::SurfaceHeat::Memory memory{};
+      SurfacePlace                   place{};
       place.y        = row.front().position[1];
       place.passages = 1.;
       double entered = row.front().position[0];
@@ -88,8 +88,8 @@ namespace tread
     const auto                rows = rows_of(elements);
     if (rows.empty())
       return places;
-    const double      spacing = spacing_of(rows);
-    const SurfaceHeat heat(spacing / speed);
+    const double                 spacing = spacing_of(rows);
+    const reference::SurfaceHeat heat(spacing / speed);
     for (const std::vector<PatchNode> &row : rows)
       places.push_back(passage_of(row, spacing, heat, wear, heat_share, effusivity));
     return places;

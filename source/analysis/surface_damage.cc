@@ -35,6 +35,11 @@ namespace tread
         }
       return area;
     }
+
+    /// Looks. What comes back within as long as ten cells take to pass has come into contact once.
+    constexpr std::uint64_t in_contact = 40;
+    /// Looks after which no place is in the patch any more in which it was heated.
+    constexpr std::uint64_t behind_patch = 400;
   } // namespace
 
 
@@ -103,7 +108,7 @@ namespace tread
     });
     // All looks are as many steps apart.
     if (!heat)
-      heat = std::make_unique<SurfaceHeat>(steps_since_look * time_step);
+      heat = std::make_unique<reference::SurfaceHeat>(steps_since_look * time_step);
     steps_since_look = 0;
     heat_up();
   }
@@ -111,10 +116,8 @@ namespace tread
 
   void SurfaceDamage::note_contact(Node &node) const
   {
-    // At the sides of the patch the wheel's nodes are now under a pair and now not: what comes back within as
-    // long as ten cells take to pass has come into contact once.
-    constexpr std::uint64_t together = 40; // looks
-    node.passages += node.loaded_until == 0 || looks - node.loaded_until > together;
+    // At the sides of the patch the wheel's nodes are now under a pair and now not.
+    node.passages += node.loaded_until == 0 || looks - node.loaded_until > in_contact;
     node.loaded_until = looks;
   }
 
@@ -144,11 +147,49 @@ namespace tread
         const unsigned int body = contact.surfaces.nodes[i].body;
         if (here.until + 1 < looks)
           heat->rest(here.memory, (looks - 1 - here.until) * heat->interval());
-        here.until        = looks;
-        const double flux = share_of(body) * energy / (area[i] * heat->interval());
-        nodes[i].temperature =
-          std::max(nodes[i].temperature, heat->flow(here.memory, flux) / effusivity_of(body));
+        here.until           = looks;
+        const double flux    = share_of(body) * energy / (area[i] * heat->interval());
+        here.rise            = heat->flow(here.memory, flux) / effusivity_of(body);
+        nodes[i].temperature = std::max(nodes[i].temperature, here.rise);
       }
+    share_rises();
+  }
+
+
+  void SurfaceDamage::vary_friction(std::function<double(double)> factor)
+  {
+    rises.assign(nodes.size(), 0.);
+    contact.vary_friction_with_node(
+      [this, factor = std::move(factor)](const unsigned int node) { return factor(rises[node]); });
+  }
+
+
+  void SurfaceDamage::share_rises()
+  {
+    if (rises.empty())
+      return;
+    struct Rise
+    {
+      unsigned int node;
+      double       kelvin;
+    };
+    std::vector<Rise> of_rank;
+    for (const auto &[i, here] : hot)
+      if (contact.surfaces.nodes[i].body == slave_body && looks < here.until + behind_patch)
+        {
+          double rise = here.rise;
+          if (here.until < looks) // it adheres now, and cools
+            {
+              reference::SurfaceHeat::Memory memory = here.memory;
+              heat->rest(memory, (looks - 1 - here.until) * heat->interval());
+              rise = heat->flow(memory, 0.) / effusivity_of(slave_body);
+            }
+          of_rank.push_back({i, rise});
+        }
+    std::fill(rises.begin(), rises.end(), 0.);
+    for (const Rise &rise : gathered(of_rank, contact.surfaces.comm))
+      rises[rise.node] = rise.kelvin;
+    contact.renew_friction();
   }
 
 
@@ -216,6 +257,7 @@ namespace tread
   {
     contact.hand_over_record();
     hot.clear();
+    std::fill(rises.begin(), rises.end(), 0.);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
         nodes[i].heat         = 0.;
@@ -263,6 +305,9 @@ namespace tread
     double interval = heat ? heat->interval() : 0.;
     archive.same(steps_since_look, looks, interval);
     if (archive.restores() && interval > 0.)
-      heat = std::make_unique<SurfaceHeat>(interval);
+      {
+        heat = std::make_unique<reference::SurfaceHeat>(interval);
+        share_rises();
+      }
   }
 } // namespace tread

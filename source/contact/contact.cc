@@ -302,11 +302,19 @@ namespace tread
     if (given_tractions)
       for (const ContactProblem::Constraint &constraint : problem.constraints)
         given_ratio.push_back(given_tractions(surfaces.nodes[constraint.slave].reference));
-    pair_friction.factor.clear();
-    if (friction_factor)
-      for (const ContactProblem::Constraint &constraint : problem.constraints)
-        pair_friction.factor.push_back(friction_factor(surfaces.nodes[constraint.slave].reference));
+    renew_friction();
     make_room();
+  }
+
+
+  void Contact::renew_friction()
+  {
+    pair_friction.factor.clear();
+    if (friction_factor || friction_factor_of_node)
+      for (const ContactProblem::Constraint &constraint : problem.constraints)
+        pair_friction.factor.push_back(
+          (friction_factor ? friction_factor(surfaces.nodes[constraint.slave].reference) : 1.) *
+          (friction_factor_of_node ? friction_factor_of_node(constraint.slave) : 1.));
   }
 
 

@@ -2,6 +2,7 @@
 #include "slip_friction.h"
 
 #include <tread/reference/errors.h>
+#include <tread/reference/surface_heat.h>
 
 #include "require.h"
 
@@ -45,6 +46,28 @@ namespace tread::reference
       return share;
     }
 
+    /// What is left of the coefficient at each element by the temperature of the surface that passes it, for
+    /// shear stresses (Pa) and slip speeds (m/s) on the full grid. It enters cold at the leading edge.
+    std::vector<double> shares(const Grid                   &grid,
+                               const std::vector<double>    &shear,
+                               const std::vector<double>    &slip,
+                               const Friction::HeatFriction &law,
+                               const double                  speed)
+    {
+      const SurfaceHeat   heat(grid.dx / speed);
+      std::vector<double> share(grid.size());
+      for (unsigned int j = 0; j < grid.n_y; ++j)
+        {
+          SurfaceHeat::Memory memory{};
+          for (unsigned int i = grid.n_x; i-- > 0;)
+            {
+              const std::size_t e = std::size_t(j) * grid.n_x + i;
+              share[e] = law.factor(heat.flow(memory, law.heat_share * shear[e] * slip[e]) / law.effusivity);
+            }
+        }
+      return share;
+    }
+
     /// How much the slip of an element changes friction, over the change of friction that this slip follows
     /// from: far above 1 a patch of such elements sticks and slips in turns and has no steady state. Slip of
     /// an element grows by about its shear stress over the shear modulus.
@@ -79,25 +102,28 @@ namespace tread::reference
                                          const Friction            &friction,
                                          const double               speed)
   {
+    // By place and pressure, which are known.
+    constexpr double    least_share = 1e-4; // the solver divides by the bound
+    std::vector<double> known(grid.size(), 1.);
     if (!friction.slip_friction)
-      {
-        problem.friction_share.clear();
-        constexpr double least = 1e-4; // the solver divides by the bound
-        for (std::size_t e = 0; e < pressure.size(); ++e)
-          problem.friction_share.push_back(std::max(
-            least, friction.friction_factor(grid.x(e % grid.n_x), grid.y(e / grid.n_x), pressure[e])));
-        return solve_tangential(grid, pair, pressure, problem);
-      }
+      for (std::size_t e = 0; e < known.size(); ++e)
+        known[e] = std::max(
+          least_share, friction.friction_factor(grid.x(e % grid.n_x), grid.y(e / grid.n_x), pressure[e]));
+    problem.friction_share = known;
+    if (!friction.slip_friction && !friction.heat_friction)
+      return solve_tangential(grid, pair, pressure, problem);
     constexpr double       tolerance  = 1e-5;
     constexpr unsigned int most_turns = 200;
     // From 1 on the turns need small steps, and they lead nowhere from 3 on
     // (tests/reference/slip_friction.cc).
     constexpr double too_steep = 30.;
-    if (const double found = steepness(grid, pair.shear, *std::max_element(pressure.begin(), pressure.end()),
-                                       *friction.slip_friction, speed);
-        found > too_steep)
-      throw FrictionTooSteep("it falls " + std::to_string(std::lround(found)) +
-                             " times as steeply as the bodies can follow");
+    if (friction.slip_friction)
+      if (const double found =
+            steepness(grid, pair.shear, *std::max_element(pressure.begin(), pressure.end()),
+                      *friction.slip_friction, speed);
+          found > too_steep)
+        throw FrictionTooSteep("it falls " + std::to_string(std::lround(found)) +
+                               " times as steeply as the bodies can follow");
     // What does not come nearer by a half in so many turns needs more of them than there are.
     constexpr unsigned int patience = 30;
     constexpr double       nearer   = 0.5;
@@ -105,18 +131,25 @@ namespace tread::reference
     unsigned int           at_least = 0;
     // Halved when the turns go to and fro, as they do where a law is steep.
     double followed = 1., last_change = 1.;
-    problem.friction_share.assign(grid.size(), 1.);
     for (unsigned int turn = 0; turn < most_turns; ++turn)
       {
         const TangentialSolution solution = solve_tangential(grid, pair, pressure, problem);
-        std::vector<double>      slip(grid.size());
+        std::vector<double>      slip(grid.size()), shear(grid.size());
         for (std::size_t e = 0; e < grid.size(); ++e)
-          slip[e] = speed * std::hypot(solution.slip_x[e], solution.slip_y[e]);
-        const std::vector<double> wanted =
-          shares(grid, pressure, slip, *friction.slip_friction, problem.friction, speed);
+          {
+            slip[e]  = speed * std::hypot(solution.slip_x[e], solution.slip_y[e]);
+            shear[e] = std::hypot(solution.shear_x[e], solution.shear_y[e]);
+          }
+        std::vector<double> wanted =
+          friction.slip_friction
+            ? shares(grid, pressure, slip, *friction.slip_friction, problem.friction, speed)
+            : shares(grid, shear, slip, *friction.heat_friction, speed);
         double change = 0.;
         for (std::size_t e = 0; e < grid.size(); ++e)
-          change = std::max(change, std::abs(wanted[e] - problem.friction_share[e]));
+          {
+            wanted[e] = std::max(least_share, known[e] * wanted[e]);
+            change    = std::max(change, std::abs(wanted[e] - problem.friction_share[e]));
+          }
         if (change <= tolerance)
           return solution;
         if (change < nearer * least)
@@ -138,7 +171,8 @@ namespace tread::reference
         if (problem.prescribe_lateral_force)
           problem.lateral = solution.lateral;
       }
-    throw FrictionTooSteep("friction and slip do not settle");
+    throw FrictionTooSteep(friction.slip_friction ? "friction and slip do not settle"
+                                                  : "friction and temperature do not settle");
   }
 
 
@@ -147,9 +181,16 @@ namespace tread::reference
     require(std::isfinite(friction.friction) && friction.friction >= 0., "friction", friction.friction,
             "a number >= 0");
     require(friction.is_coulomb() || pair.coupling == 0.,
-            "slip_friction, pressure_factor or place_factor with coupling", pair.coupling,
+            "slip_friction, pressure_factor, place_factor or heat_friction with coupling", pair.coupling,
             "that of like bodies, 0");
-    require(!friction.slip_friction || (!friction.pressure_factor && !friction.place_factor),
-            "pressure_factor or place_factor", 1., "none with slip_friction");
+    require(!friction.slip_friction ||
+              (!friction.pressure_factor && !friction.place_factor && !friction.heat_friction),
+            "pressure_factor, place_factor or heat_friction", 1., "none with slip_friction");
+    if (const auto &heat = friction.heat_friction)
+      {
+        require(heat->heat_share >= 0. && heat->heat_share <= 1., "heat_share", heat->heat_share,
+                "from 0 to 1");
+        require_positive("effusivity", heat->effusivity, "J/(m^2 K sqrt(s))");
+      }
   }
 } // namespace tread::reference

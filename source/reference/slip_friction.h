@@ -11,7 +11,8 @@ namespace tread::reference
   /// in turn with the slip, from that of the static coefficient down, until no coefficient changes by more
   /// than 1e-5 of it. Where a law falls so steeply that there are several answers, this is the one with the
   /// least slip that the turns find.
-  /// Friction that depends on the pressure is known with it.
+  /// Friction that depends on the pressure or the place is known with it; with the temperature it is found in
+  /// the same way.
   /// @param speed of rolling [m/s]
   /// @pre !friction.is_coulomb() Throws FrictionTooSteep if the turns do not settle.
   TangentialSolution solve_with_friction(const Grid                &grid,

@@ -71,6 +71,7 @@ namespace tread
               " km/h makes an inertia error of about " + text_of(100. * inertia_error_estimate()) +
               " %; at most " + text_of(100. * largest_inertia_error) + " % is allowed");
     contact.check();
+    check_friction_by_temperature();
     motion.check();
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     check_suspension();
@@ -392,6 +393,20 @@ namespace tread
             "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
             "wheel's circumference, " +
               text_in_mm(longest_sector()) + ", where 'Wheelset' has a position");
+  }
+
+
+  void Scene::check_friction_by_temperature() const
+  {
+    if (contact.temperatures.empty())
+      return;
+    const std::string name = "'Contact/Friction temperatures (C)' needs ";
+    require(damage.record, name + "'Damage/Record' true, which finds the temperatures");
+    require(!damage.wheel_share,
+            name +
+              "'Damage/Heat share of the wheel' automatic, with which both surfaces have one temperature");
+    require(friction_law()->is_constant(),
+            name + "'Contact/Friction law' Coulomb: slip and heat would make friction fall twice");
   }
 
 

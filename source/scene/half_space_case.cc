@@ -3,6 +3,7 @@
 #include <tread/reference/errors.h>
 #include <tread/reference/fatigue.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,13 @@ namespace tread
       c.pressure_factor = [contact = scene.contact](const double p) {
         return contact.pressure_factor(p);
       };
+    if (!scene.contact.temperatures.empty())
+      {
+        const SurfaceDamageParameters heat = surface_damage_parameters(scene);
+        c.heat_friction =
+          std::make_shared<const reference::Friction::HeatFriction>(reference::Friction::HeatFriction{
+            factor_by_rise(scene), 1. - heat.master_share, heat.slave_effusivity});
+      }
     if (!law->is_constant())
       c.slip_friction = std::make_shared<const reference::Friction::SlipFriction>(
         reference::Friction::SlipFriction{[=](const double s) { return factor * law->coefficient(s); },
@@ -95,6 +103,7 @@ namespace tread
     const std::string places = "'Contact/Friction across (mm)' or 'Friction inclinations (deg)'";
     for (const auto &[is_given, name] :
          {std::pair(bool(c.pressure_factor), std::string("'Contact/Friction pressures (MPa)'")),
+          std::pair(bool(c.heat_friction), std::string("'Contact/Friction temperatures (C)'")),
           std::pair(bool(c.place_factor), places)})
       {
         if (is_given && reference::combine(c.wheel, c.rail).coupling != 0.)
@@ -120,7 +129,7 @@ namespace tread
       }
     catch (const std::exception &error)
       {
-        if (c.prescribe_force && (c.pressure_factor || c.place_factor))
+        if (c.prescribe_force && (c.pressure_factor || c.place_factor || c.heat_friction))
           throw InputError(traction +
                            " is beyond what the factors of section 'Contact' on the friction "
                            "coefficient leave, or too near to it: lower it (" +

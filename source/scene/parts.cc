@@ -176,6 +176,18 @@ namespace tread
   }
 
 
+  std::function<double(double)> factor_by_rise(const Scene &scene)
+  {
+    const SurfaceDamageParameters p      = surface_damage_parameters(scene);
+    const double                  before = (p.slave_effusivity * scene.damage.rail_temperature +
+                           p.master_effusivity * scene.damage.wheel_temperature) /
+                          (p.slave_effusivity + p.master_effusivity);
+    return [contact = scene.contact, before](const double rise) {
+      return contact.temperature_factor(before + rise);
+    };
+  }
+
+
   PeakRegion peak_region(const Scene &scene, const unsigned int body)
   {
     // This far from the middle of a patch, half a semi-axis from its edge, no stress is as large as under it.

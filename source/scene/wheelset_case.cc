@@ -146,14 +146,15 @@ namespace tread
     require(motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
     contact.check();
+    check_friction_by_temperature();
     check_slices();
     check_other_wheel();
     const WheelRolling rolling = wheel_rolling(*this, path_begin());
     require(
       (rolling.is_coulomb() && !contact.varies_across()) ||
         reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
-      "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)', 'Friction across (mm)' and "
-      "'Friction inclinations (deg)' empty where 'Wheelset' has a position and wheel and rail are of "
+      "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)', 'Friction temperatures (C)', "
+      "'Friction across (mm)' and 'Friction inclinations (deg)' empty where 'Wheelset' has a position and wheel and rail are of "
       "unlike materials: half-space theory has no answer");
     require(
       !rolling.slip_friction || (!rolling.pressure_factor && !contact.varies_across()),

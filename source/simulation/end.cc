@@ -231,7 +231,8 @@ namespace tread
     // Where friction falls with slip, a force belongs to several creepages; where it depends on the pressure,
     // forces do not tell how near to sliding a patch is.
     const bool by_creepage = all_slips || !scene.friction_law()->is_constant() ||
-                             !scene.contact.friction_pressures.empty() || scene.contact.varies_across();
+                             !scene.contact.friction_pressures.empty() ||
+                             !scene.contact.temperatures.empty() || scene.contact.varies_across();
     reference::RollingCase c = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
     c.prescribe_force        = !by_creepage;
     c.creepage               = -answer.creepage;
@@ -734,9 +735,10 @@ namespace tread
                rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
     constexpr double large_loss = 0.02;
     if (const double loss = energy.of_dissipated(energy.window); std::abs(loss) > large_loss)
-      warnings.push_back(format("the changes of the window of fine cells %s %.1f %% of what was dissipated: a larger "
-                                "'Mesh/Window margin (mm)' or 'Window length (mm)', or 'Scene/Density scale' 1",
-                                loss > 0. ? "took" : "gave", 100. * std::abs(loss)));
+      warnings.push_back(
+        format("the changes of the window of fine cells %s %.1f %% of what was dissipated: a larger "
+               "'Mesh/Window margin (mm)' or 'Window length (mm)', or 'Scene/Density scale' 1",
+               loss > 0. ? "took" : "gave", 100. * std::abs(loss)));
     add_damage(summary, folder, warnings);
     const std::string stresses       = add_recorded(summary, folder) + add_peaks(summary, folder, warnings);
     const std::string grown          = add_growth(summary, warnings);

@@ -135,6 +135,8 @@ namespace tread
       make_growth();
     if (scene.damage.record)
       damage = std::make_unique<SurfaceDamage>(contact, rail_body, surface_damage_parameters(scene));
+    if (!scene.contact.temperatures.empty())
+      damage->vary_friction(factor_by_rise(scene));
     if (const auto points = scene.recorded_cells(); !points.empty())
       try
         {

@@ -175,6 +175,8 @@ namespace tread
         why = "'Contact/Friction law' " + scene.contact.friction_law + " depends on the slip";
       else if (transient.rolling.pressure_factor)
         why = "'Contact/Friction pressures (MPa)' are given";
+      else if (transient.rolling.heat_friction)
+        why = "'Contact/Friction temperatures (C)' are given";
       else if (transient.rolling.place_factor)
         why = "'Contact/Friction across (mm)' or 'Friction inclinations (deg)' are given";
       else if (scene.contact.friction_varies(scene.path_begin() - half_length,

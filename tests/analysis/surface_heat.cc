@@ -2,9 +2,9 @@
 // Heat that flows into a half-space, and the laws of wear, against closed forms.
 #include <tread/analysis/archard_map_wear.h>
 #include <tread/analysis/archard_wear.h>
-#include <tread/analysis/surface_heat.h>
 #include <tread/analysis/work_wear.h>
 #include <tread/reference/fatigue.h>
+#include <tread/reference/surface_heat.h>
 
 #include "check.h"
 
@@ -26,10 +26,10 @@ namespace
 
   void constant_flux(tests::Check &check)
   {
-    const double        interval = 3e-6;
-    const SurfaceHeat   heat(interval);
-    SurfaceHeat::Memory memory{};
-    double              worst = 0., late = 0.;
+    const double                   interval = 3e-6;
+    const reference::SurfaceHeat   heat(interval);
+    reference::SurfaceHeat::Memory memory{};
+    double                         worst = 0., late = 0.;
     for (unsigned int n = 1; n <= 200000; ++n)
       {
         const double off           = std::abs(heat.flow(memory, 1.) / pulse(n * interval, 1e9) - 1.);
@@ -42,9 +42,9 @@ namespace
 
   void band(tests::Check &check)
   {
-    const double        interval = 1e-5, end = 40 * interval;
-    const SurfaceHeat   heat(interval);
-    SurfaceHeat::Memory flowing{}, resting{};
+    const double                   interval = 1e-5, end = 40 * interval;
+    const reference::SurfaceHeat   heat(interval);
+    reference::SurfaceHeat::Memory flowing{}, resting{};
     for (unsigned int n = 0; n < 40; ++n)
       {
         heat.flow(flowing, 2.);
@@ -78,9 +78,9 @@ namespace
           sum += 2. * ds * flux(t - std::pow((i + 0.5) * ds, 2));
         exact = std::max(exact, sum / std::sqrt(pi));
       }
-    const SurfaceHeat   heat(interval);
-    SurfaceHeat::Memory memory{};
-    double              largest = 0.;
+    const reference::SurfaceHeat   heat(interval);
+    reference::SurfaceHeat::Memory memory{};
+    double                         largest = 0.;
     for (unsigned int k = 0; k < n; ++k)
       largest = std::max(largest, heat.flow(memory, flux((k + 0.5) * interval)));
     check.relative("semicircle of flux: largest rise", largest, exact, 1.5e-3); // 60 intervals

@@ -111,10 +111,10 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
                -rolling.traction_coefficient < 0.25 && -rolling.traction_coefficient > 0.15);
   }
 
-  // Friction that is another one at each side: what slides carries the mean, and the same everywhere is another
-  // coefficient. Along the way only the factor of the own place counts.
+  // Friction that is another one at each side: what slides carries the mean, and the same everywhere is
+  // another coefficient. Along the way only the factor of the own place counts.
   {
-    RollingCase c  = locomotive(0.05, 0.33);
+    RollingCase c = locomotive(0.05, 0.33);
     // Odd about the middle, so that elements on it count half.
     const auto share = [](const double place) {
       constexpr double width = 1e-3; // m
@@ -140,6 +140,63 @@ void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
     };
     check.relative("factors of place and pressure multiply", solve_rolling(half).traction_coefficient,
                    solve_rolling(locomotive(0.0016, 0.33)).traction_coefficient, 1e-6);
+  }
+
+  // Friction that falls with the temperature to which it heats the surface: each element that slips has the
+  // coefficient of its temperature, by the sum over what was felt before (Carslaw and Jaeger 1959, section
+  // 2.9), and heat that changes nothing changes nothing.
+  {
+    RollingCase      c     = locomotive(0.02, 0.33);
+    constexpr double share = 0.4, effusivity = 12500., hot = 300.; // -, J/(m^2 K sqrt(s)), K
+    c.speed         = 30.;
+    const auto with = [&](const std::function<double(double)> &factor) {
+      c.heat_friction =
+        std::make_shared<RollingCase::HeatFriction>(RollingCase::HeatFriction{factor, share, effusivity});
+      return solve_rolling(c);
+    };
+    const auto factor = [](const double rise) {
+      return 1. / (1. + rise / hot);
+    };
+    for (const double creepage : {0.0016, 0.02})
+      {
+        c.creepage                = creepage;
+        const RollingResult r     = with(factor);
+        double              worst = 0., hottest = 0.;
+        for (unsigned int j = 0; j < r.n_y; ++j)
+          {
+            std::vector<double> flux; // from the leading edge on
+            for (unsigned int i = r.n_x; i-- > 0;)
+              {
+                const std::size_t e     = std::size_t(j) * r.n_x + i;
+                const double      shear = std::hypot(r.shear_x[e], r.shear_y[e]);
+                flux.push_back(shear * std::hypot(r.slip_x[e], r.slip_y[e]));
+                double rise = 0.;
+                for (std::size_t k = 0; k < flux.size(); ++k)
+                  {
+                    const double since = r.element_size / c.speed * (flux.size() - k);
+                    rise += 2. * share * flux[k] / (effusivity * std::sqrt(M_PI)) *
+                            (std::sqrt(since) - std::sqrt(since - r.element_size / c.speed));
+                  }
+                hottest = std::max(hottest, rise);
+                if (r.state[e] == ElementState::slip)
+                  worst = std::max(worst, std::abs(shear / (0.33 * r.pressure[e]) - factor(rise)));
+              }
+          }
+        check.below("falls with temperature, creepage " + std::to_string(creepage) +
+                      ": coefficient off its law",
+                    worst, 1e-5);
+        check.that("it gets hot", hottest > (creepage > 0.01 ? 50. : 3.));
+      }
+    c.creepage        = 0.0016;
+    const double half = with([](const double) { return 0.5; }).traction_coefficient;
+    check.relative("the same at any temperature", half,
+                   solve_rolling([&] {
+                     RollingCase other = locomotive(0.0016, 0.165);
+                     other.speed       = c.speed;
+                     return other;
+                   }())
+                     .traction_coefficient,
+                   1e-6);
   }
 
   // Square elements of 0.29 mm beside 0.289 x 0.63 mm there, and printed with four digits.

@@ -110,6 +110,14 @@ PAIRS = [
     (BAR + ["Rail/Ends=endless", "Track/Pads pull=false"], ["Rail/Ends", "Track/Pads pull", "linear"]),
     (BAR + ["Rail/Ends=endless", "Rail/Begin (mm)=-3630", "Rail/Length (mm)=7200", "Motion/Start (mm)=-3400"], ["Rail/Ends", "230 mm of an end", "300 mm"]),
     (BAR + ["Rail/Ends=endless", "Rail/Spans beyond=3"], ["Rail/Spans beyond", "4"]),
+    (["Contact/Friction temperatures (C)=20,300", "Contact/Friction temperature factors=1,0.5"], ["Contact/Friction temperatures (C)", "Damage/Record"]),
+    (["Contact/Friction temperatures (C)=20,300", "Contact/Friction temperature factors=1,0.5", "Damage/Record=true", "Damage/Heat share of the wheel=0.5"],
+     ["Contact/Friction temperatures (C)", "Damage/Heat share of the wheel", "automatic"]),
+    (["Contact/Friction temperatures (C)=20,300", "Contact/Friction temperature factors=1,0.5", "Damage/Record=true", "Contact/Friction law=falling"],
+     ["Contact/Friction temperatures (C)", "Contact/Friction law"]),
+    (["Contact/Friction temperatures (C)=300,20", "Contact/Friction temperature factors=1,0.5", "Damage/Record=true"], ["Contact/Friction temperatures (C)", "300", "below 20"]),
+    (["Contact/Friction temperatures (C)=20", "Contact/Friction temperature factors=1,0.5", "Damage/Record=true"], ["Contact/Friction temperatures (C)", "1 entries", "2"]),
+    (["Contact/Friction temperatures (C)=20,1600", "Contact/Friction temperature factors=1,0.5", "Damage/Record=true"], ["Contact/Friction temperatures (C)", "1600", "1500"]),
     (BAR + ["Output/Supports=0,17"], ["Output/Supports", "17"]),
     (BAR + ["Track/Sleepers=solid", "Track/Sleeper length (m)=1.2"], ["Track/Sleeper length (m)", "Rail distance"]),
     (BAR + ["Track/Points across=1", "Rail/Crown radius (mm)=100"], ["Track/Points across", "at least 2", "tips over", "150 mm"]),
@@ -342,7 +350,7 @@ with tempfile.TemporaryDirectory() as folder:
     unused = {"Defect/Depth (mm)=3": "Defect/Shape", "Track/Pad stiffness (MN per m)=100": "Track/Foundation", "Wheel/Bore radius (mm)=90": "Wheel/Shape",
               "Rail/Tangent modulus (GPa)=10": "Rail/Yield stress (MPa)", "Contact/Friction memory (mm)=1": "Contact/Friction law",
               "Wheelset/Track gauge (mm)=1400": "Wheelset/Lateral shift (mm)", "Peak stress/To (mm)=5": "Peak stress/Region", "Rail/Absorbing length (m)=1": "Track/Foundation",
-              "Rail/Spans beyond=8": "Rail/Ends", "Track/Stiffness along the rail (MN per m)=50": "Rail/Ends",
+              "Rail/Spans beyond=8": "Rail/Ends", "Damage/Rail temperature (C)=30": "Contact/Friction temperatures (C)", "Track/Stiffness along the rail (MN per m)=50": "Rail/Ends",
               "Mesh/Longest row (mm)=30": "Rail/Shape", "Vehicle/Sprung mass (kg)=9000": "Vehicle/Wheel load (kN)", "Wheel/Tangent modulus (GPa)=10": "Wheel/Hardening",
               "Contact/Least speed of memory (m per s)=0.1": "Contact/Friction law"}
     settings = [text for setting in [*unused, "Guidance/File=", "Vehicle/Wheel load (kN)=140", "Wheel/Yield stress (MPa)=500", "Wheel/Hardening=Armstrong-Frederick", "Wheel/Backstress moduli (GPa)=10", "Wheel/Backstress recoveries=100", "Motion/Hold distance (mm)=15.0"] for text in ("-s", setting)]

@@ -102,6 +102,25 @@ with tempfile.TemporaryDirectory() as folder:
                    1.6 * math.sqrt(7850 / 7000), 2e-3)
     check.relative("and a fifth into the wheel", columns(path("shared"), WHEEL)["max_flash_temperature_K"].max() / wheel["max_flash_temperature_K"].max(), 0.4, 2e-3)
 
+    # Friction that falls with the temperature: from 0.3 at 20 degrees to a third of it at 320, so that it heats less. Beside half-space theory at the same creepage.
+    falls = ["Contact/Friction temperatures (C)=20,320", "Contact/Friction temperature factors=1,0.3333333333"]
+    cooler = run(program, HEAT, path("falls"), [*COARSE, "Motion/Rolled distance (mm)=24", *falls])
+    of_theory = run(program, HEAT, path("falls line"), falls, more=["--reference-only"])
+    check.relative("falling friction: traction beside half-space theory", cooler["traction_coefficient"], of_theory["traction_coefficient"], 4e-3)
+    check.relative("falling friction: flash temperature of the rail, K", columns(path("falls"), RAIL)["max_flash_temperature_K"].max(),
+                   columns(path("falls line"), RAIL)["max_flash_temperature_K"].max(), 0.01)
+    check.relative("and the comparison of the run itself", cooler["reference"]["traction_coefficient"]["half-space"]["value"], of_theory["traction_coefficient"], 4e-3)
+    # In full sliding each place has the coefficient of its temperature: a third less at 100 K.
+    check.that("it carries less, by what the heat leaves", 0.17 < abs(cooler["traction_coefficient"]) < 0.23)
+    # A wheel that comes warm to a cold rail: what counts is the mean, of steels with unlike effusivities nearer to that of the larger one.
+    unlike = ["Rail/Density (kg per m3)=5000", "Damage/Rail temperature (C)=80", "Damage/Wheel temperature (C)=-20"]
+    warm = run(program, HEAT, path("warm"), [*unlike, *falls], more=["--reference-only"])
+    mean = (math.sqrt(5000.) * 80. - math.sqrt(7850.) * 20.) / (math.sqrt(5000.) + math.sqrt(7850.))
+    alike = run(program, HEAT, path("alike"), [unlike[0], f"Damage/Rail temperature (C)={mean:.9f}", f"Damage/Wheel temperature (C)={mean:.9f}", *falls], more=["--reference-only"])
+    check.relative("unlike temperatures: traction of their mean", warm["traction_coefficient"], alike["traction_coefficient"], 1e-6)
+    other = run(program, HEAT, path("other"), [unlike[0], "Damage/Rail temperature (C)=-20", "Damage/Wheel temperature (C)=80", *falls], more=["--reference-only"])
+    check.that("and not of the mean the other way round", abs(other["traction_coefficient"] / warm["traction_coefficient"] - 1.) > 0.01)
+
     # By half-space theory alone: a row for each line along the path.
     for scene, name in ((WEAR, "line"), (HEAT, "hot line")):
         run(program, scene, path(name), more=["--reference-only"])

@@ -158,6 +158,77 @@ namespace
                    2e-4);
   }
 
+  /// What a section of cells that is displaced as a whole does to the track beyond it, and the other way
+  /// round.
+  void check_coupling(tests::Check &check)
+  {
+    const TrackBeyondBoth both = beyond(points());
+    tests::TrackRail      rail(MPI_COMM_SELF, tests::bar(3, 12), 3, points(), with_gravity(0.), {});
+    auto                 &part = rail.dynamics->add<RailOnTrackBeyond>(0, tests::steel(), *both);
+    const double          EA = 210e9 * .06 * .15, about_z = .15 * std::pow(.06, 3) / 12., small = 1e-5;
+    // The shear coefficient that the cells' section has.
+    std::vector<Corners> quads;
+    for (int i = -1; i < 1; ++i)
+      for (int j = 0; j < 6; ++j)
+        quads.push_back(box(.03 * i, .03 * (i + 1), .025 * j, .025 * (j + 1)));
+    reference::BeamSection section = rail.section;
+    section.shear_stiffness =
+      rail_section_properties(quads).shear_coefficient * tests::steel().shear_modulus() * .06 * .15;
+    TrackBeyond one(section, EA, (*both)[0]);
+    const auto  displaced = [&](const auto &by) {
+      State state = rail.dynamics->state;
+      for (unsigned int i = 0; i < rail.mesh->nodes.size(); ++i)
+        state.x_damped[i] += small * by(rail.mesh->nodes[i]);
+      return state;
+    };
+    const auto check_both = [&](const std::string &name, const auto &by, const double energy) {
+      const State state = displaced(by);
+      part.set_at_rest(state);
+      check.relative(name + ": energy of both ends (J)", part.spring_energy(), 2. * energy, 1e-6);
+      NodalField force(rail.mesh->nodes.size(), Vector3{});
+      part.add_forces(force);
+      double work = 0.;
+      for (unsigned int i = 0; i < force.size(); ++i)
+        work -= .5 * small * dot(force[i], by(rail.mesh->nodes[i]));
+      check.relative(name + ": work of the forces on the nodes (J)", work, 2. * energy, 1e-6);
+    };
+    const auto energy_of = [&](const TrackBeyond::AtSection &at) {
+      one.set_at_rest(at);
+      return one.spring_energy();
+    };
+    check_both(
+      "section along the rail",
+      [](const dealii::Point<3> &) {
+        return Vector3{1., 0., 0., 0.};
+      },
+      energy_of({small, 0., 0.}));
+    check_both(
+      "section up",
+      [](const dealii::Point<3> &) {
+        return Vector3{0., 0., 1., 0.};
+      },
+      energy_of({0., small, 0.}));
+    check_both(
+      "section turned across",
+      [](const dealii::Point<3> &p) {
+        return Vector3{.075 + p[2], 0., 0., 0.};
+      },
+      energy_of({0., 0., small}));
+    // Up and turned at the end of highest x as outwards, at the other one the other way round.
+    check_both(
+      "section up and turned outwards",
+      [](const dealii::Point<3> &p) {
+        return Vector3{(p[0] > 0. ? -1. : 1.) * (.075 + p[2]), 0., 1., 0.};
+      },
+      energy_of({0., small, small}));
+    check_both(
+      "section turned about the vertical",
+      [](const dealii::Point<3> &p) {
+        return Vector3{p[1], 0., 0., 0.};
+      },
+      .5 * 2. * std::sqrt(3.) * 210e9 * about_z / tests::spacing * small * small);
+  }
+
   /// Energy in the cells over what it was, when longitudinal waves would have come back.
   double left_of_pulse(const TrackBeyondBoth &goes_on)
   {
@@ -277,6 +348,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
     }
   check_sections(check);
   check_at_rest(check);
+  check_coupling(check);
 
   // The same beam on 45 supports.
   const tests::RailForTrack bar = tests::bar(5, 12);
@@ -304,6 +376,11 @@ void run_test(tests::Check &check, const tests::Arguments &)
   // Nothing comes back from the ends of 61 spans while the record counts, 20 ms at a decay of 200 1/s.
   const tests::Receptance endless = strike(61, {}), symmetric = strike(5, {}),
                           five = strike(5, beyond(points()));
+  // Waves come back from the far end of so few spans, but for what is absorbed there.
+  TrackBeyondBoth few = beyond(points());
+  (*few)[0].n_spans = (*few)[1].n_spans = 8;
+  check.below("eight spans beyond, 30 to 2000 Hz: share of the energy that comes back (%)",
+              reflected(strike(5, few), endless, 30., 2000.), 6e-3);
   struct Band
   {
     double from, to, limit; ///< Hz, %

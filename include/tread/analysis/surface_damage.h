@@ -2,12 +2,13 @@
 #ifndef tread_analysis_surface_damage_h
 #define tread_analysis_surface_damage_h
 
-#include <tread/analysis/surface_heat.h>
 #include <tread/analysis/wear_law.h>
 #include <tread/base/archive.h>
 #include <tread/contact/contact.h>
+#include <tread/reference/surface_heat.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -53,6 +54,10 @@ namespace tread
   public:
     SurfaceDamage(Contact &contact, unsigned int slave_body, const SurfaceDamageParameters &parameters);
 
+    /// Have friction depend on the temperature: a factor of its coefficient at a rise of it (K), as it was at
+    /// the last look.
+    void vary_friction(std::function<double(double)> factor);
+
     /// To be called after each step. Collective.
     void add_step(double time_step);
 
@@ -82,8 +87,9 @@ namespace tread
     };
     struct Hot
     {
-      SurfaceHeat::Memory memory{};
-      std::uint64_t       until = 0; ///< look until which the memory is kept
+      reference::SurfaceHeat::Memory memory{};
+      std::uint64_t                  until = 0;  ///< look until which the memory is kept
+      double                         rise  = 0.; ///< then, K
     };
     struct Stored
     {
@@ -93,10 +99,12 @@ namespace tread
       Hot          hot;
     };
 
-    void   take(const PairRecord &record);
-    void   look(double time_step);
-    void   note_contact(Node &node) const;
-    void   heat_up();
+    void take(const PairRecord &record);
+    void look(double time_step);
+    void note_contact(Node &node) const;
+    void heat_up();
+    /// Tell all ranks how hot the slave nodes are, if friction is to know. Collective.
+    void   share_rises();
     double share_of(unsigned int body) const
     {
       return body == slave_body ? 1. - parameters.master_share : parameters.master_share;
@@ -108,15 +116,16 @@ namespace tread
     /// Nodes with sums and the rest complete, on all ranks. Collective.
     std::vector<Node> complete();
 
-    Contact                     &contact;
-    unsigned int                 slave_body;
-    SurfaceDamageParameters      parameters;
-    int                          rank;
-    std::vector<double>          area;  ///< by surface node, m^2
-    std::vector<Node>            nodes; ///< by surface node
-    std::map<unsigned int, Hot>  hot;   ///< of this rank's own
-    std::unique_ptr<SurfaceHeat> heat;  ///< made when the time step is known
-    std::uint64_t                steps_since_look = 0, looks = 0;
+    Contact                                &contact;
+    unsigned int                            slave_body;
+    SurfaceDamageParameters                 parameters;
+    int                                     rank;
+    std::vector<double>                     area;  ///< by surface node, m^2
+    std::vector<Node>                       nodes; ///< by surface node
+    std::map<unsigned int, Hot>             hot;   ///< of this rank's own
+    std::unique_ptr<reference::SurfaceHeat> heat;  ///< made when the time step is known
+    std::uint64_t                           steps_since_look = 0, looks = 0;
+    std::vector<double>                     rises; ///< by surface node at the last look, K; none: nobody asks
   };
 } // namespace tread
 

@@ -131,6 +131,15 @@ namespace tread
       time_to_refresh = 0.;
     }
 
+    /// Another factor of the law's coefficient at a slave node, by its number among the surfaces', from the
+    /// next refresh on, or from renew_friction(), which is to be called when it has changed.
+    void vary_friction_with_node(std::function<double(unsigned int)> factor)
+    {
+      friction_factor_of_node = std::move(factor);
+      time_to_refresh         = 0.;
+    }
+    void renew_friction();
+
     /// Friction depends on the pressure (Pa): another factor of the law's coefficient. Not while the
     /// equilibrium at the start is found, whose steps have no unit of time.
     void vary_friction_with_pressure(std::function<double(double)> factor)
@@ -288,6 +297,7 @@ namespace tread
     std::shared_ptr<const FrictionLaw>    friction;
     std::function<Vector3(const Vector3)> given_tractions;
     std::function<double(const Vector3)>  friction_factor;
+    std::function<double(unsigned int)>   friction_factor_of_node;
     Sliding                               imposed_sliding;
     std::vector<double>                   inverse_mass; ///< by surface node
     double                                face_size;

@@ -7,7 +7,8 @@
 
 namespace tread::reference
 {
-  /// Friction between two half-spaces: Coulomb's, or with a coefficient that depends on slip or pressure.
+  /// Friction between two half-spaces: Coulomb's, or with a coefficient that depends on slip, pressure, place
+  /// or temperature.
   struct Friction
   {
     double friction = 0.; ///< Coulomb's friction coefficient f [-], >= 0; 0: no shear at all
@@ -33,12 +34,22 @@ namespace tread::reference
     /// slip_friction.
     std::function<double(double x, double y)> place_factor;
 
+    /// Friction that changes with the temperature to which it heats a surface that passes the patch (@see
+    /// SurfaceHeat); null: it does not. Not with slip_friction.
+    struct HeatFriction
+    {
+      std::function<double(double)> factor;     ///< of `friction` at a rise of temperature [K]
+      double                        heat_share; ///< of the heat of friction that flows into that surface
+      double                        effusivity; ///< of its body [J/(m^2 K sqrt(s))]
+    };
+    std::shared_ptr<const HeatFriction> heat_friction;
+
     /// Whether the coefficient is the same everywhere and at any time.
     bool is_coulomb() const
     {
-      return !slip_friction && !pressure_factor && !place_factor;
+      return !slip_friction && !pressure_factor && !place_factor && !heat_friction;
     }
-    /// Of `friction` at a place and a pressure [m, Pa], without slip.
+    /// Of `friction` at a place and a pressure [m, Pa], without slip and before heat changes it.
     double friction_factor(const double x, const double y, const double pressure) const
     {
       return (pressure_factor ? pressure_factor(pressure) : 1.) * (place_factor ? place_factor(x, y) : 1.);

@@ -13,6 +13,7 @@
 #include <tread/track/supports.h>
 #include <tread/track/wheel_hub.h>
 
+#include <functional>
 #include <vector>
 
 
@@ -55,6 +56,9 @@ namespace tread
   /// Where the largest stresses of the rail, or of the tread of the first wheel, are looked for.
   PeakRegion              peak_region(const Scene &scene, const unsigned int body);
   SurfaceDamageParameters surface_damage_parameters(const Scene &scene);
+  /// Factor of the friction coefficient at a rise of temperature (K) by friction, over what surfaces that have
+  /// just met have by their own temperatures and effusivities (Carslaw and Jaeger 1959, section 2.15).
+  std::function<double(double)> factor_by_rise(const Scene &scene);
   WheelHubParameters      hub_parameters(const Scene &scene);
   DynamicsParameters      dynamics_parameters(const Scene &scene);
   ContactParameters       contact_parameters(const Scene &scene);

@@ -448,6 +448,7 @@ namespace tread
     void        check_mesh() const;
     void        check_sector() const;
     void        check_window() const;
+    void        check_friction_by_temperature() const;
     void        check_track() const;
     void        check_overhang() const;
     void        check_plasticity() const;

@@ -39,6 +39,13 @@ namespace tread
                 "that shear at a limit, or elastic asperities.",
                 Double(0., 1e6), most_rows);
     add_factors("Friction pressure factors", pressure_factors, "pressures");
+    section.add("Friction temperatures (C)", temperatures,
+                "Temperatures of the surfaces at which the friction coefficient is multiplied by 'Friction "
+                "temperature factors': ascending, separated by commas; linear in between, constant beyond. "
+                "'Damage/Rail temperature (C)' and 'Wheel temperature (C)' are those before friction heats "
+                "them; needs 'Damage/Record'.",
+                Double(-100., 1500.), most_rows);
+    add_factors("Friction temperature factors", temperature_factors, "temperatures");
     section.add(
       "Friction across (mm)", across_places,
       "Where across the rail the friction coefficient is multiplied by 'Friction across factors': y from "
@@ -92,6 +99,12 @@ namespace tread
   }
 
 
+  double ContactSection::temperature_factor(const double temperature) const
+  {
+    return interpolated(temperatures, temperature_factors, temperature);
+  }
+
+
   double ContactSection::factor_across(const double y, const double inclination) const
   {
     return interpolated(across_places, across_factors, y) *
@@ -125,6 +138,8 @@ namespace tread
     check_table(friction_places, "Friction places (mm)", 1e-3, friction_factors, "Friction factors", "place");
     check_table(friction_pressures, "Friction pressures (MPa)", 1e6, pressure_factors,
                 "Friction pressure factors", "pressure");
+    check_table(temperatures, "Friction temperatures (C)", 1., temperature_factors,
+                "Friction temperature factors", "temperature");
     check_table(across_places, "Friction across (mm)", 1e-3, across_factors, "Friction across factors",
                 "place");
     check_table(inclinations, "Friction inclinations (deg)", std::numbers::pi / 180., inclination_factors,

@@ -26,6 +26,14 @@ namespace tread
       "Of the heat of friction, the rest flows into the rail. automatic: so that both surfaces have one "
       "temperature, half for like steels.",
       Double(0., 1.));
+    section.add("Rail temperature (C)", rail_temperature,
+                "Of the rail before the wheel comes, for 'Contact/Friction temperatures (C)'.",
+                Double(-100., 1000.));
+    section.add(
+      "Wheel temperature (C)", wheel_temperature,
+      "Of the wheel's surface before it comes into contact, likewise, as by braking on the tread. "
+      "Surfaces of unlike temperature take one between in the patch at once, by their effusivities.",
+      Double(-100., 1000.));
     section.add("Shear strength (MPa)", shear_strength,
                 "Yield stress in shear of the rail, for the surface fatigue index. 0: 'Rail/Yield stress "
                 "(MPa)' over the "

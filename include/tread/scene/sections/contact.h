@@ -16,6 +16,7 @@ namespace tread
     unsigned int        max_sweeps           = 200;
     std::vector<double> friction_places, friction_factors;    ///< along the rail, m and -
     std::vector<double> friction_pressures, pressure_factors; ///< Pa and -
+    std::vector<double> temperatures, temperature_factors;    ///< degrees C and -
     std::vector<double> across_places, across_factors;        ///< y of the rail, m and -
     std::vector<double> inclinations, inclination_factors;    ///< of the rail's surface, rad and -
 
@@ -23,6 +24,8 @@ namespace tread
     double friction_factor(const double x) const;
     /// Of the friction coefficient at a pressure (Pa), linear between those given; 1 where none is given.
     double pressure_factor(const double pressure) const;
+    /// The same at a temperature (degrees C) of the surfaces.
+    double temperature_factor(const double temperature) const;
     /// The same across the rail, by y of the rail and by the inclination of its surface, positive where it
     /// falls to the gauge side (m, rad).
     double factor_across(const double y, const double inclination) const;

@@ -18,7 +18,8 @@ namespace tread
     double                conductivity  = 50.;    ///< W/(m K)
     double                heat_capacity = 450.;   ///< J/(kg K)
     std::optional<double> wheel_share;            ///< of the heat; none: so that both have one temperature
-    double                shear_strength = 0.;    ///< Pa; 0: from the rail's yield stress
+    double                rail_temperature = 20., wheel_temperature = 20.; ///< degrees C
+    double                shear_strength = 0.; ///< Pa; 0: from the rail's yield stress
 
     void declare(dealii::ParameterHandler &handler);
   };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_analysis_surface_heat_h
-#define tread_analysis_surface_heat_h
+#ifndef tread_reference_surface_heat_h
+#define tread_reference_surface_heat_h
 
 #include <array>
 
-namespace tread
+namespace tread::reference
 {
   /// Temperature of a place on the surface of a half-space into whose depth heat flows, while it flows along
   /// the surface not at all: what a fast moving source leaves (Carslaw and Jaeger 1959, section 2.9; Blok
@@ -39,6 +39,6 @@ namespace tread
     double length, at_once;
     Memory rates, weights, decay, gain;
   };
-} // namespace tread
+} // namespace tread::reference
 
 #endif

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/analysis/surface_heat.h>
-
-#include <deal.II/base/numbers.h>
+#include <tread/reference/surface_heat.h>
 
 #include <cmath>
 
-namespace tread
+namespace tread::reference
 {
   SurfaceHeat::SurfaceHeat(const double interval)
     : length(interval)
@@ -16,7 +14,7 @@ namespace tread
     for (unsigned int k = 0; k < n_rates; ++k)
       {
         rates[k]   = largest / interval * std::exp(-2. * spacing * k);
-        weights[k] = 2. / std::sqrt(dealii::numbers::PI) * spacing * std::sqrt(rates[k]);
+        weights[k] = 2. / std::sqrt(M_PI) * spacing * std::sqrt(rates[k]);
         decay[k]   = std::exp(-rates[k] * interval);
         gain[k]    = -std::expm1(-rates[k] * interval) / rates[k];
         at_once -= weights[k] * gain[k];
@@ -32,7 +30,7 @@ namespace tread
         memory[k] = decay[k] * memory[k] + gain[k] * flux;
         sum += weights[k] * memory[k];
       }
-    return sum / std::sqrt(dealii::numbers::PI);
+    return sum / std::sqrt(M_PI);
   }
 
 
@@ -41,4 +39,4 @@ namespace tread
     for (unsigned int k = 0; k < n_rates; ++k)
       memory[k] *= std::exp(-rates[k] * time);
   }
-} // namespace tread
+} // namespace tread::reference
