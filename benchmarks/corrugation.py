@@ -91,15 +91,14 @@ def growth_table(folder, note):
 def main():
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/corrugation-tables"))
+    parser.add_argument("--only", choices=("gain", "growth"), help="the tables of one scene")
     arguments = parser.parse_args()
-    folder = lambda name: os.path.join(arguments.results, name)
-    run(SCENE, folder("gain"))
-    run(GROWTH, folder("growth"), *GROWTH_OPTIONS)
-    for name, page in (("gain/gain.png", "corrugation-gain.png"), ("growth/passages.png", "corrugation-growth.png")):
-        shutil.copyfile(folder(name), os.path.join(ROOT, "doc", "pictures", page))
-    note = lambda name: provenance("benchmarks/corrugation.py", [read_summary(os.path.join(folder(name), "smooth"))])
-    gain_tables(folder("gain"), note("gain"))
-    growth_table(folder("growth"), note("growth"))
+    for name, scene, options, picture, fill_tables in (("gain", SCENE, (), "gain.png", gain_tables), ("growth", GROWTH, GROWTH_OPTIONS, "passages.png", growth_table)):
+        if arguments.only in (None, name):
+            folder = os.path.join(arguments.results, name)
+            run(scene, folder, *options)
+            shutil.copyfile(os.path.join(folder, picture), os.path.join(ROOT, "doc", "pictures", f"corrugation-{name}.png"))
+            fill_tables(folder, provenance("benchmarks/corrugation.py", [read_summary(os.path.join(folder, "smooth"))]))
 
 
 if __name__ == "__main__":

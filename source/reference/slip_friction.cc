@@ -59,10 +59,13 @@ namespace tread::reference
       for (unsigned int j = 0; j < grid.n_y; ++j)
         {
           SurfaceHeat::Memory memory{};
+          double              before = 0.; // rise where it enters an element
           for (unsigned int i = grid.n_x; i-- > 0;)
             {
               const std::size_t e = std::size_t(j) * grid.n_x + i;
-              share[e] = law.factor(heat.flow(memory, law.heat_share * shear[e] * slip[e]) / law.effusivity);
+              const double rise   = heat.flow(memory, law.heat_share * shear[e] * slip[e]) / law.effusivity;
+              share[e]            = law.factor(0.5 * (before + rise));
+              before              = rise;
             }
         }
       return share;

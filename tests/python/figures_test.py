@@ -132,6 +132,18 @@ class TrackOfBeam(unittest.TestCase):
         half = self.TRACK.young * self.TRACK.area / (0.5 * self.TRACK.spans * self.TRACK.spacing)
         self.assertAlmostEqual(flat_force.bar_mobility(self.TRACK, [0.], [1.])[0, 0] / (2j * math.pi / (2. * half)), 1., delta=0.01)
 
+    def test_endless_ends_of_a_bar_are_a_chain_of_springs(self):
+        track = flat_force.Track(spans=5, elements=2, half_ends=True, stiffness_along=30e6).endless(8)
+        self.assertEqual((track.spans, track.beyond), (21, 8))
+        self.assertAlmostEqual(track.absorbing, 2.4)
+        axial = track.young * track.area
+        stiffness = axial / (0.5 * track.spacing)  # to the plane of symmetry at the far end
+        for support in range(8):
+            stiffness += track.stiffness_along
+            stiffness = 1. / (1. / stiffness + (track.spacing if support < 7 else 3. * track.spacing) / axial)  # the last one to the middle
+        found = flat_force.bar_mobility(track, [0.], [1e-2])[0, 0] / (2j * math.pi * 1e-2)
+        self.assertAlmostEqual(found * 2. * stiffness, 1., delta=1e-3)
+
     def test_a_section_turns_with_its_head(self):
         """A force along the head turns the section by its moment: the head moves by the square of its height."""
         track = flat_force.Track(spans=2, half_ends=True, pad_stiffness=1e3, ballast_stiffness=1e3, sleeper_mass=1., shear_factor=100.)

@@ -108,7 +108,7 @@ PAIRS = [
     (BAR + ["Rail/Ends=absorbing", "Rail/Absorbing length (m)=3"], ["Rail/Absorbing length (m)", "at most 2.97"]),
     (["Rail/Ends=endless"], ["Rail/Ends", "Track/Foundation"]),
     (BAR + ["Rail/Ends=endless", "Track/Pads pull=false"], ["Rail/Ends", "Track/Pads pull", "linear"]),
-    (BAR + ["Rail/Ends=endless", "Rail/Begin (mm)=-3630", "Rail/Length (mm)=7200", "Motion/Start (mm)=-3400"], ["Rail/Ends", "230 mm of an end", "300 mm"]),
+    (BAR + ["Rail/Ends=endless", "Rail/Margin (mm)=100", "Rail/Begin (mm)=-3630", "Rail/Length (mm)=7200", "Motion/Start (mm)=-3400"], ["Rail/Ends", "230 mm of an end", "300 mm"]),
     (BAR + ["Rail/Ends=endless", "Rail/Spans beyond=3"], ["Rail/Spans beyond", "4"]),
     (["Contact/Friction temperatures (C)=20,300", "Contact/Friction temperature factors=1,0.5"], ["Contact/Friction temperatures (C)", "Damage/Record"]),
     (["Contact/Friction temperatures (C)=20,300", "Contact/Friction temperature factors=1,0.5", "Damage/Record=true", "Damage/Heat share of the wheel=0.5"],

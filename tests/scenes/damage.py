@@ -110,8 +110,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("falling friction: flash temperature of the rail, K", columns(path("falls"), RAIL)["max_flash_temperature_K"].max(),
                    columns(path("falls line"), RAIL)["max_flash_temperature_K"].max(), 0.01)
     check.relative("and the comparison of the run itself", cooler["reference"]["traction_coefficient"]["half-space"]["value"], of_theory["traction_coefficient"], 4e-3)
-    # In full sliding each place has the coefficient of its temperature: a third less at 100 K.
-    check.that("it carries less, by what the heat leaves", 0.17 < abs(cooler["traction_coefficient"]) < 0.23)
+    # In full sliding each place has the coefficient of its temperature: less by 2 % for each 9 K.
+    check.that("it carries less, by what the heat leaves", 0.2 < abs(cooler["traction_coefficient"]) < 0.28)
     # A wheel that comes warm to a cold rail: what counts is the mean, of steels with unlike effusivities nearer to that of the larger one.
     unlike = ["Rail/Density (kg per m3)=5000", "Damage/Rail temperature (C)=80", "Damage/Wheel temperature (C)=-20"]
     warm = run(program, HEAT, path("warm"), [*unlike, *falls], more=["--reference-only"])
