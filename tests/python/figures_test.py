@@ -5,6 +5,7 @@
 unnoticed_figures.py tells which figures no test compares.
 """
 
+import dataclasses
 import math
 import os
 import sys
@@ -133,9 +134,11 @@ class TrackOfBeam(unittest.TestCase):
         self.assertAlmostEqual(flat_force.bar_mobility(self.TRACK, [0.], [1.])[0, 0] / (2j * math.pi / (2. * half)), 1., delta=0.01)
 
     def test_endless_ends_of_a_bar_are_a_chain_of_springs(self):
-        track = flat_force.Track(spans=5, elements=2, half_ends=True, stiffness_along=30e6).endless(8)
+        cells = flat_force.Track(spans=5, elements=2, half_ends=True, stiffness_along=30e6)
+        track = cells.endless(8)
         self.assertEqual((track.spans, track.beyond), (21, 8))
         self.assertAlmostEqual(track.absorbing, 2.4)
+        self.assertEqual(dataclasses.replace(track, spans=5, beyond=0, absorbing=0.), cells)
         axial = track.young * track.area
         stiffness = axial / (0.5 * track.spacing)  # to the plane of symmetry at the far end
         for support in range(8):
