@@ -2,14 +2,14 @@
 #include <tread/track/rail_ends.h>
 #include <tread/track/track_beyond.h>
 
-#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace tread
 {
@@ -151,25 +151,55 @@ namespace tread
 
   void TrackBeyond::find_shapes()
   {
-    // The stiffness matrix by its columns, which unit displacements give.
-    const std::size_t          n = mass.size();
-    std::vector<double>        unit(n, 0.), f(n, 0.);
-    dealii::FullMatrix<double> full(n, n);
+    // The stiffness matrix by its columns, which unit displacements give. Nodes act on their neighbours and
+    // on the sleepers under them alone, so that the columns of every third node can be had at once.
+    constexpr unsigned int every = 3;
+    const std::size_t      n     = mass.size();
+    std::vector<double>    unit(n, 0.), f(n, 0.);
+    std::vector<int>       node_of(n);
     for (std::size_t k = 0; k < n; ++k)
-      {
-        unit[k] = 1.;
-        spring_forces(AtSection(), unit, f);
-        for (std::size_t i = 0; i < n; ++i)
-          full(i, k) = -f[i];
-        unit[k] = 0.;
-      }
-    for (const unsigned int kind : {along, slope}) // they stay 0
-      for (std::size_t i = 0, held = unknown(kind, n_nodes - 1); i < n; ++i)
-        full(held, i) = full(i, held) = i == held ? 1. : 0.;
+      node_of[k] = k < 3 * n_nodes ? k % n_nodes : node_of_support[k - 3 * n_nodes];
+    struct Entry
+    {
+      std::size_t row, column;
+      double      value;
+    };
+    std::vector<Entry> entries;
+    for (unsigned int kind = 0; kind < (has_sleepers ? 4 : 3); ++kind)
+      for (unsigned int colour = 0; colour < (kind < 3 ? every : 1); ++colour)
+        {
+          std::vector<int> column_of(n_nodes, -1); // by node
+          for (std::size_t k = kind * n_nodes; k < (kind < 3 ? (kind + 1) * n_nodes : n); ++k)
+            if (kind == 3 || node_of[k] % every == colour)
+              {
+                unit[k]               = 1.;
+                column_of[node_of[k]] = k;
+              }
+          spring_forces(AtSection(), unit, f);
+          for (std::size_t i = 0; i < n; ++i)
+            for (int node = node_of[i] - 1; node <= node_of[i] + 1; ++node)
+              if (f[i] != 0. && node >= 0 && node < static_cast<int>(n_nodes) && column_of[node] >= 0 &&
+                  (kind < 3 || node == node_of[i]))
+                entries.push_back({i, static_cast<std::size_t>(column_of[node]), -f[i]});
+          std::fill(unit.begin(), unit.end(), 0.);
+        }
+    const std::array held{unknown(along, n_nodes - 1), unknown(slope, n_nodes - 1)}; // these stay 0
+    const auto       is_held = [&](const std::size_t k) {
+      return k == held[0] || k == held[1];
+    };
+    dealii::DynamicSparsityPattern places(n);
+    for (const Entry &entry : entries)
+      places.add(entry.row, entry.column);
+    for (const std::size_t k : held)
+      places.add(k, k);
     dealii::SparsityPattern pattern;
-    pattern.copy_from(full);
+    pattern.copy_from(places);
     dealii::SparseMatrix<double> sparse(pattern);
-    sparse.copy_from(full);
+    for (const Entry &entry : entries)
+      if (!is_held(entry.row) && !is_held(entry.column))
+        sparse.add(entry.row, entry.column, entry.value);
+    for (const std::size_t k : held)
+      sparse.set(k, k, 1.);
     dealii::SparseDirectUMFPACK solver;
     solver.initialize(sparse);
 

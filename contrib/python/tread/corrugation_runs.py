@@ -18,6 +18,7 @@ from .runs import Run, arguments_of, execute, must_end_well, parameters_of, scen
 
 BEFORE, BEHIND = 20e-3, 50e-3  # the waves begin behind the wheel's start, and end behind the end of its way
 DISC = 15e-3  # radius of the disc in which `tread --modes` measures
+OF_MODES = 0.6  # m of absorbing ends for `tread --modes` of scenes with endless ones
 PATCH = 10e-3  # what a place needs before and behind it to be passed by all of the patch
 
 
@@ -92,8 +93,8 @@ class Scene:
             folder = os.path.join(self.results, f"modes-{round(1e3 * place)}")
             settings = {**self.settings, "Motion/Start (mm)": 1e3 * place, "Motion/Rolled distance (mm)": 10, "Damage/Record": "false",
                         "Mesh/Path cell (mm)": 0, "Mesh/Longest row (mm)": 60}
-            if known["Rail/Ends"] == "endless":
-                settings["Rail/Ends"] = "symmetric"  # waves that leave have no modes
+            if known["Rail/Ends"] == "endless":  # waves that leave have no modes
+                settings |= {"Rail/Ends": "absorbing", "Rail/Absorbing length (m)": OF_MODES}
             must_end_well(execute([*arguments_of(self.path, settings, folder), "--modes", "--up-to", f"{1.2 * highest:.0f}"], self.ranks))
             table = Run(folder).table("receptance.csv")
             complex_of = lambda body: table[f"{body}_magnitude_m_per_N"] * np.exp(1j * np.radians(table[f"{body}_phase_degrees"]))
@@ -125,7 +126,8 @@ class Scene:
             raise DataError(f"{self.path}: the linear model needs a rail that begins and ends in the middle of a span")
         middle = begin + spacing * (spans // 2 + 0.5)
         young, poisson = 1e9 * number("Rail/Young's modulus (GPa)"), number("Rail/Poisson's ratio")
-        track = Track(young=young, poisson=poisson, density=number("Rail/Density (kg per m3)"), spacing=spacing, spans=spans, half_ends=True, absorbing=number("Rail/Absorbing length (m)") if known["Rail/Ends"] == "absorbing" else 0.,
+        absorbing = {"absorbing": number("Rail/Absorbing length (m)"), "endless": OF_MODES}.get(known["Rail/Ends"], 0.)
+        track = Track(young=young, poisson=poisson, density=number("Rail/Density (kg per m3)"), spacing=spacing, spans=spans, half_ends=True, absorbing=absorbing,
                       pad_stiffness=1e6 * number("Track/Pad stiffness (MN per m)"), pad_damping=1e3 * number("Track/Pad damping (kN s per m)"),
                       sleeper_mass=number("Track/Sleeper mass (kg)"), ballast_stiffness=1e6 * number("Track/Ballast stiffness (MN per m)"),
                       ballast_damping=1e3 * number("Track/Ballast damping (kN s per m)"))
