@@ -37,7 +37,7 @@ class Held(Model):
 
 
 def run(scene, folder, *options):
-    must_end_well(subprocess.run([sys.executable, os.path.join(ROOT, "contrib/corrugation.py"), scene, folder, *options], check=False))
+    must_end_well(subprocess.run([sys.executable, os.path.join(ROOT, "contrib/corrugation.py"), scene, folder, *options], stderr=subprocess.PIPE, text=True, check=False))
 
 
 def complex_number(value):

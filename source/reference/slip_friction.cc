@@ -174,8 +174,11 @@ namespace tread::reference
         if (problem.prescribe_lateral_force)
           problem.lateral = solution.lateral;
       }
-    throw FrictionTooSteep(friction.slip_friction ? "friction and slip do not settle"
-                                                  : "friction and temperature do not settle");
+    if (friction.slip_friction)
+      throw FrictionTooSteep("friction and slip do not settle");
+    throw std::runtime_error(
+      "friction and temperature do not settle: the coefficient changes by too much over "
+      "too few degrees");
   }
 
 

@@ -407,6 +407,12 @@ namespace tread
               "'Damage/Heat share of the wheel' automatic, with which both surfaces have one temperature");
     require(friction_law()->is_constant(),
             name + "'Contact/Friction law' Coulomb: slip and heat would make friction fall twice");
+    const double largest =
+      contact.friction_coefficient *
+      *std::max_element(contact.temperature_factors.begin(), contact.temperature_factors.end());
+    constexpr double most = 2.; // as of the coefficient itself
+    require(largest <= most, "'Contact/Friction temperature factors' make the friction coefficient " +
+                               text_of(largest) + "; at most " + text_of(most) + " is allowed");
   }
 
 

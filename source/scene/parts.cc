@@ -176,13 +176,18 @@ namespace tread
   }
 
 
+  double temperature_before_friction(const Scene &scene)
+  {
+    const SurfaceDamageParameters p = surface_damage_parameters(scene);
+    return (p.slave_effusivity * scene.damage.rail_temperature +
+            p.master_effusivity * scene.damage.wheel_temperature) /
+           (p.slave_effusivity + p.master_effusivity);
+  }
+
+
   std::function<double(double)> factor_by_rise(const Scene &scene)
   {
-    const SurfaceDamageParameters p      = surface_damage_parameters(scene);
-    const double                  before = (p.slave_effusivity * scene.damage.rail_temperature +
-                           p.master_effusivity * scene.damage.wheel_temperature) /
-                          (p.slave_effusivity + p.master_effusivity);
-    return [contact = scene.contact, before](const double rise) {
+    return [contact = scene.contact, before = temperature_before_friction(scene)](const double rise) {
       return contact.temperature_factor(before + rise);
     };
   }

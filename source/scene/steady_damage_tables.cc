@@ -6,14 +6,16 @@
 
 namespace tread
 {
-  std::string doubt_of_temperature(const double rise)
+  std::string doubt_of_temperature(const Scene &scene, const double rise)
   {
     constexpr double hot = 1000.; // K, where steel has lost its strength, and friction with it
-    return rise > hot
+    // Above that of a room, where it is known.
+    const double before = scene.contact.temperatures.empty() ? 0. : temperature_before_friction(scene) - 20.;
+    return rise + before > hot
              ? format(
                  "a flash temperature of %.0f K is none that steel stands: friction falls before, and heat "
                  "changes steel from some 700 K on",
-                 rise)
+                 rise + before)
              : "";
   }
 
@@ -45,7 +47,7 @@ namespace tread
     folder.write_surface_damage("wheel_surface_damage.csv", wheel);
     const double hottest = std::max(max_temperature(rail), max_temperature(wheel));
     summary.set("max_flash_temperature_K", hottest);
-    if (const std::string doubt = doubt_of_temperature(hottest); !doubt.empty())
+    if (const std::string doubt = doubt_of_temperature(scene, hottest); !doubt.empty())
       warnings.push_back(doubt);
   }
 } // namespace tread

@@ -182,6 +182,8 @@ namespace tread
     summary.set("passages_rolled", passages.size());
     summary.set("net_plastic_strain", strain);
     summary.set("net_plastic_strain_of_last_passage", per_passage);
+    if (!(strain > 0.))
+      return ""; // nothing has yielded anywhere
     const dealii::Point<3> place = growth->place();
     const double           depth = scene.depth_in_rail(place);
     summary.set("net_plastic_strain_y_m", place[1]);
@@ -491,7 +493,7 @@ namespace tread
         hottest = std::max(hottest, max_temperature(places));
       }
     summary.set("max_flash_temperature_K", hottest);
-    if (const std::string doubt = doubt_of_temperature(hottest); !doubt.empty())
+    if (const std::string doubt = doubt_of_temperature(scene, hottest); !doubt.empty())
       warnings.push_back(doubt);
     if (!scene.wear_law())
       return;

@@ -56,8 +56,10 @@ namespace tread
   /// Where the largest stresses of the rail, or of the tread of the first wheel, are looked for.
   PeakRegion              peak_region(const Scene &scene, const unsigned int body);
   SurfaceDamageParameters surface_damage_parameters(const Scene &scene);
-  /// Factor of the friction coefficient at a rise of temperature (K) by friction, over what surfaces that have
-  /// just met have by their own temperatures and effusivities (Carslaw and Jaeger 1959, section 2.15).
+  /// Temperature (degrees C) that surfaces have at once where they meet, by their own temperatures and
+  /// effusivities (Carslaw and Jaeger 1959, section 2.15).
+  double temperature_before_friction(const Scene &scene);
+  /// Factor of the friction coefficient at a rise of temperature (K) by friction over that.
   std::function<double(double)> factor_by_rise(const Scene &scene);
   WheelHubParameters      hub_parameters(const Scene &scene);
   DynamicsParameters      dynamics_parameters(const Scene &scene);

@@ -27,7 +27,7 @@ namespace tread
                            std::vector<std::string>       &warnings);
 
   /// What makes a flash temperature (K) doubtful; empty: nothing.
-  std::string doubt_of_temperature(double rise);
+  std::string doubt_of_temperature(const Scene &scene, double rise);
 } // namespace tread
 
 #endif

@@ -142,10 +142,11 @@ namespace tread
                 "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
                 "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
                 Double(0.05, 100.));
-    section.add("Spans beyond", spans_beyond,
-                "Sleeper spans of the beam behind each endless end, whose farther half absorbs what arrives. "
-                "Their supports are those of section Track, with rigid sleepers.",
-                Integer(4, 1000));
+    section.add(
+      "Spans beyond", spans_beyond,
+      "Sleeper spans of the beam behind each endless end, whose farther half absorbs what arrives. "
+      "Their supports are those of section Track, with rigid sleepers, whatever 'Track/Support file' has.",
+      Integer(4, 1000));
     material.declare(section);
   }
 

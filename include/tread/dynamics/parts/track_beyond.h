@@ -58,14 +58,17 @@ namespace tread
       unsigned int number;
       double       mass;       ///< kg
       double       across, up; ///< from the section's centre of mass, m
+      /// Share of its displacement along the rail in the rotations of the section: least squares, weighted
+      /// with the masses, 1/m.
+      double pitch = 0., yaw = 0.;
     };
     struct End
     {
-      double                       side;                                 ///< 1: at highest x, -1
-      std::vector<Node>            nodes;                                ///< this rank's own
-      double                       mass          = 0.;                   ///< of the section, kg
-      double                       pitch_inertia = 0., yaw_inertia = 0.; ///< kg m^2
-      double                       yaw_stiffness = 0.;                   ///< N m
+      double                       side;                                     ///< 1: at highest x, -1
+      std::vector<Node>            nodes;                                    ///< this rank's own
+      double                       mass            = 0.;                     ///< of the section, kg
+      double                       pitch_by_moment = 0., yaw_by_moment = 0.; ///< 1/(kg m^2)
+      double                       yaw_stiffness = 0.;                       ///< N m
       std::unique_ptr<TrackBeyond> track;
       double                       yaw = 0.; ///< rad
     };
