@@ -88,6 +88,9 @@ namespace
                    0.05);
     check.absolute("of waves four times as long all but 0.4 %, um", 1e6 * wavy(long_wave).at(0., 0.).dz,
                    10. / (1. + 1. / 256.), 0.05);
+    check.that("its words say what it was smoothed over, those of a scan as it is nothing",
+               wavy(wave).in_words().find(", smoothed over 20 mm") != std::string::npos &&
+                 table.in_words().find("smoothed") == std::string::npos);
     // The same at the seam of a scan as on its other side, and where a scan ends as of one that goes on.
     const auto around_from = [&](const double begin) {
       const auto wrapped = [](const double angle, const double y) {

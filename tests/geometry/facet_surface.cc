@@ -186,10 +186,12 @@ namespace
     const auto refusal = [](const Faces &faces) {
       return tests::complaint<InputError>([&] { faces.surface(); });
     };
-    Faces steep, above, down;
+    Faces steep, less_steep, above, down;
     steep.add(0., 4, 4, 0.01, [](const double x, const double) { return 3. * x; });
     check.that("a surface of 72 degrees is refused: \"" + refusal(steep) + "\"",
                refusal(steep).find("steeper than 70 degrees at 0, -20, 0 mm") != std::string::npos);
+    less_steep.add(0., 4, 4, 0.01, [](const double x, const double) { return 2.6 * x; });
+    check.that("one of 69 degrees is not", refusal(less_steep).empty());
     above.add(0., 4, 4, 0.01, [](const double, const double) { return 0.; });
     above.add(5e-3, 1, 1, 0.01, [](const double, const double) { return 0.02; });
     check.that("one face above another is refused: \"" + refusal(above) + "\"",

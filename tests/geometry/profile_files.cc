@@ -6,6 +6,7 @@
 #include <tread/geometry/profile_curve.h>
 #include <tread/geometry/rail_profile.h>
 #include <tread/geometry/running_surfaces.h>
+#include <tread/geometry/smoothing_spline.h>
 #include <tread/reference/elastic.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
@@ -586,6 +587,14 @@ namespace
   /// A spline takes the noise of an instrument away, and leaves the profile.
   void check_smoothing(tests::Check &check)
   {
+    // A curve of one curvature is smooth, up to both of its ends.
+    std::vector<dealii::Point<2>> bow;
+    for (int i = 0; i <= 80; ++i)
+      bow.emplace_back(0.5e-3 * i, std::pow(0.5e-3 * i - 20e-3, 2) / 0.6);
+    const std::vector<dealii::Point<2>> kept = smoothed(bow, 6e-3);
+    check.absolute("smoothing over 6 mm moves the first point of a parabola, um",
+                   1e6 * kept.front().distance(bow.front()), 0., 0.1);
+    check.absolute("and the last one, um", 1e6 * kept.back().distance(bow.back()), 0., 0.1);
     for (const unsigned int i : {0u, 4u})
       {
         const Shape  &shape  = shapes[i];

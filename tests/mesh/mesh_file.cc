@@ -227,6 +227,7 @@ namespace
       {"Abaqus: second order", inp, "C3D8R", "C3D20R", "mesh with first order"},
       {"Abaqus: another file", inp, "*Heading", "*Include, input=x", "*INCLUDE is not read"},
       {"Abaqus: face", inp, "all, S2", "all, S7", "'S7' is no face"},
+      {"Abaqus: a surface of nothing", inp, "all, S2", ", S2", "names no element and no set of a surface"},
       {"Abaqus: set", inp, "all, S2", "every, S2", "there is no set 'every'"},
       {"Abaqus: name", inp, "nset=support", "nset=foot", "'foot' is no name of a boundary"},
       {"Abaqus: element twice", inp, "2, 2,3,6,5,8,9,12,11", "1, 2,3,6,5,8,9,12,11",

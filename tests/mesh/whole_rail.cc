@@ -218,6 +218,18 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.below(name + " in reach of the wheel to, mm beyond the margin",
                   1e3 * std::max(0., zone.x_end + rail.contact_margin - end), 1e-9);
       check.that(name + " not all of it", begin > -0.25 && end < 0.25);
+      // The foot, EN 13674-1: 140 and 150 mm wide; cells fill the roundings of its edges.
+      double on_base = 0.;
+      for (const Mesh::Face &face : mesh.faces)
+        if (face.boundary == Boundary::support)
+          {
+            const auto &p = mesh.nodes;
+            on_base += 0.5 * dealii::cross_product_3d(p[face.nodes[2]] - p[face.nodes[0]],
+                                                      p[face.nodes[3]] - p[face.nodes[1]])
+                               .norm();
+          }
+      check.absolute(name + " width of what is supported, mm", 1e3 * on_base / (rail.x_end - rail.x_begin),
+                     name == "54E1" ? 140. : 150., 0.01);
       check.below(name + " longest row, mm", 1e3 * s.longest, 40. + 1e-9);
       check.that(name + " has hanging nodes", !mesh.hanging_nodes.empty());
       check.below(name + " hanging nodes off the mean of their parents, nm", 1e9 * off_the_mean(mesh), 1e-6);

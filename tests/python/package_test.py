@@ -150,6 +150,11 @@ class Patches(InFolder):
         self.assertEqual((np.nansum(adhesion), np.isfinite(adhesion).sum()), (patch.adhesion.sum(), len(patch.x)))
         self.assertAlmostEqual(float(patch.sampled("shear", 3.0, 0.0)), 100.0)
         np.testing.assert_allclose(patch.sampled("pressure", x=3.0, y=[0.0, 30.0]), [1000, 0])
+        # Half a cell beyond the last nodes in contact half of their pressure is left, on all sides.
+        for along, values, sign in ((patch.x, patch.y, 1), (patch.x, patch.y, -1), (patch.y, patch.x, 1), (patch.y, patch.x, -1)):
+            last = np.argmax(np.where(abs(values - np.median(values)) < 1e-9, sign * along, -np.inf))
+            x, y = patch.x[last] + (along is patch.x) * sign * 0.25, patch.y[last] + (along is patch.y) * sign * 0.25
+            self.assertAlmostEqual(float(patch.sampled("pressure", x, y)), 0.5 * patch.pressure[last])
         with self.assertRaisesRegex(tread.Error, "no field 'presure', but .*pressure"):
             patch.grid("presure")
         with self.assertRaisesRegex(tread.Error, "3 values for the .* nodes in contact"):

@@ -237,6 +237,9 @@ class Pictures(OfRuns):
         self.assertEqual(pictured.hertz_label, f"Hertz at {force:.1f} kN")
         self.assertIn(f"normal force {force:.1f} kN", pictured.title)
         self.assertEqual(patch.Pictured(steady, None).hertz_label, "Hertz")
+        # Micro-slip of 0.2 m/s fills its axis, beside shear stress of 300 MPa.
+        low, high = patch.draw_axis(pictured).axes[2].get_ylim()
+        self.assertTrue(-0.1 < low < 0 and 0.2 < high < 0.3, f"micro-slip is drawn from {low} to {high} m/s")
 
     def test_one_call_draws_what_is_there(self):
         run = self.write_run("run")
@@ -300,6 +303,7 @@ class Pictures(OfRuns):
         whens = [axis.get_title().split("\n") for axis in axes]
         self.assertEqual([lines[1].split(",")[0] for lines in whens if lines[0] == "behind the defect"], ["wheel at 16.50 mm"])
         self.assertEqual([lines[1].split(",")[0] for lines in whens if lines[0] == "before the defect"], ["wheel at -6.50 mm"])
+        self.assertEqual([lines[1].split(",")[0] for lines in whens if lines[0] == "over the middle"], ["wheel at 5.00 mm"])
 
     def test_contacts_on_the_rail_of_a_track(self):
         run = self.write_run("run")
