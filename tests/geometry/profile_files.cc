@@ -615,6 +615,10 @@ namespace
         check.absolute(shape.name + ": contact of the smoothed profile, mm", found.y, right.y, 0.3);
         check.relative(shape.name + ": largest pressure of the smoothed profile, MPa", 1e-6 * found.pressure,
                        1e-6 * right.pressure, 0.05);
+        check.that(shape.name + ": no flange is missed, neither of a rail nor of a wheel that has one",
+                   std::none_of(noisy.remarks.begin(), noisy.remarks.end(), [](const std::string &remark) {
+                     return remark.find("no flange") != std::string::npos;
+                   }));
         // The largest of some hundred normal errors, and what the spline does to the corner of 13 mm.
         check.that(shape.name +
                      ": largest change of smoothing, um: " + std::to_string(1e6 * smooth.largest_change),

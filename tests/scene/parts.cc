@@ -695,6 +695,14 @@ namespace
     check.that(
       "a torque has one beside a creepage",
       unused({"Motion/Drive=torque", "Motion/Creepage=0.001", "Motion/Traction coefficient=0.2"}).empty());
+    check.that("traction coefficients of further wheels beside one of the first",
+               unused({"Motion/Traction coefficient=0.2", "Further wheels/Distances (mm)=1000",
+                       "Further wheels/Traction coefficients=0.1"})
+                 .empty());
+    const Settings dip{"Defect/Shape=dip", "Defect/Length (mm)=30", "Defect/Depth (mm)=0.1"};
+    check.that("a dip has no ramp", has(unused({dip[0], dip[1], dip[2], "Defect/Ramp (mm)=10"}),
+                                        "'Defect/Ramp (mm)' has no effect: it needs 'Defect/Shape'"));
+    check.that("nothing else of a dip is without effect", unused(dip).empty());
     check.that("a zone beside the path",
                has(unused({"Rail/Yield stress (MPa)=500", "Rail/Plastic zones=500:600:8:400:21",
                            "Rail/Begin (mm)=-700", "Rail/Length (mm)=1500"}),
