@@ -42,7 +42,7 @@ from mutate import build, copy_sources, fails, tests_of, write_if_changed
 from tread.commands import command_parser, run_command
 from tread.files import Error, read_toml
 from tread.runs import ROOT
-from tread.tables import fill, machine, markdown
+from tread.tables import fill, machine, markdown, marked
 
 Change = tuple[str, str]  # kind, the new line
 
@@ -442,14 +442,15 @@ class Attempts:
             self.save()
 
 
-def try_all(folder: str, numbers: list[int], longest_test: float, longest: float, only: str) -> Attempts:
-    """Test by test, shortest first: which faults it reaches, and which of them it notices."""
+def try_all(folder: str, numbers: list[int], longest_test: float, longest: float, only: str) -> tuple[Attempts, list[int]]:
+    """Test by test, shortest first: which faults it reaches, and which of them it notices. With them those that were tried: all if all tests ran, now or
+    before, and otherwise those with which one ran."""
     tests = {name: test for name, test in tests_of(folder).items()
-             if not LEFT_OUT.search(name) and re.search(only, name)
+             if not LEFT_OUT.search(name)
              and "nightly" not in next((one["value"] for one in test["properties"] if one["name"] == "LABELS"), [])}
     attempts = Attempts(folder)
     costs = costs_of(os.path.join(ROOT, "build")) | {name: known["seconds"] for name, known in attempts.tests.items()}
-    for name in sorted(tests, key=lambda name: costs.get(name, 30.)):
+    for name in sorted((name for name in tests if re.search(only, name)), key=lambda name: costs.get(name, 30.)):
         if costs.get(name, 0.) > longest_test:
             continue
         if name not in attempts.tests:
@@ -459,7 +460,7 @@ def try_all(folder: str, numbers: list[int], longest_test: float, longest: float
         known = attempts.tests[name]
         print(f"{time.strftime('%H:%M:%S')} {name:<40} {known['seconds']:5.1f} s{'' if known['passes'] else ' FAILS'}, reaches {len(known['reached']):3}; "
               f"{len(left)} not noticed", flush=True)
-    return attempts
+    return attempts, [number for number in numbers if attempts.of(number)["tried"] or tests.keys() <= attempts.tests.keys()]
 
 
 def folder_of(file: str) -> str:
@@ -467,13 +468,14 @@ def folder_of(file: str) -> str:
 
 
 def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], attempts: Attempts, not_compiled: int) -> None:
-    """The tables of doc/mutations.md on drawn faults."""
+    """The tables of doc/mutations.md on drawn faults. @param inside numbers of those that were tried"""
     path = os.path.join(ROOT, f"tests/mutations/drawn/{seed}.toml")
     known = {one["number"]: one for one in read_toml(path)["fault"]} if os.path.exists(path) else {}
     folders = collections.defaultdict(list)
     for fault in faults:
         folders[folder_of(fault["file"])].append(fault)
     rows, survivors, noticed_by = [], [], []
+    reached = {number for test in attempts.tests.values() if test["passes"] for number in test["reached"]}
     for folder, listed in [*sorted(folders.items()), ("all", faults)]:
         tried = [fault["number"] for fault in listed if fault["number"] in inside]
         noticed = [number for number in tried if attempts.of(number)["noticed"]]
@@ -487,17 +489,18 @@ def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], at
         if noticed:
             noticed_by.append([str(fault["number"]), place, fault["kind"], f"`{noticed}`"])
         elif fault["number"] in inside:
+            unknown = "a test is missing" if fault["number"] in reached else "no test that ran reaches it"
             survivors.append([str(fault["number"]), place, text(fault["old"]), text(fault["new"]),
-                              f"`{why['noticed']}` does since" if "noticed" in why else why.get("survives", "a test is missing")])
+                              f"`{why['noticed']}` does since" if "noticed" in why else why.get("survives", unknown)])
     names = [f"`{name}`" for name, test in sorted(attempts.tests.items()) if test["passes"]]
     missing = "" if not not_compiled else f" ({not_compiled} more did not)"
-    fill("mutations.md", "drawn", markdown(["folder", "drawn", "tried", "noticed", "share", "with the tests written since", "share"], rows)
+    fill("mutations.md", f"drawn {seed}", markdown(["folder", "drawn", "tried", "noticed", "share", "with the tests written since", "share"], rows)
          + f"\n\nThe first {len(faults)} faults of seed {seed} that compile{missing}, drawn from the sources of {commit}. What ran: {', '.join(names)}; "
          + f"{sum(attempts.of(fault['number'])['seconds'] for fault in faults):.0f} s with a fault on a machine that was busy otherwise. "
-         + ("Tried are those that one of these tests reaches; nothing is known of the others. " if any(f["number"] not in inside for f in faults) else "")
+         + ("Tried are those with which one of these tests ran; nothing is known of the others. " if any(f["number"] not in inside for f in faults) else "")
          + f"{machine()}; `contrib/draw-faults.py --seed {seed} --number {len(faults)} --try`.")
-    fill("mutations.md", "drawn survivors", markdown(["number", "line", "it was", "with the fault", "why no test noticed it"], survivors or [["-"] * 5]))
-    fill("mutations.md", "drawn noticed", markdown(["number", "line", "change", "noticed by"], noticed_by or [["-"] * 4]))
+    fill("mutations.md", f"drawn survivors {seed}", markdown(["number", "line", "it was", "with the fault", "why no test noticed it"], survivors or [["-"] * 5]))
+    fill("mutations.md", f"drawn noticed {seed}", markdown(["number", "line", "change", "noticed by"], noticed_by or [["-"] * 4]))
 
 
 def main() -> None:
@@ -524,6 +527,11 @@ def main() -> None:
         for fault in faults:
             print(f"{fault['number']:3} {fault['file']}:{fault['line']} {fault['kind']}\n    - {fault['old'].strip()}\n    + {fault['new'].strip()}")
         return
+    with open(os.path.join(ROOT, "doc/mutations.md"), encoding="utf-8") as stream:
+        page = stream.read()
+    for table in (f"{kind} {arguments.seed}" for kind in ("drawn", "drawn survivors", "drawn noticed")):
+        if not marked(table).search(page):
+            raise Error(f"doc/mutations.md has no place for the table '{table}': each seed has its own three")
     # A fault that allocates or writes without end takes the machine from nobody.
     resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
     resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 30, 4 << 30))
@@ -540,8 +548,8 @@ def main() -> None:
     numbers = [fault["number"] for fault in chosen]
     if left_out := [number for number in numbers if number not in inside]:
         print("in no program, to be built one by one: " + ", ".join(map(str, left_out)), flush=True)
-    attempts = try_all(arguments.folder, numbers, arguments.longest_test, arguments.longest, arguments.tests)
-    write_page(arguments.seed, commit, chosen, inside, attempts, sum(number < numbers[-1] for number in impossible))
+    attempts, tried = try_all(arguments.folder, numbers, arguments.longest_test, arguments.longest, arguments.tests)
+    write_page(arguments.seed, commit, chosen, [number for number in inside if number in tried], attempts, sum(number < numbers[-1] for number in impossible))
 
 
 if __name__ == "__main__":
