@@ -138,6 +138,20 @@ namespace tread::tests
       }
     return result;
   }
+
+  /// Share of the vibration's energy (velocity squared) at the struck section, in a band, that would not be
+  /// there if the rail went on.
+  inline double reflected(const Receptance &r, const Receptance &endless, const double from, const double to)
+  {
+    double difference = 0., scale = 0.;
+    for (unsigned int k = 0; k < r.values.size(); ++k)
+      if (const double f = r.frequency(k); f >= from && f <= to)
+        {
+          difference += f * f * std::norm(r.values[k] - endless.values[k]);
+          scale += f * f * std::norm(endless.values[k]);
+        }
+    return difference / scale;
+  }
 } // namespace tread::tests
 
 #endif

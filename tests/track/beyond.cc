@@ -265,21 +265,6 @@ namespace
     return energy() / largest;
   }
 
-  double reflected(const tests::Receptance &r,
-                   const tests::Receptance &endless,
-                   const double             from,
-                   const double             to)
-  {
-    double difference = 0., scale = 0.;
-    for (unsigned int k = 0; k < r.values.size(); ++k)
-      if (const double f = r.frequency(k); f >= from && f <= to)
-        {
-          difference += f * f * std::norm(r.values[k] - endless.values[k]);
-          scale += f * f * std::norm(endless.values[k]);
-        }
-    return 100. * difference / scale;
-  }
-
   std::unique_ptr<tests::TrackRail> five_spans(const MPI_Comm         comm,
                                                const unsigned int     n_supports,
                                                const double           gravity,
@@ -380,7 +365,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   TrackBeyondBoth few = beyond(points());
   (*few)[0].n_spans = (*few)[1].n_spans = 8;
   check.below("eight spans beyond, 30 to 2000 Hz: share of the energy that comes back (%)",
-              reflected(strike(5, few), endless, 30., 2000.), 6e-3);
+              100. * tests::reflected(strike(5, few), endless, 30., 2000.), 6e-3);
   struct Band
   {
     double from, to, limit; ///< Hz, %
@@ -393,8 +378,9 @@ void run_test(tests::Check &check, const tests::Arguments &)
     {
       const std::string name = std::to_string(int(band.from)) + " to " + std::to_string(int(band.to)) +
                                " Hz: share of the energy that comes back (%)";
-      check.below("five spans, endless, " + name, reflected(five, endless, band.from, band.to), band.limit);
+      check.below("five spans, endless, " + name, 100. * tests::reflected(five, endless, band.from, band.to),
+                  band.limit);
       check.that("five spans, symmetric, " + name + " is larger",
-                 reflected(symmetric, endless, band.from, band.to) > 5. * band.limit);
+                 100. * tests::reflected(symmetric, endless, band.from, band.to) > 5. * band.limit);
     }
 }

@@ -76,23 +76,6 @@ namespace
     return energy(rail) / before;
   }
 
-  /// Share of the vibration's energy (velocity squared) at the struck section, in a band, that would not be
-  /// there if the rail went on.
-  double reflected(const tests::Receptance &r,
-                   const tests::Receptance &endless,
-                   const double             from,
-                   const double             to)
-  {
-    double difference = 0., scale = 0.;
-    for (unsigned int k = 0; k < r.values.size(); ++k)
-      if (const double f = r.frequency(k); f >= from && f <= to)
-        {
-          difference += f * f * std::norm(r.values[k] - endless.values[k]);
-          scale += f * f * std::norm(endless.values[k]);
-        }
-    return difference / scale;
-  }
-
   tests::Receptance strike(const unsigned int n_supports, const double absorbing_length)
   {
     tests::TrackRail rail(MPI_COMM_SELF, tests::bar(n_supports, 12), n_supports, points(), weightless(), {});
@@ -179,7 +162,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   // Nothing comes back from the ends of 61 spans while the record counts, 20 ms at a decay of 200 1/s.
   const tests::Receptance endless = strike(61, 0.);
   const auto              band    = [&](const tests::Receptance &r, const double from, const double to) {
-    return 100. * reflected(r, endless, from, to);
+    return 100. * tests::reflected(r, endless, from, to);
   };
   for (const unsigned int n : {5u, 9u})
     {
