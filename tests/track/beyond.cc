@@ -4,6 +4,7 @@
 // spans against the same bar so long that nothing comes back; a load at rest, the start of its motion and
 // energy; and all ranks together against each alone.
 #include <tread/dynamics/parts/nodes.h>
+#include <tread/track/rail_ends.h>
 #include <tread/track/rail_section.h>
 
 #include <deal.II/base/mpi.h>
@@ -229,8 +230,9 @@ namespace
       .5 * 2. * std::sqrt(3.) * 210e9 * about_z / tests::spacing * small * small);
   }
 
-  /// Energy in the cells over what it was, when longitudinal waves would have come back.
-  double left_of_pulse(const TrackBeyondBoth &goes_on)
+  /// Energy in the cells over what it was, when longitudinal waves would have come back from so far beyond
+  /// their ends, m.
+  double left_of_pulse(const TrackBeyondBoth &goes_on, const double from = 0.)
   {
     constexpr unsigned int n_supports = 5;
     constexpr double       frequency = 6e3, duration = 2. / frequency, blow = 1e4; // Hz, s, N
@@ -252,7 +254,7 @@ namespace
     };
     rail.dynamics->start();
     double largest = 0.;
-    while (rail.dynamics->state.time < 2. * rail.end / speed + duration)
+    while (rail.dynamics->state.time < 2. * (rail.end + from) / speed + duration)
       {
         const double s = rail.dynamics->state.time / duration, phase = 2. * dealii::numbers::PI * s;
         const double f = s < 1. ? .5 * (1. - std::cos(phase)) * std::sin(2. * phase) * blow : 0.;
@@ -357,12 +359,17 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check.relative("longitudinal pulse, symmetric: energy that comes back (%)", 100. * left_of_pulse({}), 100.,
                  .01);
   check.below("longitudinal pulse, endless: energy that comes back (%)", 100. * left_of_pulse(free), .02);
+  // From the plane of symmetry behind the layer that absorbs, half of four spans.
+  for (TrackBeyondParameters &end : *free)
+    end.n_spans = 4;
+  const double kept = std::exp(-2. * AbsorbingEnds::strength / 3. / std::sqrt(2.6));
+  check.absolute("longitudinal pulse: energy that comes back from the far end (%)",
+                 100. * left_of_pulse(free, 4. * tests::spacing), 100. * kept, 1.);
 
   // Nothing comes back from the ends of 61 spans while the record counts, 20 ms at a decay of 200 1/s.
   const tests::Receptance endless = strike(61, {}), symmetric = strike(5, {}),
                           five = strike(5, beyond(points()));
-  // Waves come back from the far end of so few spans, but for what is absorbed there.
-  TrackBeyondBoth few = beyond(points());
+  TrackBeyondBoth few          = beyond(points());
   (*few)[0].n_spans = (*few)[1].n_spans = 8;
   check.below("eight spans beyond, 30 to 2000 Hz: share of the energy that comes back (%)",
               100. * tests::reflected(strike(5, few), endless, 30., 2000.), 6e-3);
