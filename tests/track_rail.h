@@ -251,6 +251,38 @@ namespace tread::tests
       return patch;
     }
   };
+
+  /// What is left of an energy (J) at an instant (s), over what it was when a tone of so many periods along
+  /// the rail at x = 0 had ended.
+  template <typename Energy>
+  double left_of_tone(TrackRail    &rail,
+                      const double  frequency,
+                      const double  periods,
+                      const double  until,
+                      const Energy &energy)
+  {
+    constexpr double blow     = 1e4; // N
+    const double     duration = periods / frequency;
+    const auto       struck   = rail.sections(0.);
+    rail.dynamics->start();
+    double before = 0.;
+    while (rail.dynamics->state.time < until)
+      {
+        const double s = rail.dynamics->state.time / duration, phase = 2. * dealii::numbers::PI * s;
+        const double f = s < 1. ? .5 * (1. - std::cos(phase)) * std::sin(periods * phase) * blow : 0.;
+        for (const auto &[node, share] : struck)
+          rail.loads->force[node] = Vector3{f * share, 0., 0., 0.};
+        rail.dynamics->step();
+        if (s > 1. && before == 0.)
+          before = energy();
+      }
+    return energy() / before;
+  }
+
+  inline double bar_wave_speed() ///< m/s
+  {
+    return std::sqrt(steel().young_modulus / steel().density);
+  }
 } // namespace tread::tests
 
 #endif

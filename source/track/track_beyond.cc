@@ -130,21 +130,21 @@ namespace tread
   }
 
 
-  void TrackBeyond::add_damping(const std::vector<double> &v, std::vector<double> &f) const
+  void TrackBeyond::find_damping()
   {
-    for (std::size_t k = 0; k < v.size(); ++k)
-      f[k] -= rate[k] * mass[k] * v[k];
+    for (std::size_t k = 0; k < velocity.size(); ++k)
+      damping[k] = -rate[k] * mass[k] * velocity[k];
     const reference::SupportLayers &layers = parameters.layers;
     for (std::size_t s = 0; s < node_of_support.size(); ++s)
       {
         const std::size_t node    = node_of_support[s];
-        const double      sleeper = has_sleepers ? v[3 * n_nodes + s] : 0.,
-                     pad          = layers.pad_damping * (v[unknown(up, node)] - sleeper);
-        f[unknown(up, node)] -= pad;
-        f[unknown(slope, node)] -=
-          layers.pad_damping * layers.pad_radius * layers.pad_radius * v[unknown(slope, node)];
+        const double      sleeper = has_sleepers ? velocity[3 * n_nodes + s] : 0.,
+                     pad          = layers.pad_damping * (velocity[unknown(up, node)] - sleeper);
+        damping[unknown(up, node)] -= pad;
+        damping[unknown(slope, node)] -=
+          layers.pad_damping * layers.pad_radius * layers.pad_radius * velocity[unknown(slope, node)];
         if (has_sleepers)
-          f[3 * n_nodes + s] += pad - layers.ballast_damping * sleeper;
+          damping[3 * n_nodes + s] += pad - layers.ballast_damping * sleeper;
       }
   }
 
@@ -220,8 +220,7 @@ namespace tread
 
   void TrackBeyond::set_at_rest(const AtSection &at)
   {
-    section          = at;
-    section_velocity = AtSection();
+    section = at;
     for (std::size_t k = 0; k < displacement.size(); ++k)
       displacement[k] =
         sagged[k] + at.along * shapes[along][k] + at.up * shapes[up][k] + at.slope * shapes[slope][k];
@@ -231,7 +230,6 @@ namespace tread
 
   void TrackBeyond::follow_slowly(const AtSection &at)
   {
-    section_velocity = at;
     for (std::size_t k = 0; k < velocity.size(); ++k)
       velocity[k] = at.along * shapes[along][k] + at.up * shapes[up][k] + at.slope * shapes[slope][k];
   }
@@ -240,8 +238,7 @@ namespace tread
   void TrackBeyond::find_forces()
   {
     on_section = spring_forces(section, displacement, force);
-    std::fill(damping.begin(), damping.end(), 0.);
-    add_damping(velocity, damping);
+    find_damping();
   }
 
 
@@ -264,7 +261,6 @@ namespace tread
     velocity[unknown(along, n_nodes - 1)] = velocity[unknown(slope, n_nodes - 1)] = 0.;
     for (std::size_t k = 0; k < velocity.size(); ++k)
       displacement[k] += time_step * velocity[k];
-    section_velocity = velocity_of_section;
     section.along += time_step * velocity_of_section.along;
     section.up += time_step * velocity_of_section.up;
     section.slope += time_step * velocity_of_section.slope;
@@ -387,7 +383,7 @@ namespace tread
 
   void TrackBeyond::serialize(Archive &archive)
   {
-    archive.same(section, section_velocity, damper_work);
+    archive.same(section, damper_work);
     archive.same_number(displacement, velocity);
   }
 } // namespace tread

@@ -235,15 +235,13 @@ namespace
   double left_of_pulse(const TrackBeyondBoth &goes_on, const double from = 0.)
   {
     constexpr unsigned int n_supports = 5;
-    constexpr double       frequency = 6e3, duration = 2. / frequency, blow = 1e4; // Hz, s, N
+    constexpr double       frequency = 6e3, periods = 2.; // Hz
     DynamicsParameters     parameters = with_gravity(0.);
     parameters.damping_steps          = 0.;
     TrackParameters undamped          = points();
     undamped.springs.pad_damping = undamped.springs.ballast_damping = 0.;
     tests::TrackRail rail(MPI_COMM_SELF, tests::bar(n_supports, 24), n_supports, undamped, parameters, {},
                           false, 0, SleeperBox().coarsest_cell_size, goes_on);
-    const auto       struck = rail.sections(0.);
-    const double     speed  = std::sqrt(tests::steel().young_modulus / tests::steel().density);
     const auto       energy = [&]() {
       double sum = 0.;
       for (unsigned int i = 0; i < rail.mesh->nodes.size(); ++i)
@@ -252,19 +250,9 @@ namespace
       const EnergyLedger ledger = rail.dynamics->ledger();
       return sum + ledger.strain + ledger.hourglass;
     };
-    rail.dynamics->start();
-    double largest = 0.;
-    while (rail.dynamics->state.time < 2. * (rail.end + from) / speed + duration)
-      {
-        const double s = rail.dynamics->state.time / duration, phase = 2. * dealii::numbers::PI * s;
-        const double f = s < 1. ? .5 * (1. - std::cos(phase)) * std::sin(2. * phase) * blow : 0.;
-        for (const auto &[node, share] : struck)
-          rail.loads->force[node] = Vector3{f * share, 0., 0., 0.};
-        rail.dynamics->step();
-        if (s > 1. && largest == 0.)
-          largest = energy();
-      }
-    return energy() / largest;
+    return tests::left_of_tone(rail, frequency, periods,
+                               2. * (rail.end + from) / tests::bar_wave_speed() + periods / frequency,
+                               energy);
   }
 
   std::unique_ptr<tests::TrackRail> five_spans(const MPI_Comm         comm,

@@ -50,7 +50,7 @@ namespace
   double left_of_pulse(const double absorbing_length)
   {
     constexpr unsigned int n_supports = 11;
-    constexpr double       frequency = 6e3, duration = 4. / frequency, blow = 1e4; // Hz, s, N
+    constexpr double       frequency = 6e3, periods = 4.; // Hz
     DynamicsParameters     parameters = weightless();
     parameters.damping_steps          = 0.;
     // Pads feel the bar's bulging.
@@ -59,21 +59,9 @@ namespace
     tests::TrackRail rail(MPI_COMM_SELF, tests::bar(n_supports, 24), n_supports, undamped, parameters, {});
     if (absorbing_length > 0.)
       absorb(rail, absorbing_length);
-    const auto   struck = rail.sections(0.);
-    const double speed  = std::sqrt(tests::steel().young_modulus / tests::steel().density);
-    rail.dynamics->start();
-    double before = 0.;
-    while (rail.dynamics->state.time < 2. * rail.end / speed + duration)
-      {
-        const double s = rail.dynamics->state.time / duration, phase = 2. * dealii::numbers::PI * s;
-        const double f = s < 1. ? .5 * (1. - std::cos(phase)) * std::sin(4. * phase) * blow : 0.;
-        for (const auto &[node, share] : struck)
-          rail.loads->force[node] = Vector3{f * share, 0., 0., 0.};
-        rail.dynamics->step();
-        if (s > 1. && before == 0.)
-          before = energy(rail);
-      }
-    return energy(rail) / before;
+    return tests::left_of_tone(rail, frequency, periods,
+                               2. * rail.end / tests::bar_wave_speed() + periods / frequency,
+                               [&]() { return energy(rail); });
   }
 
   tests::Receptance strike(const unsigned int n_supports, const double absorbing_length)

@@ -67,7 +67,7 @@ namespace tread
     /// Of the first element, as its section feels it: N/m, N/m, N m; row sums.
     AtSection stiffness_of_section() const;
 
-    /// Energies at present, J, and of weight half a step back. @pre find_forces() is not needed
+    /// Energies at present, J, and of weight half a step back.
     double spring_energy() const;
     double kinetic_energy(const double time_step) const;
     double weight_potential(const double time_step) const;
@@ -85,12 +85,11 @@ namespace tread
     {
       return kind * n_nodes + node;
     }
-    /// Forces of beam and springs, and of dampers, at these displacements and velocities. @returns what
-    /// acts on the section
+    /// Forces of beam and springs at these displacements. @returns what acts on the section
     AtSection spring_forces(const AtSection           &section,
                             const std::vector<double> &displacement,
                             std::vector<double>       &force) const;
-    void      add_damping(const std::vector<double> &velocity, std::vector<double> &force) const;
+    void      find_damping(); ///< forces of dampers at the present velocities
     void      find_shapes();
 
     struct Element
@@ -107,7 +106,7 @@ namespace tread
     // At rest: with a unit displacement of the section each, and with the weight alone.
     std::vector<double> shapes[3], sagged;
 
-    AtSection                   section, section_velocity, on_section;
+    AtSection                   section, on_section;
     std::vector<double>         displacement, velocity; ///< by unknown
     std::vector<double>         force, damping;         ///< as last found
     double                      damper_work = 0.;       ///< so far, J

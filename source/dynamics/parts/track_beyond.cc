@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tread
 {
@@ -74,7 +75,7 @@ namespace tread
               end.side * (p[0] - middle) > 0. && of.mesh.shared_nodes.is_owned(i))
             {
               is_coarse = is_coarse && of.true_mass[i] > 0.; // hanging nodes have none
-              end.nodes.push_back({i, of.true_mass[i], p[1], p[2]});
+              end.nodes.push_back({i, of.true_mass[i]});
               firsts[0].add(of.true_mass[i]);
               firsts[1].add(of.true_mass[i] * p[1]);
               firsts[2].add(of.true_mass[i] * p[2]);
@@ -82,22 +83,26 @@ namespace tread
         end.mass        = firsts[0].value(of.mesh.comm);
         const double y0 = firsts[1].value(of.mesh.comm) / end.mass,
                      z0 = firsts[2].value(of.mesh.comm) / end.mass;
+        const auto arms = [&](const Node &node) {
+          const dealii::Point<3> &p = of.mesh.nodes[node.number];
+          return std::pair(p[1] - y0, p[2] - z0);
+        };
         std::array<ReproducibleSum<double>, 3> seconds;
-        for (Node &node : end.nodes)
+        for (const Node &node : end.nodes)
           {
-            node.across -= y0;
-            node.up -= z0;
-            seconds[0].add(node.mass * node.up * node.up);
-            seconds[1].add(node.mass * node.across * node.across);
-            seconds[2].add(node.mass * node.up * node.across);
+            const auto [across, up] = arms(node);
+            seconds[0].add(node.mass * up * up);
+            seconds[1].add(node.mass * across * across);
+            seconds[2].add(node.mass * up * across);
           }
         // An inclined rail has a product of inertia.
         const double zz = seconds[0].value(of.mesh.comm), yy = seconds[1].value(of.mesh.comm),
                      zy = seconds[2].value(of.mesh.comm), determinant = zz * yy - zy * zy;
         for (Node &node : end.nodes)
           {
-            node.pitch = node.mass * (yy * node.up - zy * node.across) / determinant;
-            node.yaw   = node.mass * (zz * node.across - zy * node.up) / determinant;
+            const auto [across, up] = arms(node);
+            node.pitch              = node.mass * (yy * up - zy * across) / determinant;
+            node.yaw                = node.mass * (zz * across - zy * up) / determinant;
           }
         end.pitch_by_moment = yy / determinant;
         end.yaw_by_moment   = zz / determinant;

@@ -21,7 +21,7 @@ namespace tread
   /// moves as its mean does: displacement and rotation weighted with the nodes' masses (those of Cowper 1966
   /// for a beam), by which it passes its forces on; it may warp and bulge. It is kept from turning about the
   /// vertical by the bending stiffness of a continuous beam that rests on the supports across; across and
-  /// about the rail's axis nothing acts on it, as on a plane of symmetry.
+  /// about the rail's axis nothing acts on it.
   class RailOnTrackBeyond : public PartWithSums<std::array<SumsOfTrackBeyond, 2>>
   {
   public:
@@ -56,8 +56,7 @@ namespace tread
     struct Node
     {
       unsigned int number;
-      double       mass;       ///< kg
-      double       across, up; ///< from the section's centre of mass, m
+      double       mass; ///< kg
       /// Share of its displacement along the rail in the rotations of the section: least squares, weighted
       /// with the masses, 1/m.
       double pitch = 0., yaw = 0.;
