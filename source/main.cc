@@ -283,7 +283,7 @@ namespace
       return 0;
     if (line.dry_run)
       {
-        tread::Simulation(scene, comm).estimate();
+        tread::estimate(tread::Model(scene, comm, {}));
         return 0;
       }
     return tread::run(scene, comm, folder_of(""), line.resume) ? 0 : 130;

@@ -739,46 +739,88 @@ namespace tread
   }
 
 
+  namespace
+  {
+    std::vector<TableDescription> &further_tables()
+    {
+      static std::vector<TableDescription> tables;
+      return tables;
+    }
+
+    /// patch_averaged.csv, patch_wheel_2.csv, reference_patch.csv, peak_stress_wheel.csv as their
+    /// descriptions have them.
+    std::string as_described(const std::string &file)
+    {
+      static const std::regex patch("^(reference_patch|patch(_averaged)?(_wheel_[0-9]+)?)[.]csv$"),
+        patches("^patches_wheel_[0-9]+[.]csv$"), peaks("^peak_stress_wheel[.]csv$"),
+        damage("^wheel_surface_damage_wheel_[0-9]+[.]csv$");
+      for (const auto &[numbered, described] :
+           {std::pair(&patch, "patch.csv"), std::pair(&patches, "patches.csv"),
+            std::pair(&peaks, "peak_stress.csv"), std::pair(&damage, "wheel_surface_damage.csv")})
+        if (std::regex_match(file, *numbered))
+          return described;
+      return file;
+    }
+
+    const TableDescription *table_like(const std::string &file)
+    {
+      static const std::vector<TableDescription> tables = tables_of_a_run();
+      for (const TableDescription &table : tables)
+        if (table.file == as_described(file))
+          return &table;
+      return nullptr;
+    }
+  } // namespace
+
+
+  bool know_table(const TableDescription &table)
+  {
+    further_tables().push_back(table);
+    return true;
+  }
+
+
+  bool is_table_of_a_run(const std::string &file)
+  {
+    return table_like(file) != nullptr;
+  }
+
+
   std::vector<TableDescription> tables_of_a_run()
   {
     HistoryParts all{2, true, true, {0}};
     all.has_rail_base = all.has_flexible_axle = all.has_slices = all.has_two_pieces = all.has_window = true;
-    return {describe("history.csv", history_columns(all)),
-            describe("patch.csv", patch_columns()),
-            describe("patches.csv", patches_columns()),
-            describe("cells.csv", cell_columns(1)),
-            describe("strip.csv", strip_columns()),
-            describe("rail_surface_damage.csv", surface_damage_columns(false)),
-            describe("wheel_surface_damage.csv", surface_damage_columns(true)),
-            describe("peak_stress.csv", peak_columns()),
-            describe("rail_seats.csv", rail_seat_columns()),
-            describe("passages.csv", passage_columns()),
-            describe("rail_cells.csv", rail_cell_columns()),
-            describe("rail_surface.csv", rail_surface_columns()),
-            describe("measured_wheel.csv", measured_profile_columns()),
-            describe("measured_rail.csv", measured_profile_columns())};
+    std::vector<TableDescription> tables{describe("history.csv", history_columns(all)),
+                                         describe("patch.csv", patch_columns()),
+                                         describe("patches.csv", patches_columns()),
+                                         describe("cells.csv", cell_columns(1)),
+                                         describe("strip.csv", strip_columns()),
+                                         describe("rail_surface_damage.csv", surface_damage_columns(false)),
+                                         describe("wheel_surface_damage.csv", surface_damage_columns(true)),
+                                         describe("peak_stress.csv", peak_columns()),
+                                         describe("rail_seats.csv", rail_seat_columns()),
+                                         describe("passages.csv", passage_columns()),
+                                         describe("rail_cells.csv", rail_cell_columns()),
+                                         describe("rail_surface.csv", rail_surface_columns()),
+                                         describe("measured_wheel.csv", measured_profile_columns()),
+                                         describe("measured_rail.csv", measured_profile_columns())};
+    tables.insert(tables.end(), further_tables().begin(), further_tables().end());
+    return tables;
   }
 
 
   std::string about_column(const std::string &file, const std::string &heading)
   {
-    // patch_averaged.csv, patch_wheel_2.csv, reference_patch.csv, peak_stress_wheel.csv
-    static const std::regex patch("^(reference_patch|patch_.*)[.]"), peaks("^peak_stress_wheel"),
-      damage("^wheel_surface_damage_wheel_[0-9]+"), support("^support_-?[0-9]+_"), wheel("^wheel_[0-9]+_"),
-      cell("^cell_[0-9]+_");
+    static const std::regex support("^support_-?[0-9]+_"), wheel("^wheel_[0-9]+_"), cell("^cell_[0-9]+_");
     const auto like = [](const std::string &text, const std::regex &numbered, const char *instead) {
       return std::regex_replace(text, numbered, instead);
     };
-    const std::string table =
-      like(like(like(file, patch, "patch."), peaks, "peak_stress"), damage, "wheel_surface_damage");
     const std::string name =
       like(like(like(heading, support, "support_0_"), wheel, "wheel_2_"), cell, "cell_1_");
-    static const std::vector<TableDescription> tables = tables_of_a_run();
-    for (const TableDescription &candidate : tables)
-      if (candidate.file == table)
-        for (const TableDescription::Line &column : candidate.columns)
-          if (column.heading == name)
-            return column.about;
+    if (const TableDescription *table = table_like(file))
+      for (const TableDescription::Line &column : table->columns)
+        if (column.heading == name)
+          return column.about;
     return "";
   }
 } // namespace tread

@@ -88,17 +88,15 @@ namespace tread
 
   bool RunFolder::is_own(const std::string &name)
   {
+    // Besides the tables of a run: those of other commands, and what is no table.
     static const std::regex own(
-      "(summary\\.json|run\\.h5|(history|patch(es|_averaged)?(_wheel_[0-9]+)?|reference_patch|subsurface|"
-      "transient|"
-      "rail_cells|"
-      "rail_surface|(rail|wheel)_surface_damage(_wheel_[0-9]+)?|strip|peak_stress(_wheel)?|rail_seats|cells|"
-      "passages|dynamic|spectrum|modes|"
-      "receptance|measured_(rail|wheel)|(rail|wheel)_wear|wear_(steps|patches)|worn_(rail|wheel)_[0-9]+)\\.csv|"
-      "worn_[0-9]+\\.prm|wear\\.checkpoint|(dynamic|sleeper_stress)\\.json|sleeper_stress\\.vtu|"
-      "checkpoint-[01]|checkpoint\\.last|"
-      "(volume|surface|modes)(\\.pvd|\\.xdmf|\\.h5|-[0-9]{4,}\\.(vtu|h5)))(\\.part)?");
-    return std::regex_match(name, own);
+      "summary\\.json|run\\.h5|(subsurface|transient|dynamic|spectrum|modes|receptance|"
+      "(rail|wheel)_wear|wear_(steps|patches)|worn_(rail|wheel)_[0-9]+)\\.csv|"
+      "worn_[0-9]+\\.prm|wear\\.checkpoint|(dynamic|sleeper_stress)\\.json|"
+      "sleeper_stress\\.vtu|checkpoint-[01]|checkpoint\\.last|"
+      "(volume|surface|modes)(\\.pvd|\\.xdmf|\\.h5|-[0-9]{4,}\\.(vtu|h5))");
+    const std::string whole = name.ends_with(".part") ? name.substr(0, name.size() - 5) : name;
+    return is_table_of_a_run(whole) || std::regex_match(whole, own);
   }
 
 
@@ -131,11 +129,11 @@ namespace tread
       return;
     std::error_code ignored;
     std::filesystem::remove(path("summary.json"), ignored);
-    static const std::regex of_solution(
-      "run\\.h5|(patch(_averaged)?(_wheel_[0-9]+)?|reference_patch|rail_cells|"
-      "rail_surface|(rail|wheel)_surface_damage(_wheel_[0-9]+)?|rail_seats|strip|peak_stress(_wheel)?)\\."
-      "csv");
-    remove_files(folder, [](const std::string &name) { return std::regex_match(name, of_solution); });
+    static const std::regex of_the_way(
+      "(history|cells|patches(_wheel_[0-9]+)?|passages|measured_(rail|wheel))\\.csv");
+    remove_files(folder, [](const std::string &name) {
+      return name == "run.h5" || (is_table_of_a_run(name) && !std::regex_match(name, of_the_way));
+    });
   }
 
 
@@ -202,47 +200,7 @@ namespace tread
   }
 
 
-  void RunFolder::write_patch(const std::string &name, const std::vector<PatchNode> &patch) const
-  {
-    write_table(name, patch_columns(), patch);
-  }
-
-
-  void RunFolder::write_passages(const std::vector<Passage> &passages) const
-  {
-    write_table("passages.csv", passage_columns(), passages);
-  }
-
-
-  void RunFolder::write_peaks(const std::string &name, const StressPeaks::Answer &answer) const
-  {
-    std::vector<StressPeaks::Layer> rows;
-    if (answer.surface.peak.value > 0.)
-      rows.push_back(answer.surface);
-    rows.insert(rows.end(), answer.layers.begin(), answer.layers.end());
-    write_table(name, peak_columns(), rows);
-  }
-
-
-  void RunFolder::write_strip(const std::vector<StripColumn> &columns) const
-  {
-    write_table("strip.csv", strip_columns(), columns);
-  }
-
-
-  void RunFolder::write_surface_damage(const std::string &name, const std::vector<SurfacePlace> &places) const
-  {
-    write_table(name, surface_damage_columns(name.starts_with("wheel")), places);
-  }
-
-
-  void RunFolder::write_rail_seats(const std::vector<RailSeatPoint> &points) const
-  {
-    write_table("rail_seats.csv", rail_seat_columns(), points);
-  }
-
-
-  void RunFolder::open_table(const std::string &name, const std::string &header)
+  void RunFolder::open_with(const std::string &name, const std::string &header)
   {
     const auto        mark = kept.find(name);
     const std::string text =
@@ -309,56 +267,5 @@ namespace tread
                 series.grids.push_back(grids.at(i));
             }
       }
-  }
-
-
-  void RunFolder::open_histories(const HistoryParts &parts, const std::size_t n_cells)
-  {
-    if (!writes_tables)
-      return;
-    of_history = history_columns(parts);
-    of_cells   = cell_columns(n_cells);
-    open_table("history.csv", heading(of_history));
-    if (n_cells > 0)
-      open_table("cells.csv", heading(of_cells));
-  }
-
-
-  void RunFolder::append(const HistoryRow &row)
-  {
-    if (!writes_tables)
-      return;
-    const auto add = [&](const char *name, const Columns<HistoryRow> &columns) {
-      std::ostringstream text;
-      text << std::setprecision(12);
-      write_row(text, columns, row);
-      append_to(name, text.str());
-    };
-    add("history.csv", of_history);
-    if (!row.cells.empty())
-      add("cells.csv", of_cells);
-  }
-
-
-  void RunFolder::open_patches(const unsigned int n_wheels)
-  {
-    if (writes_tables)
-      for (unsigned int wheel = 0; wheel < n_wheels; ++wheel)
-        open_table(table_of_wheel("patches", wheel), heading(patches_columns()));
-  }
-
-
-  void RunFolder::append_patch(const unsigned int            wheel,
-                               const double                  time,
-                               const double                  position,
-                               const std::vector<PatchNode> &patch)
-  {
-    if (!writes_tables)
-      return;
-    std::ostringstream text;
-    text << std::setprecision(12);
-    for (const PatchNode &node : patch)
-      write_row(text, patches_columns(), {time, position, node});
-    append_to(table_of_wheel("patches", wheel), text.str());
   }
 } // namespace tread

@@ -14,6 +14,13 @@ namespace tread
     /// Names of keys with what they mean.
     using Keys = std::vector<std::pair<std::string, std::string>>;
 
+    Keys &further_keys()
+    {
+      static Keys keys;
+      return keys;
+    }
+
+
     const std::string over_last_way = "mean over the last 10 mm of the path",
                       over_a_cell   = "mean while the wheel rolls over one cell around the end of the path",
                       largest_patch = "; of a wheelset in a position the largest of its patches",
@@ -329,7 +336,7 @@ namespace tread
         quality.emplace_back(heading(column), column.about);
       Keys all;
       for (const Keys &keys : {scene, wheel, first_wheel, comparison, quality, impacts, cost, further_wheels,
-                               recorded, of_damage, of_profile_wear, peaks(), half_space})
+                               recorded, of_damage, of_profile_wear, peaks(), half_space, further_keys()})
         all.insert(all.end(), keys.begin(), keys.end());
       return all;
     }
@@ -353,6 +360,13 @@ namespace tread
       return unit_of_heading(std::regex_replace(key, within, "$1$2$3"));
     }
   } // namespace
+
+
+  bool know_summary_key(const std::string &key, const std::string &about)
+  {
+    further_keys().emplace_back(key, about);
+    return true;
+  }
 
 
   TableDescription keys_of_summary()

@@ -43,8 +43,8 @@ namespace tread
         add(wheel, steady_damage(patch.elements, patch.wheel_speed, p.wear.get(), p.master_share,
                                  p.master_effusivity));
       }
-    folder.write_surface_damage("rail_surface_damage.csv", rail);
-    folder.write_surface_damage("wheel_surface_damage.csv", wheel);
+    folder.write_table("rail_surface_damage.csv", surface_damage_columns(false), rail);
+    folder.write_table("wheel_surface_damage.csv", surface_damage_columns(true), wheel);
     const double hottest = std::max(max_temperature(rail), max_temperature(wheel));
     summary.set("max_flash_temperature_K", hottest);
     if (const std::string doubt = doubt_of_temperature(scene, hottest); !doubt.empty())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run would cost.
 #include <tread/base/format.h>
+#include <tread/simulation/doubts.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -109,19 +110,22 @@ namespace tread
   }
 
 
-  void Simulation::estimate()
+  void estimate(const Model &model)
   {
-    const double        step  = scene.time_stepping.courant_number * dynamics.critical_time_step();
-    const std::uint64_t steps = remaining_steps();
+    const Scene            &scene    = model.scene;
+    const ExplicitDynamics &dynamics = model.dynamics;
+    const MPI_Comm          comm     = model.comm;
+    const double            step     = scene.time_stepping.courant_number * dynamics.critical_time_step();
+    const std::uint64_t     steps    = model.remaining_steps();
     // A few force evaluations tell this machine's pace.
-    NodalField       force(mesh.nodes.size(), Vector3{});
+    NodalField       force(model.mesh.nodes.size(), Vector3{});
     const NodalField x     = dynamics.state.positions();
     const auto       start = MPI_Wtime();
     unsigned int     n     = 0;
     for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
-      solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data());
+      model.solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data());
     const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
-    const double           memory = memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
+    const double           memory = model.memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
     constexpr unsigned int n_choices = 4; // of levels
     std::array<double, n_choices> gains;
     for (unsigned int level = 0; level < n_choices; ++level)
@@ -132,7 +136,7 @@ namespace tread
               relaxation_steps);
     };
     std::vector<std::string> doubts = scene.doubts();
-    if (const std::string unseen = unseen_detail(); !unseen.empty())
+    if (const std::string unseen = unseen_detail(scene); !unseen.empty())
       doubts.push_back(unseen);
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
@@ -146,9 +150,9 @@ namespace tread
           std::printf(
             "window of fine cells %12u places; what follows is of the first one, without the changes\n",
             scene.n_windows());
-        std::printf("cells                %12llu\n", (unsigned long long)mesh.n_global_cells);
+        std::printf("cells                %12llu\n", (unsigned long long)model.mesh.n_global_cells);
         std::printf("unknowns             %12llu\n",
-                    3ull * (mesh.n_global_nodes - mesh.n_global_hanging_nodes));
+                    3ull * (model.mesh.n_global_nodes - model.mesh.n_global_hanging_nodes));
         std::printf("time step            %12.4g s\n", step);
         if (dynamics.max_level() > 0)
           std::printf("levels of time steps %12u     cell updates fall to 1/%.2f\n", dynamics.max_level() + 1,

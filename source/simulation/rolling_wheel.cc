@@ -3,7 +3,7 @@
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/rolling_wheel.h>
 
-#include <algorithm>
+#include <utility>
 
 namespace tread
 {
@@ -37,19 +37,6 @@ namespace tread
         hub.place(start + Vector3{0., 0., scene.axle_height(), 0.});
         hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
       }
-    forget_records(scene);
-  }
-
-
-  void RollingWheel::forget_records(const Scene &scene)
-  {
-    average = PatchAverage();
-    averages_of_patches.assign(scene.is_positioned() ? scene.placed_wheel().patches().size() : 0,
-                               PatchAverage());
-    last_force_sum  = Vector3{};
-    last_force_low  = 1e300;
-    last_force_high = -1e300;
-    solution_patch.clear();
   }
 
 
@@ -85,58 +72,8 @@ namespace tread
   }
 
 
-  void RollingWheel::add_to_last_force(const Vector3 force)
-  {
-    last_force_sum += force;
-    last_force_low  = std::min(last_force_low, force[2]);
-    last_force_high = std::max(last_force_high, force[2]);
-  }
-
-
-  double RollingWheel::ripple(const double mean) const
-  {
-    return mean > 0. ? std::max(last_force_high - mean, mean - last_force_low) / mean : 0.;
-  }
-
-
-  WheelRecord RollingWheel::end_interval(const Scene                  &scene,
-                                         const std::vector<PatchNode> &now,
-                                         const unsigned int            n_steps,
-                                         const double                  seconds)
-  {
-    WheelRecord record{(1. / n_steps) * interval_force,
-                       creepage(scene),
-                       measure(now),
-                       (hub.motion.velocity_z - interval_start_speed) / seconds,
-                       hub.motion.y + scene.wheelset.position().shift,
-                       hub.motion.yaw,
-                       hub.guidance_force(),
-                       hub.motion.roll,
-                       (1. / n_steps) * interval_other_force,
-                       interval_inner_force / n_steps,
-                       scene.is_positioned() ? position(scene).height : 0.};
-    if (const FlexibleAxle *axle = hub.flexible_axle())
-      {
-        record.twist    = 2. * axle->twist(FlexibleAxle::own);
-        const auto tilt = [&](const FlexibleAxle::Side side) {
-          return WheelRecord::Tilt{-axle->tilt(side).x, axle->tilt(side).z};
-        };
-        record.own_tilt   = tilt(FlexibleAxle::own);
-        record.other_tilt = tilt(FlexibleAxle::other);
-      }
-    interval_force = interval_other_force = Vector3{};
-    interval_inner_force                  = 0.;
-    interval_start_speed                  = hub.motion.velocity_z;
-    return record;
-  }
-
-
   void RollingWheel::serialize(Archive &archive)
   {
-    average.serialize(archive);
-    for (PatchAverage &of_patch : averages_of_patches)
-      of_patch.serialize(archive);
-    archive.same(target_creepage, free_creepage, solution_patch, interval_force, interval_other_force,
-                 interval_inner_force, interval_start_speed, last_force_sum, last_force_low, last_force_high);
+    archive.same(target_creepage, free_creepage);
   }
 } // namespace tread

@@ -44,12 +44,12 @@ namespace tread
 
       simulation->announce(progress);
       if (resume)
-        progress.say(format("resumed at %.2f mm, step %llu", 1e3 * simulation->position(),
-                            (unsigned long long)simulation->dynamics.state.n_steps));
+        progress.say(format("resumed at %.2f mm, step %llu", 1e3 * simulation->model.position(),
+                            (unsigned long long)simulation->model.dynamics.state.n_steps));
       else if (!start())
         return false;
       open_tables(resume);
-      simulation->checked_position = simulation->position();
+      simulation->checked_position = simulation->model.position();
       if (simulation->next_wheel_due && !simulation->begin_next_passage(progress))
         return false;
       return end_with(roll());
@@ -62,7 +62,7 @@ namespace tread
     {
       checkpoint.read(*simulation);
       // The patch is averaged over a cell at the end.
-      const double position = simulation->position();
+      const double position = simulation->model.position();
       if (simulation->went_on_at == position)
         require(position <= scene.path_end() - 0.5 * scene.mesh.finest_cell,
                 "--resume: the wheel has rolled " + text_in_mm(position - scene.path_begin()) +
@@ -88,15 +88,8 @@ namespace tread
 
     void open_tables(const bool resume)
     {
-      const Simulation &s = *simulation;
-      folder.open_histories({static_cast<unsigned int>(s.wheels.size()),
-                             scene.guidance.kind != Guidance::rigid, scene.wheelset.both_wheels,
-                             scene.recorded_supports(), scene.track.runs_along(),
-                             scene.wheelset.has_flexible_axle(), scene.rail.is_sliced(),
-                             s.between_pieces.has_value(), scene.mesh.window},
-                            s.probes ? s.probes->centres().size() : 0);
-      if (scene.output.interval_of_patches() > 0.)
-        folder.open_patches(s.wheels.size());
+      for (const auto &recorder : simulation->recorders)
+        recorder->open(folder);
       // Nothing is refused any more.
       if (resume && folder.is_complete())
         folder.remove_solution();
@@ -107,8 +100,9 @@ namespace tread
     End roll()
     {
       End              end = End::of_window;
-      Simulation::Pace pace{progress.seconds(), simulation->dynamics.state.n_steps, progress.seconds(),
-                            simulation->mesh.n_global_cells / simulation->dynamics.ideal_gain_of_levels()};
+      Simulation::Pace pace{progress.seconds(), simulation->model.dynamics.state.n_steps, progress.seconds(),
+                            simulation->model.mesh.n_global_cells /
+                              simulation->model.dynamics.ideal_gain_of_levels()};
       simulation->announce_steps(progress);
       try
         {
@@ -116,7 +110,7 @@ namespace tread
             move_window();
           if (end == End::complete || end == End::left_surface)
             {
-              if (simulation->interval_steps > 0)
+              if (simulation->history.has_begun())
                 simulation->end_interval(folder);
               if (end == End::complete && scene.motion.may_go_on())
                 checkpoint.write(*simulation);
@@ -124,7 +118,7 @@ namespace tread
         }
       catch (const WentWrong &wrong)
         {
-          simulation->write_volume(folder);
+          simulation->pictures->write_volume(folder);
           throw WentWrong(wrong.what() + ("; " + folder.list_of_pictures("volume")) +
                           " ends with the bodies as they were then");
         }
@@ -155,7 +149,7 @@ namespace tread
             no_checkpoint = std::current_exception(); // what was computed is kept all the same
           }
       simulation->finish(folder, end);
-      simulation->check_rim();
+      simulation->model.check_rim();
       if (no_checkpoint)
         std::rethrow_exception(no_checkpoint);
       return end == End::complete;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a wheel comes to stand on the rail and begins to roll.
 #include <tread/base/format.h>
+#include <tread/dynamics/parts/rail_base.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/simulation.h>
+#include <tread/track/supports.h>
 
 #include "interruption.h"
 
@@ -29,7 +31,7 @@ namespace tread
   {
     const double                                         began = progress.seconds();
     std::vector<std::optional<reference::RollingResult>> half_space;
-    for (RollingWheel &wheel : wheels)
+    for (RollingWheel &wheel : model.wheels)
       {
         if (scene.is_positioned())
           {
@@ -37,8 +39,8 @@ namespace tread
               given_angular_velocity(scene) * scene.rolling_radius() / scene.motion.speed - 1.;
             break;
           }
-        const auto own  = wheels.begin() + wheel.number;
-        const auto like = std::find_if(wheels.begin(), own, [&](const RollingWheel &before) {
+        const auto own  = model.wheels.begin() + wheel.number;
+        const auto like = std::find_if(model.wheels.begin(), own, [&](const RollingWheel &before) {
           const auto friction = [&](const RollingWheel &w) {
             return scene.contact.friction_factor(scene.path_begin(w.number));
           };
@@ -59,15 +61,15 @@ namespace tread
         : std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
 
     const auto measure_free_rolling = [&]() {
-      contact.complete_state();
+      model.contact.complete_state();
       // Earlier wheels have left the surface stretched where they began and ended, and in the middle of the
       // path, where passages are compared, displaced alike: there a wheel rolls freely as the first one did.
-      if (!passages.empty() && !scene.ratcheting.uniform)
+      if (passages && passages->any_has_ended() && !scene.ratcheting.uniform)
         return;
-      const NodalField x       = dynamics.state.positions();
+      const NodalField x       = model.dynamics.state.positions();
       const double     stretch = half_space_stretch(scene);
-      for (RollingWheel &wheel : wheels)
-        wheel.free_creepage = contact.free_rolling_creepage(x.data(), wheel.body) - stretch;
+      for (RollingWheel &wheel : model.wheels)
+        wheel.free_creepage = model.contact.free_rolling_creepage(x.data(), wheel.body) - stretch;
     };
     bool         free_rolling_known = false;
     unsigned int unloaded           = 0; // measurements in a row
@@ -76,10 +78,11 @@ namespace tread
     const auto after_each_measurement = [&](const unsigned int iteration, const double share) {
       if (interrupted())
         throw Interruption();
-      const bool all_loaded = std::all_of(wheels.begin(), wheels.end(), [&](const RollingWheel &wheel) {
-        return contact.total_impulse_on(wheel.body)[2] > 0.;
-      });
-      unloaded              = all_loaded ? 0 : unloaded + 1;
+      const bool all_loaded =
+        std::all_of(model.wheels.begin(), model.wheels.end(), [&](const RollingWheel &wheel) {
+          return model.contact.total_impulse_on(wheel.body)[2] > 0.;
+        });
+      unloaded = all_loaded ? 0 : unloaded + 1;
       if (unloaded > most_unloaded)
         throw std::runtime_error(
           "the wheel finds no rail under it at the start: it sinks past what is meshed "
@@ -91,21 +94,22 @@ namespace tread
           free_rolling_known = true;
           // On a track those to the side, of spin, are left to build up: an iteration takes long to bend the
           // rail that way.
-          contact.give_tractions([half_space, to_the_side = !supports, this](const Vector3 place) {
-            const auto distance = [&](const RollingWheel &wheel) {
-              return std::abs(place[0] - wheel.hub.motion.x);
-            };
-            const RollingWheel &nearest = *std::min_element(
-              wheels.begin(), wheels.end(),
-              [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
-            if (scene.is_positioned())
-              return scene.placed_wheel().traction_over_pressure(place -
-                                                                 Vector3{nearest.hub.motion.x, 0., 0., 0.});
-            const Vector3 ratio =
-              traction_over_pressure(*half_space[nearest.number], place[0] - nearest.hub.motion.x,
-                                     place[1] - scene.first_contact().y);
-            return Vector3{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
-          });
+          model.contact.give_tractions(
+            [half_space, to_the_side = !model.supports, this](const Vector3 place) {
+              const auto distance = [&](const RollingWheel &wheel) {
+                return std::abs(place[0] - wheel.hub.motion.x);
+              };
+              const RollingWheel &nearest = *std::min_element(
+                model.wheels.begin(), model.wheels.end(),
+                [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
+              if (scene.is_positioned())
+                return scene.placed_wheel().traction_over_pressure(place -
+                                                                   Vector3{nearest.hub.motion.x, 0., 0., 0.});
+              const Vector3 ratio =
+                traction_over_pressure(*half_space[nearest.number], place[0] - nearest.hub.motion.x,
+                                       place[1] - scene.first_contact().y);
+              return Vector3{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
+            });
         }
       time_left.add(progress.seconds(), share);
       if (progress.due())
@@ -116,30 +120,32 @@ namespace tread
         }
     };
     relaxation_iterations =
-      dynamics.relax(scene.start.tolerance, scene.start.max_iterations, after_each_measurement);
+      model.dynamics.relax(scene.start.tolerance, scene.start.max_iterations, after_each_measurement);
     if (!free_rolling_known)
       measure_free_rolling();
     relaxation_seconds = progress.seconds() - began;
-    check_rim();
+    model.check_rim();
     // Cells deformed by earlier wheels may have become slower or faster.
-    if (!passages.empty())
-      dynamics.renew_critical_time_step();
+    if (passages && passages->any_has_ended())
+      model.dynamics.renew_critical_time_step();
     std::string forces;
-    for (const RollingWheel &wheel : wheels)
-      forces += format(forces.empty() ? "%.2f" : ", %.2f", 1e-3 * contact.total_impulse_on(wheel.body)[2]);
+    for (const RollingWheel &wheel : model.wheels)
+      forces +=
+        format(forces.empty() ? "%.2f" : ", %.2f", 1e-3 * model.contact.total_impulse_on(wheel.body)[2]);
     progress.say(
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %s kN; free rolling at %.2e",
-             relaxation_iterations, relaxation_seconds, forces.c_str(), wheels.front().free_creepage));
+             relaxation_iterations, relaxation_seconds, forces.c_str(), model.wheels.front().free_creepage));
 
-    contact.give_tractions({});
-    for (RollingWheel &wheel : wheels)
+    model.contact.give_tractions({});
+    for (RollingWheel &wheel : model.wheels)
       {
         wheel.hub.drive             = Drive::creepage;
         wheel.hub.motion.velocity_x = scene.motion.speed;
         if (scene.guidance.kind == Guidance::file)
           {
             const PlacedWheel::Rise rise = scene.placed_wheel().rise();
-            wheel.hub.begin_to_follow(scene.time_stepping.courant_number * dynamics.critical_time_step(),
+            wheel.hub.begin_to_follow(scene.time_stepping.courant_number *
+                                        model.dynamics.critical_time_step(),
                                       rise.speed, rise.roll_rate);
           }
         else if (scene.rail.is_sliced())
@@ -147,14 +153,13 @@ namespace tread
         wheel.hub.motion.angular_velocity =
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }
-    if (supports)
-      dynamics.set_bending_velocities();
-    dynamics.set_rigid_velocities();
-    contact.scale_impulses(scene.time_stepping.courant_number * dynamics.critical_time_step());
-    dynamics.start();
-    interval_start_time = dynamics.state.time;
-    for (RollingWheel &wheel : wheels)
-      wheel.interval_start_speed = wheel.hub.motion.velocity_z;
+    if (model.supports)
+      model.dynamics.set_bending_velocities();
+    model.dynamics.set_rigid_velocities();
+    model.contact.scale_impulses(scene.time_stepping.courant_number * model.dynamics.critical_time_step());
+    model.dynamics.start();
+    for (const auto &recorder : recorders)
+      recorder->start();
   }
 
 
@@ -202,26 +207,27 @@ namespace tread
 
   void Simulation::next_passage(Progress &progress)
   {
-    for (RollingWheel &wheel : wheels)
+    for (RollingWheel &wheel : model.wheels)
       {
         // On a track the rail is bent where the wheel before stood: it begins straight again, and finds its
         // residual stresses and strains anew from what the cells remember.
-        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-          if (supports || rail_base || mesh.node_bodies[i] == wheel.body)
-            dynamics.state.set_position(i, Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.});
-        solid.plastic().forget(wheel.body, dynamics.state.history);
+        for (unsigned int i = 0; i < model.mesh.nodes.size(); ++i)
+          if (model.supports || model.rail_base || model.mesh.node_bodies[i] == wheel.body)
+            model.dynamics.state.set_position(
+              i, Vector3{model.mesh.nodes[i][0], model.mesh.nodes[i][1], model.mesh.nodes[i][2], 0.});
+        model.solid.plastic().forget(wheel.body, model.dynamics.state.history);
         wheel.place(scene);
       }
-    if (supports)
-      supports->set_at_rest(dynamics.state.positions().data());
-    if (rail_base)
-      rail_base->place();
-    if (damage)
-      damage->begin_passage();
-    contact.scale_impulses(0.);
+    if (model.supports)
+      model.supports->set_at_rest(model.dynamics.state.positions().data());
+    if (model.rail_base)
+      model.rail_base->place();
+    for (const auto &recorder : recorders)
+      recorder->begin_passage();
+    model.contact.scale_impulses(0.);
     forget_solution();
     torque_released  = false;
-    checked_position = position();
+    checked_position = model.position();
     prepare_start(progress);
   }
 } // namespace tread

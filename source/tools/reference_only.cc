@@ -261,7 +261,7 @@ namespace tread
     folder.remove_results();
     folder.write("parameters.prm", scene.parameters_of_run());
     const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
-    folder.write_patch("patch.csv", nodes);
+    folder.write_table("patch.csv", patch_columns(), nodes);
     write_steady_damage(scene, {{nodes, scene.motion.speed * (1. + answer.creepage)}}, folder, summary,
                         warnings);
     summary.set("warnings", warnings);

@@ -50,7 +50,7 @@ namespace tread
     RunFolder folder(path, comm);
     folder.remove_results();
     folder.write("parameters.prm", scene.parameters_of_run());
-    folder.write_patch("patch.csv", placed.table_nodes());
+    folder.write_table("patch.csv", patch_columns(), placed.table_nodes());
     std::vector<PassedPatch> passed;
     for (const WheelPatch &patch : contact.patches)
       passed.push_back({placed.table_nodes(patch), given_angular_velocity(scene) * patch.rolling_radius});

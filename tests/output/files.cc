@@ -434,11 +434,12 @@ namespace
   void check_resumed(tests::Check &check, const std::string &path)
   {
     Bodies     bodies;
-    const auto write = [&](RunFolder &folder, const double time) {
+    const auto columns = history_columns({1, false, false, {}});
+    const auto write   = [&](RunFolder &folder, const double time) {
       HistoryRow row{};
       row.time = time;
       row.wheels.resize(1);
-      folder.append(row);
+      folder.append("history.csv", columns, {row});
       bodies.dynamics.state.time = time;
       folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {});
     };
@@ -446,7 +447,7 @@ namespace
     {
       RunFolder folder(path, MPI_COMM_WORLD);
       folder.remove_results();
-      folder.open_histories({1, false, false, {}}, 0);
+      folder.open_table("history.csv", columns);
       for (const double time : {1e-3, 2e-3, 3e-3, 4e-3})
         {
           if (time == 3e-3)
@@ -456,7 +457,7 @@ namespace
     }
     RunFolder folder(path, MPI_COMM_WORLD);
     folder.continue_from(kept);
-    folder.open_histories({1, false, false, {}}, 0);
+    folder.open_table("history.csv", columns);
     write(folder, 3.5e-3);
 
     const std::string   list = text_of_file(folder.path("volume.pvd"));
@@ -488,23 +489,25 @@ namespace
   void check_switched_off(tests::Check &check, const std::string &path, const PictureFormat format)
   {
     Bodies     bodies;
+    const auto columns = history_columns({1, false, false, {}});
     const auto part = [&](const double time, const bool with_patches, std::string kept, const bool removes) {
       RunFolder folder(path, MPI_COMM_WORLD, format);
       if (kept.empty())
         folder.remove_results();
       else
         folder.continue_from(kept);
-      folder.open_histories({1, false, false, {}}, 0);
+      folder.open_table("history.csv", columns);
       if (with_patches)
         {
-          folder.open_patches(1);
-          folder.append_patch(0, time, 0., {PatchNode{}});
+          folder.open_table("patches.csv", patches_columns());
+          folder.append("patches.csv", patches_columns(), {{time, 0., PatchNode{}}});
         }
       bodies.dynamics.state.time = time;
       folder.write_volume(bodies.dynamics, nodal_stresses(bodies.dynamics.mesh), {});
       kept = folder.progress();
       if (with_patches)
-        folder.append_patch(0, time + 1., 0., {PatchNode{}}); // after the checkpoint
+        folder.append("patches.csv", patches_columns(),
+                      {{time + 1., 0., PatchNode{}}}); // after the checkpoint
       if (removes)
         std::filesystem::remove(
           folder.path(format == PictureFormat::vtu ? "volume-0001.vtu" : "volume-0001.h5"));

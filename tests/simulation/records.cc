@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run keeps of its way: extremes of the forces, ripples of the force at its end, the mean of the
 // patch, and what the cost of a run is estimated from.
-#include <tread/simulation/force_ripple.h>
-#include <tread/simulation/impact_record.h>
-#include <tread/simulation/rolling_wheel.h>
+#include <tread/simulation/recorders/end_of_way.h>
+#include <tread/simulation/recorders/impact_record.h>
+#include <tread/simulation/recorders/solution.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/numbers.h>
@@ -45,7 +45,7 @@ namespace
   nlohmann::json figures(const ImpactRecord &record)
   {
     Summary summary;
-    record.add_to(summary, static_load);
+    record.add_to(summary);
     return nlohmann::json::parse(summary.text());
   }
 
@@ -68,12 +68,12 @@ namespace
   {
     // The wheel leaves the rail in the third and the fourth interval, of 2 and 3 ms.
     const std::vector<int> supports{-3, 8};
-    ImpactRecord           record;
-    record.add(row_of(1e-3, 81e3, {21e3, 11e3}, {17e3, 9e3}), 1e-3, supports);
-    record.add(row_of(2e-3, 151e3, {23e3, 12e3}, {16e3, 29e3}), 1.5e-3, supports);
-    record.add(row_of(3e-3, 0., {22e3, 41e3}, {15e3, 8e3}), 2e-3, supports);
-    record.add(row_of(4e-3, 0., {19e3, 13e3}, {14e3, 7e3}), 3e-3, supports);
-    record.add(row_of(5e-3, 97e3, {18e3, 14e3}, {13e3, 6e3}), 4e-3, supports);
+    ImpactRecord           record(static_load, supports);
+    record.add(row_of(1e-3, 81e3, {21e3, 11e3}, {17e3, 9e3}), 1e-3);
+    record.add(row_of(2e-3, 151e3, {23e3, 12e3}, {16e3, 29e3}), 1.5e-3);
+    record.add(row_of(3e-3, 0., {22e3, 41e3}, {15e3, 8e3}), 2e-3);
+    record.add(row_of(4e-3, 0., {19e3, 13e3}, {14e3, 7e3}), 3e-3);
+    record.add(row_of(5e-3, 97e3, {18e3, 14e3}, {13e3, 6e3}), 4e-3);
     const nlohmann::json all = figures(record);
     check_extreme(check, all, "largest_normal_force", 151., 2., false);
     check.relative("largest_normal_force_over_static", all["largest_normal_force_over_static"].get<double>(),
@@ -88,15 +88,15 @@ namespace
     check_extreme(check, all, "largest_ballast_force", 29., 2., false);
     check.absolute("largest_ballast_force_support", all["largest_ballast_force_support"].get<double>(), 8.,
                    0.);
-    const std::string lines = record.lines(static_load);
+    const std::string lines = record.words();
     check.that("in words: time in the air", lines.find("in the air for 5.000 ms") != std::string::npos);
     check.that("in words: the support", lines.find("29.00 kN, at support 8,") != std::string::npos);
     check.that("in words: all are peaks", lines.find("no peak") == std::string::npos);
 
     // Forces that still grow, or fall, when the run ends.
-    ImpactRecord growing;
-    growing.add(row_of(1e-3, 81e3, {21e3}, {17e3}), 1e-3, {-3});
-    growing.add(row_of(2e-3, 77e3, {19e3}, {18e3}), 1e-3, {-3});
+    ImpactRecord growing(static_load, {-3});
+    growing.add(row_of(1e-3, 81e3, {21e3}, {17e3}), 1e-3);
+    growing.add(row_of(2e-3, 77e3, {19e3}, {18e3}), 1e-3);
     const nlohmann::json of = figures(growing);
     check_extreme(check, of, "largest_normal_force", 81., 1., false);
     check_extreme(check, of, "least_normal_force", 77., 2., true);
@@ -106,19 +106,20 @@ namespace
                    -3., 0.);
     check.below("airborne_s: never", of["airborne_s"].get<double>(), 0.);
     check.that("in words: the end is no peak",
-               growing.lines(static_load).find("the end of the run, no peak") != std::string::npos);
+               growing.words().find("the end of the run, no peak") != std::string::npos);
 
-    ImpactRecord without;
-    without.add(row_of(1e-3, 81e3), 1e-3, {});
+    const ImpactRecord nothing(static_load, {});
+    ImpactRecord       without(static_load, {});
+    without.add(row_of(1e-3, 81e3), 1e-3);
     check.that("without supports nothing is said of them", !figures(without).contains("largest_pad_force_N"));
     check.that("nothing is said where nothing was recorded",
-               figures(ImpactRecord()).empty() && ImpactRecord().lines(static_load).empty());
+               figures(nothing).empty() && nothing.words().empty());
 
     // A run that is resumed remembers.
     Archive stored(MPI_COMM_SELF);
     record.serialize(stored);
     Archive      opened(MPI_COMM_SELF, tests::parts_of(stored, MPI_COMM_SELF));
-    ImpactRecord again;
+    ImpactRecord again(static_load, supports);
     again.serialize(opened);
     check.that("resumed: the same figures", figures(again) == all);
   }
@@ -146,43 +147,94 @@ namespace
   }
 
 
-  /// A wheel whose normal force falls by more than it rises, and the mean of its patch.
-  void check_wheel(tests::Check &check)
+  /// What was stored, in another one.
+  template <typename Record>
+  void reopen(Record &record, Record &again)
   {
-    Scene scene;
-    scene.read("", {"Rail/Shape=block"});
-    RollingWheel wheel(scene, 0);
-    for (const double force : {100e3, 70e3, 104e3, 90e3})
-      wheel.add_to_last_force(Vector3{0.1 * force, 0., force, 0.});
-    const double mean = wheel.mean_last_force(4)[2];
-    check.relative("mean force at the end, kN", 1e-3 * mean, 91., 1e-12);
-    check.relative("ripple of a normal force that falls", wheel.ripple(mean), 21. / 91., 1e-12);
-    RollingWheel rising(scene, 0);
-    for (const double force : {90e3, 88e3, 113e3})
-      rising.add_to_last_force(Vector3{0., 0., force, 0.});
-    check.relative("ripple of a normal force that rises", rising.ripple(97e3), 16. / 97., 1e-12);
+    Archive stored(MPI_COMM_SELF);
+    record.serialize(stored);
+    Archive opened(MPI_COMM_SELF, tests::parts_of(stored, MPI_COMM_SELF));
+    again.serialize(opened);
+  }
 
-    // Steps before and after the run is resumed make one mean.
+
+  /// A normal force that falls by more than it rises.
+  void check_mean_force(tests::Check &check)
+  {
+    MeanForce falling, rising, again;
+    for (const double force : {100e3, 70e3, 104e3, 90e3})
+      falling.add(Vector3{0.1 * force, 0., force, 0.});
+    check.relative("mean force at the end, kN", 1e-3 * falling.mean()[2], 91., 1e-12);
+    check.relative("mean force at the end, along the rail, kN", 1e-3 * falling.mean()[0], 9.1, 1e-12);
+    check.relative("ripple of a normal force that falls", falling.ripple(), 21. / 91., 1e-12);
+    for (const double force : {90e3, 88e3, 113e3})
+      rising.add(Vector3{0., 0., force, 0.});
+    check.relative("ripple of a normal force that rises", rising.ripple(), 16. / 97., 1e-12);
+    check.that("nothing was added", again.is_empty() && again.ripple() == 0.);
+    reopen(falling, again);
+    check.relative("resumed: mean force at the end, kN", 1e-3 * again.mean()[2], 91., 1e-12);
+    check.relative("resumed: its ripple", again.ripple(), 21. / 91., 1e-12);
+  }
+
+
+  /// Steps before and after the run is resumed make one mean.
+  void check_averaged_patch(tests::Check &check)
+  {
     ContactNodeState state{};
     state.normal   = Vector3{0., 0., 1., 0.};
     state.area     = 1e-6;
-    const auto add = [&](RollingWheel &to, const double pressure) {
+    const auto add = [&](PatchAverage &to, const double pressure) {
       constexpr double time_step = 1e-7;
       state.impulse              = Vector3{0., 0., pressure * state.area * time_step, 0.};
-      to.average.add({state}, 0., time_step);
+      to.add({state}, 0., time_step);
     };
-    add(wheel, 500e6);
-    Archive stored(MPI_COMM_SELF);
-    wheel.serialize(stored);
-    Archive      opened(MPI_COMM_SELF, tests::parts_of(stored, MPI_COMM_SELF));
-    RollingWheel again(scene, 0);
-    again.serialize(opened);
+    PatchAverage average, again;
+    add(average, 500e6);
+    reopen(average, again);
     add(again, 900e6);
-    check.absolute("averaged patch, resumed: steps", again.average.n_steps(), 2, 0.);
-    check.relative("averaged patch, resumed: pressure, MPa", 1e-6 * again.average.measures().max_pressure,
-                   700., 1e-12);
-    check.relative("resumed: mean force at the end, kN", 1e-3 * again.mean_last_force(4)[2], 91., 1e-12);
-    check.relative("resumed: its ripple", again.ripple(mean), 21. / 91., 1e-12);
+    check.absolute("averaged patch, resumed: steps", again.n_steps(), 2, 0.);
+    check.relative("averaged patch, resumed: pressure, MPa", 1e-6 * again.measures().max_pressure, 700.,
+                   1e-12);
+  }
+
+
+  /// A small scene whose mesh is made in no time.
+  void read_small_block(Scene &scene)
+  {
+    scene.read("",
+               {"Rail/Shape=block", "Mesh/Finest cell (mm)=2.5", "Mesh/Fine half width (mm)=10",
+                "Motion/Speed (km per h)=0.1", "Motion/Rolled distance (mm)=10", "Scene/Density scale=4"});
+  }
+
+
+  /// Recorders look at the piece of the way that is theirs, remember it, and forget it.
+  void check_pieces_of_the_way(tests::Check &check)
+  {
+    Scene scene;
+    read_small_block(scene);
+    Model    model(scene, MPI_COMM_SELF, {});
+    Solution solution(model), solution_again(model);
+    // One step each 0.25 mm, from before the means to their end half a cell of 2.5 mm beyond the path's.
+    constexpr double step    = 0.25e-3;
+    unsigned int     n_steps = 0;
+    for (double x = scene.path_end() - 3e-3 + 0.5 * step; x < model.end_position(); x += step)
+      {
+        model.wheels.front().hub.motion.x = x;
+        solution.add_step();
+        ++n_steps;
+      }
+    check.absolute("steps on 4.25 mm", n_steps, 17, 0.);
+    check.absolute("of which those on the last cell of 2.5 mm are averaged", solution.average().n_steps(), 10,
+                   0.);
+    reopen(solution, solution_again);
+    check.absolute("resumed: averaged steps", solution_again.average().n_steps(), 10, 0.);
+    check.that("resumed: the solution is yet to come", !solution_again.is_taken());
+    solution.forget_solution();
+    check.absolute("forgotten: averaged steps", solution.average().n_steps(), 0, 0.);
+
+    const WayPassed way{-0.07, -0.0604, -0.0596}; // over 10 mm from the path's begin
+    check.that("way: an interval ends on it", way.has_end_of(10e-3) && way.has_end_of(0.5e-3));
+    check.that("way: none ends on it", !way.has_end_of(4e-3) && !way.has_end_of(0.));
   }
 
 
@@ -211,11 +263,8 @@ namespace
   void check_estimate(tests::Check &check)
   {
     Scene scene;
-    scene.read("",
-               {"Rail/Shape=block", "Mesh/Finest cell (mm)=2.5", "Mesh/Fine half width (mm)=10",
-                "Motion/Speed (km per h)=0.1", "Motion/Rolled distance (mm)=10", "Scene/Density scale=4"});
-    Simulation        simulation(scene, MPI_COMM_SELF);
-    const std::string text    = printed([&] { simulation.estimate(); });
+    read_small_block(scene);
+    const std::string text    = printed([&] { estimate(Model(scene, MPI_COMM_SELF, {})); });
     const auto        seconds = [&](const std::string &scale) {
       const std::string line = "'Density scale' " + scale + ": s";
       const std::size_t at   = text.find(line);
@@ -236,6 +285,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   check_impacts(check);
   check_ripple(check);
-  check_wheel(check);
+  check_mean_force(check);
+  check_averaged_patch(check);
+  check_pieces_of_the_way(check);
   check_estimate(check);
 }

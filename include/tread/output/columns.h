@@ -135,6 +135,13 @@ namespace tread
   /// several wheels, and one cell stand for others.
   std::vector<TableDescription> tables_of_a_run();
 
+  /// Have a further table known as one of a run, to --print-columns, run.h5 and the folder of the results:
+  /// for a constant beside its columns, before main() begins. @returns true
+  bool know_table(const TableDescription &table);
+
+  /// Whether a file of this name is a table of a run, whatever numbers it has.
+  bool is_table_of_a_run(const std::string &file);
+
   /// Of a column in one of them, whatever numbers its name has; empty: it is none. @param file its name
   std::string about_column(const std::string &file, const std::string &heading);
 } // namespace tread

@@ -46,9 +46,9 @@ namespace tread
   struct HistoryRow
   {
     double                     time, position; ///< of the first wheel
-    std::vector<WheelRecord>   wheels;         ///< as many as were passed to open_histories
+    std::vector<WheelRecord>   wheels;         ///< of all
     EnergyLedger               energy;
-    std::vector<SupportRecord> supports;    ///< likewise
+    std::vector<SupportRecord> supports;    ///< those recorded
     std::vector<CellRecord>    cells;       ///< likewise
     Vector3                    rail_base{}; ///< displacement of a rail's base that moves, at the end
   };

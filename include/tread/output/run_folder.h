@@ -3,12 +3,10 @@
 #define tread_output_run_folder_h
 
 #include <tread/analysis/contact_patch.h>
-#include <tread/analysis/rail_stress.h>
 #include <tread/analysis/surface_damage.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/output/columns.h>
 #include <tread/output/picture.h>
-#include <tread/output/records.h>
 #include <tread/track/wheel_hub.h>
 
 #include <boost/crc.hpp>
@@ -76,8 +74,6 @@ namespace tread
       write(name, text.str());
     }
 
-    void write_patch(const std::string &name, const std::vector<PatchNode> &patch) const;
-
     /// Name of a wheel's table: that of the first one has no number. @param number from 0
     static std::string table_of_wheel(const std::string &stem, const unsigned int number)
     {
@@ -99,21 +95,6 @@ namespace tread
     void write_hdf5(const std::string                                      &summary,
                     const std::vector<std::pair<std::string, std::string>> &parameters) const;
 
-    /// passages.csv: one row for each passage of a wheel so far.
-    void write_passages(const std::vector<Passage> &passages) const;
-
-    /// strip.csv: one row for each column of cells under the path.
-    void write_strip(const std::vector<StripColumn> &columns) const;
-
-    /// The largest stresses at the surface, depth 0, and in each layer of cells below it.
-    void write_peaks(const std::string &name, const StressPeaks::Answer &answer) const;
-
-    /// rail_surface_damage.csv or wheel_surface_damage.csv: what friction did to each place of a surface.
-    void write_surface_damage(const std::string &name, const std::vector<SurfacePlace> &places) const;
-
-    /// rail_seats.csv: one row for each part of a recorded support's pad.
-    void write_rail_seats(const std::vector<RailSeatPoint> &points) const;
-
     /// CRC-32 of history.csv as it stands, by which readers see whether it was changed since. On rank 0.
     std::uint32_t history_checksum() const;
 
@@ -123,18 +104,26 @@ namespace tread
     /// before. Pictures that have been removed are left out. On rank 0. @throws nlohmann::json::exception
     void continue_from(const std::string &progress);
 
-    /// Begin the files history.csv and, if there are cells, cells.csv, or continue them. @param parts that
-    /// the rows contain. @throws InputError if the tables are not what they were
-    void open_histories(const HistoryParts &parts, const std::size_t n_cells);
-    void append(const HistoryRow &row);
-
-    /// Likewise one patches.csv for each wheel: the patch at chosen instants.
-    void open_patches(const unsigned int n_wheels);
-    /// @param wheel its number, from 0; @param position of the wheel, m
-    void append_patch(const unsigned int            wheel,
-                      const double                  time,
-                      const double                  position,
-                      const std::vector<PatchNode> &patch);
+    /// Begin a table that grows, or continue that of the run that is resumed. @throws InputError if it is not
+    /// what it was
+    template <typename Record>
+    void open_table(const std::string &name, const Columns<Record> &columns)
+    {
+      if (writes_tables)
+        open_with(name, heading(columns));
+    }
+    /// Add rows to it, twelve digits a number, on the disk at once. @throws std::runtime_error
+    template <typename Record>
+    void append(const std::string &name, const Columns<Record> &columns, const std::vector<Record> &rows)
+    {
+      if (!writes_tables)
+        return;
+      std::ostringstream text;
+      text << std::setprecision(12);
+      for (const Record &row : rows)
+        write_row(text, columns, row);
+      append_to(name, text.str());
+    }
 
     /// Write the present state of the bodies: displacement without the hubs' rigid motion, velocity, stress.
     /// Collective. @param stresses by node of the mesh, of NodalStresses; @param hubs of the bodies that are
@@ -167,10 +156,8 @@ namespace tread
   private:
     /// Whether a file of this name is a result of a run.
     static bool is_own(const std::string &name);
-    /// On rank 0: one of the tables that grow row by row.
-    void open_table(const std::string &name, const std::string &header);
-    /// Add rows to one of them, on the disk at once. @throws std::runtime_error
-    void append_to(const std::string &name, const std::string &rows);
+    void        open_with(const std::string &name, const std::string &header);
+    void        append_to(const std::string &name, const std::string &rows);
 
     /// On rank 0. @returns an error in one line; empty if the folder is this run's.
     std::string take_lock();
@@ -209,8 +196,7 @@ namespace tread
     std::map<std::string, GrowingTable> growing; ///< by their names
     /// How far a table had been written when a checkpoint was made: number and CRC-32 of its bytes.
     using TableMark = std::pair<std::uint64_t, std::uint32_t>;
-    std::map<std::string, TableMark> kept; ///< of the run that is resumed, by their names
-    Columns<HistoryRow>              of_history, of_cells;
+    std::map<std::string, TableMark> kept;     ///< of the run that is resumed, by their names
     std::map<std::string, Series>    pictures; ///< of the volume and of the surface
   };
 } // namespace tread

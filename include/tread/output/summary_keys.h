@@ -13,6 +13,9 @@ namespace tread
   /// figures that are compared and their sources. The keys of a patch are in scene/wheelset_summary.h.
   TableDescription keys_of_summary();
 
+  /// Have a further key known: for a constant beside what sets it, before main() begins. @returns true
+  bool know_summary_key(const std::string &key, const std::string &about);
+
   /// Of a key in the summary, whatever number its name has; empty: it is none.
   std::string about_summary_key(const std::string &key);
 } // namespace tread

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_simulation_force_ripple_h
-#define tread_simulation_force_ripple_h
+#ifndef tread_simulation_recorders_force_ripple_h
+#define tread_simulation_recorders_force_ripple_h
 
 #include <tread/base/archive.h>
 #include <tread/base/simd.h>

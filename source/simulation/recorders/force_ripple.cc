@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/simulation/force_ripple.h>
+#include <tread/simulation/recorders/force_ripple.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
-#include <tread/simulation/impact_record.h>
+#include <tread/simulation/recorders/impact_record.h>
 
 #include <utility>
 
 namespace tread
 {
-  void ImpactRecord::add(const HistoryRow &row, const double seconds, const std::vector<int> &supports)
+  void ImpactRecord::add(const HistoryRow &row, const double seconds)
   {
     const double force = row.wheels.front().force[2];
     if (!has_rows || force > largest.value)
@@ -28,7 +28,7 @@ namespace tread
   }
 
 
-  void ImpactRecord::add_to(Summary &summary, const double static_load) const
+  void ImpactRecord::add_to(Summary &summary) const
   {
     if (!has_rows)
       return;
@@ -54,7 +54,7 @@ namespace tread
   }
 
 
-  std::string ImpactRecord::lines(const double static_load) const
+  std::string ImpactRecord::words() const
   {
     if (!has_rows)
       return "";
@@ -74,6 +74,13 @@ namespace tread
     return contact("largest", largest) + contact("least  ", least) +
            (airborne > 0. ? format("the wheel was in the air for %.3f ms\n", 1e3 * airborne) : "") +
            (has_supports ? support("a pad", pad) + support("ballast", ballast) : "");
+  }
+
+
+  void ImpactRecord::finish(Report &report)
+  {
+    add_to(report.summary);
+    report.extremes += words();
   }
 
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_simulation_impact_record_h
-#define tread_simulation_impact_record_h
+#ifndef tread_simulation_recorders_impact_record_h
+#define tread_simulation_recorders_impact_record_h
 
-#include <tread/base/archive.h>
-#include <tread/output/records.h>
-#include <tread/output/summary.h>
+#include <tread/simulation/recorders/recorder.h>
 
 #include <string>
 #include <vector>
@@ -13,19 +11,31 @@ namespace tread
 {
   /// What a defect or a track does to the forces of a run: extremes over the rows of its history, in which
   /// contact forces are means over the interval and those of supports are of its end.
-  class ImpactRecord
+  class ImpactRecord : public Recorder
   {
   public:
-    /// @param seconds length of the interval; @param supports numbers of those in the row
-    void add(const HistoryRow &row, const double seconds, const std::vector<int> &supports);
+    /// @param static_load of a wheel, N; @param supports numbers of those in the rows
+    ImpactRecord(const double static_load, const std::vector<int> &supports)
+      : static_load(static_load)
+      , supports(supports)
+    {
+    }
 
-    /// Add the extremes to the figures. @param static_load of a wheel, N
-    void add_to(Summary &summary, const double static_load) const;
+    /// @param seconds length of the interval
+    void add(const HistoryRow &row, const double seconds);
+
+    /// Add the extremes to the figures.
+    void add_to(Summary &summary) const;
 
     /// The same in words, a line each; empty if no row was added.
-    std::string lines(const double static_load) const;
+    std::string words() const;
 
-    void serialize(Archive &archive);
+    void add_row(const HistoryRow &row, const double seconds, RunFolder &) override
+    {
+      add(row, seconds);
+    }
+    void finish(Report &report) override;
+    void serialize(Archive &archive) override;
 
   private:
     struct Extreme
@@ -39,6 +49,9 @@ namespace tread
     {
       return e.x == last_x;
     }
+
+    const double           static_load;
+    const std::vector<int> supports;
 
     bool    has_rows = false, has_supports = false;
     Extreme largest, least; ///< normal force of the first wheel, N

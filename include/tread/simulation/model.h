@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_simulation_model_h
+#define tread_simulation_model_h
+
+#include <tread/contact/contact.h>
+#include <tread/dynamics/explicit_dynamics.h>
+#include <tread/mesh/mesh.h>
+#include <tread/scene/scene.h>
+#include <tread/simulation/rolling_wheel.h>
+#include <tread/simulation/wheelset_at_solution.h>
+#include <tread/solid/solid.h>
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace tread
+{
+  class RailBase;
+  class Supports;
+
+  /// Where the cells of a model are fine: the number of the window, and what touched in its middle when it
+  /// began, arc length on the tread (m).
+  struct WindowPlace
+  {
+    unsigned int number = 0;
+    double       tread  = 0.;
+  };
+
+  /// What rolls: wheels and rail with their mesh, contact, and all that acts on nodes, made from a scene.
+  /// What is asked of it here is asked between two steps.
+  struct Model
+  {
+    /// Collective.
+    Model(const Scene &scene, const MPI_Comm comm, const WindowPlace &window);
+    ~Model();
+
+    double position() const ///< of the first wheel, m
+    {
+      return wheels.front().hub.motion.x;
+    }
+    /// Where the run ends: half a cell beyond the solution instant, around which means are taken, m.
+    double end_position() const
+    {
+      return scene.path_end() + 0.5 * scene.mesh.finest_cell;
+    }
+    /// Steps from here to there: with the step that is taken, or before the first one with that which will
+    /// be.
+    std::uint64_t remaining_steps() const;
+    /// Force on a wheel in the last step, N.
+    Vector3 force_on(const RollingWheel &wheel) const
+    {
+      return (1. / dynamics.state.time_step) * contact.total_impulse_on(wheel.body);
+    }
+    /// On the other wheel of the wheelset in the last step, N. @pre scene.wheelset.both_wheels
+    Vector3 force_on_other() const
+    {
+      // The middle of the track lies between the rails.
+      return (1. / dynamics.state.time_step) *
+             contact.total_impulse_below(-scene.placed_wheel().surfaces.rail_origin_y());
+    }
+    /// Nodes in contact with each wheel; of a wheelset in a given position with forces, normal and slip in
+    /// the contact axes of their patches. Collective.
+    std::vector<std::vector<ContactNodeState>> contact_states() const;
+    /// The patch of each wheel. Collective.
+    std::vector<std::vector<PatchNode>> patches_now() const;
+    /// Where the first wheelset stands and how it moves. @pre scene.is_positioned()
+    Placement placement_now() const
+    {
+      return {wheels.front().position(scene), wheels.front().rates(scene)};
+    }
+    /// Of all ranks, bytes. Collective.
+    double memory_of_cells_and_nodes() const;
+    /// @throws std::runtime_error if contact is about to leave the faces meshed for it. Collective.
+    void check_rim() const;
+
+    const Scene                &scene;
+    const MPI_Comm              comm;
+    Mesh                        mesh;
+    Solid                       solid;
+    std::vector<RollingWheel>   wheels; ///< of fixed number
+    ExplicitDynamics            dynamics;
+    Contact                     contact;
+    std::unique_ptr<Supports>   supports;       ///< none: the rail's bottom stays in shape
+    std::unique_ptr<RailBase>   rail_base;      ///< none: without supports that is held
+    WheelsetAtSolution          wheelset;       ///< with which that of the finite elements is compared
+    const std::optional<double> between_pieces; ///< of a rail of slices, y (m)
+
+  private:
+    void add_supports();
+    void add_friction_that_varies();
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_simulation_recorders_history_h
+#define tread_simulation_recorders_history_h
+
+#include <tread/analysis/rail_stress.h>
+#include <tread/simulation/model.h>
+#include <tread/simulation/recorders/recorder.h>
+
+#include <memory>
+#include <vector>
+
+namespace tread
+{
+  /// history.csv and cells.csv: means over intervals of the way, and the state at their ends.
+  class History : public Recorder
+  {
+  public:
+    /// Collective. @throws InputError where a cell is to be recorded outside the rail
+    explicit History(const Model &model);
+
+    /// Whether steps have been taken since the last row.
+    bool has_begun() const
+    {
+      return steps > 0;
+    }
+    double interval_seconds() const;
+    /// The row of the interval that ends now. Collective.
+    HistoryRow row() const;
+
+    void open(RunFolder &folder) override;
+    void start() override;
+    void add_step() override;
+    void add_row(const HistoryRow &row, const double seconds, RunFolder &folder) override;
+    void finish(Report &report) override;
+    void serialize(Archive &archive) override;
+
+  private:
+    /// Sums over the steps of the interval, by wheel.
+    struct Interval
+    {
+      Vector3 force{}, other_force{}; ///< on the wheel, and on the other one of its wheelset, N
+      double  inner_force = 0.;       ///< vertical, of the inner one of two pieces of a rail of slices, N
+      double  start_speed = 0.;       ///< of the hub, vertical, m/s
+    };
+    WheelRecord                record(const RollingWheel &wheel, const std::vector<PatchNode> &patch) const;
+    std::vector<SupportRecord> support_records() const;
+    void                       begin_interval();
+
+    const Model                &model;
+    std::vector<Interval>       sums;
+    unsigned int                steps      = 0;
+    double                      start_time = 0.;
+    const Columns<HistoryRow>   columns;
+    Columns<HistoryRow>         columns_of_cells;
+    std::unique_ptr<CellProbes> probes; ///< none: no cells are recorded
+  };
+} // namespace tread
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a simulation says at the end of the run.
+#include <tread/base/format.h>
+#include <tread/base/version.h>
+#include <tread/output/quality.h>
+#include <tread/scene/measured_profiles.h>
+#include <tread/scene/wheelset_summary.h>
+#include <tread/simulation/comparison.h>
+#include <tread/simulation/doubts.h>
+#include <tread/simulation/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tread
+{
+  Simulation::Rolled Simulation::add_size(Summary &summary, const double normal_force) const
+  {
+    summary.set("contact_unconverged_steps", model.contact.n_unconverged_steps());
+    summary.set("cells", model.mesh.n_global_cells);
+    const auto n_plastic_cells = dealii::Utilities::MPI::sum(model.solid.plastic().n_cells(), comm);
+    summary.set("plastic_cells", n_plastic_cells);
+    summary.set("unknowns", 3 * (model.mesh.n_global_nodes - model.mesh.n_global_hanging_nodes));
+    summary.set("steps", model.dynamics.state.n_steps);
+    summary.set("time_step_s", model.dynamics.state.time_step);
+    summary.set("density_scale", scene.general.density_scale);
+    summary.set("inertia_error_estimate", scene.inertia_error_estimate());
+    summary.set("passages", scene.motion.passages);
+
+    const double                  distance = model.position() - scene.path_begin();
+    const reference::HertzEllipse ellipse =
+      hertz(scene, normal_force > 0. ? normal_force / scene.wheelset.n_wheels() : scene.static_load());
+    Rolled rolled;
+    rolled.patch_lengths =
+      (distance - (torque_released ? scene.motion.hold_distance : 0.)) / (2. * ellipse.semi_axis_x);
+    // Half-space theory does not predict what yields.
+    rolled.lengths_to_be_steady = starts_with_tractions && n_plastic_cells == 0 ? 1.5 : 3.;
+    summary.set("rolled_m", distance);
+    summary.set("rolled_patch_lengths", rolled.patch_lengths);
+    summary.set("long_enough_to_be_steady", rolled.long_enough());
+    return rolled;
+  }
+
+
+  void Simulation::add_cost(Summary &summary) const
+  {
+    using dealii::Utilities::MPI::max;
+    const StepTimes &times           = model.dynamics.times();
+    const double     internal_forces = max(times.internal_forces, comm);
+    summary.set("wall_s", max(wall_seconds, comm));
+    summary.set("wall_s_start", max(relaxation_seconds, comm));
+    summary.set("wall_s_internal_forces", internal_forces);
+    summary.set("wall_s_contact", max(times.contact + times.search, comm));
+    summary.set("wall_s_communication", max(times.communication, comm));
+    summary.set("wall_s_nodes", max(times.nodes, comm));
+    const double updates =
+      model.mesh.n_global_cells / model.dynamics.ideal_gain_of_levels() * model.dynamics.state.n_steps;
+    summary.set("element_updates", updates);
+    summary.set("element_updates_per_s", updates / std::max(1e-9, internal_forces));
+    summary.set("cells_and_nodes_bytes", model.memory_of_cells_and_nodes());
+    summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
+    summary.set("version", version());
+    summary.set("files", as_json(scene.files_read()));
+  }
+
+
+  Quality Simulation::quality(const EnergyLedger &energy) const
+  {
+    Quality quality;
+    quality.energy = energy;
+    quality.limits = scene.watchdogs.warn;
+    if (solution.average().n_steps() > 0)
+      quality.slip_chatter = solution.average().slip_chatter();
+    const std::uint64_t n_steps = model.dynamics.state.n_steps;
+    quality.contact_unconverged = n_steps > 0 ? double(model.contact.n_unconverged_steps()) / n_steps : 0.;
+    return quality;
+  }
+
+
+  void Simulation::add_warnings(Report &report, const EnergyLedger &energy, const Rolled &rolled) const
+  {
+    std::vector<std::string> &warnings = report.warnings;
+    if (!model.wheelset.problem().empty())
+      warnings.push_back(
+        "no half-space answer where the wheelset has arrived, and positions, angles and creepages of "
+        "'patches' are those of the start: " +
+        model.wheelset.problem());
+    if (scene.is_positioned())
+      for (const std::string &warning :
+           climbing_patches(model.wheelset.placed().surfaces, model.wheelset.placed().patches()))
+        warnings.push_back(warning);
+    if (report.completed)
+      {
+        for (const std::string &doubt : doubts_at_start(model))
+          warnings.push_back(doubt);
+        for (const std::string &doubt : doubts_at_end(model, end_of_way, model.position() - went_on_at))
+          warnings.push_back(doubt);
+        if (scene.rolls_smoothly() && !rolled.long_enough())
+          warnings.push_back(format(
+            "only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
+            rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
+      }
+    constexpr double large_loss = 0.02;
+    if (const double loss = energy.of_dissipated(energy.window); std::abs(loss) > large_loss)
+      warnings.push_back(
+        format("the changes of the window of fine cells %s %.1f %% of what was dissipated: a larger "
+               "'Mesh/Window margin (mm)' or 'Window length (mm)', or 'Scene/Density scale' 1",
+               loss > 0. ? "took" : "gave", 100. * std::abs(loss)));
+  }
+
+
+  void Simulation::finish(RunFolder &folder, const End end)
+  {
+    Report             report{folder, end == End::complete};
+    Summary           &summary = report.summary;
+    const EnergyLedger energy  = model.dynamics.ledger();
+    const auto         patches = solution.patches();
+    const double       normal  = end_of_way.force_on(model.wheels.front())[2]; // 0 while it is in the air
+    const RunAnswer    answer{model, end_of_way, solution, patches, report.completed};
+    const Compared     compared = compare_with_half_space(answer, summary);
+    if (!compared.note.empty())
+      summary.set("note", compared.note);
+    summary.set("assumptions", scene.assumptions(starts_with_tractions));
+    summary.set("unused_parameters", scene.unused_parameters());
+    const Quality judged = quality(energy);
+    judged.add_to(summary);
+    report.warnings = judged.warnings();
+    if (scene.mesh.window)
+      {
+        summary.set("windows", window.number + 1);
+        summary.set("window_loss_J", energy.window);
+      }
+    const Rolled      rolled         = add_size(summary, normal);
+    const std::string further_wheels = add_further_wheels(answer, summary);
+    add_cost(summary);
+    add_warnings(report, energy, rolled);
+    for (const auto &recorder : recorders)
+      recorder->finish(report);
+    MeasuredProfiles(scene).summarise(summary);
+    summary.set("warnings", report.warnings);
+    if (!compared.reference_patch.empty())
+      folder.write_table("reference_patch.csv", patch_columns(), compared.reference_patch);
+    write_last(report);
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      show(report, compared, further_wheels + report.lines + judged.lines(), end);
+  }
+
+
+  void Simulation::write_last(const Report &report) const
+  {
+    const RunFolder                                 &folder = report.folder;
+    std::vector<std::pair<std::string, std::string>> parameters;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      for (const Scene::Parameter &parameter : Scene::parameters_in(folder.path("parameters.prm")))
+        parameters.emplace_back(parameter.path, parameter.value);
+    folder.write_hdf5(report.summary.text(), parameters);
+    // Last but for the pictures, which are there: it says that the run is complete.
+    folder.write("summary.json", report.summary.text());
+    if (report.completed && !scene.motion.may_go_on()) // pictures that may follow have files of their own
+      folder.join_pictures();
+  }
+
+
+  void Simulation::show(const Report      &report,
+                        const Compared    &compared,
+                        const std::string &below,
+                        const End          end) const
+  {
+    const RunFolder &folder = report.folder;
+    const Vector3    force  = end_of_way.force_on(model.wheels.front());
+    if (scene.has_impacts())
+      std::printf("\n%s", report.extremes.c_str());
+    // Where nothing is steady, the figures of one instant say little.
+    if (scene.rolls_smoothly())
+      std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
+                  scene.is_positioned() ? "vertical" : "normal", 1e-3 * force[2],
+                  100. * end_of_way.normal_ripple(), force[2] > 0. ? force[0] / force[2] : 0.,
+                  compared.by_patch.c_str(), report.summary.table().c_str());
+    std::printf("\n%s%s%s", below.c_str(), compared.note.c_str(), compared.note.empty() ? "" : "\n");
+    for (const std::string &warning : report.warnings)
+      std::printf("WARNING: %s\n", warning.c_str());
+    const std::string pictures = (scene.output.write_volume ? folder.list_of_pictures("volume") + ", " : "") +
+                                 folder.list_of_pictures("surface");
+    std::printf("%s in %.1f s. Results in %s: summary.json, history.csv, run.h5%s%s\n",
+                end == End::complete      ? "finished"
+                : end == End::interrupted ? "INTERRUPTED: stopped"
+                                          : "STOPPED",
+                wall_seconds, folder.path("").c_str(),
+                solution.is_taken() ? (", patch.csv; for ParaView: " + pictures).c_str() : "",
+                end == End::interrupted ? "; go on with --resume" : "");
+  }
+} // namespace tread

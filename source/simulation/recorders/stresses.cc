@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/base/format.h>
+#include <tread/scene/parts.h>
+#include <tread/simulation/recorders/stresses.h>
+#include <tread/track/supports.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace tread
+{
+  namespace
+  {
+    /// @param stress Pa; @param x, y, depth m
+    std::string line_of_stress(const std::string &what,
+                               const double       stress,
+                               const double       x,
+                               const double       y,
+                               const double       depth)
+    {
+      return format("%-46s %7.1f MPa at x = %.2f mm, y = %.2f mm, depth %.2f mm\n", what.c_str(),
+                    1e-6 * stress, 1e3 * x, 1e3 * y, 1e3 * depth);
+    }
+  } // namespace
+
+
+  StripRecorder::StripRecorder(const Model &model)
+    : model(model)
+    , strip(model.mesh,
+            model.solid,
+            &model.contact.surfaces,
+            rail_body,
+            materials(model.scene)[rail_body],
+            strip_extent(model.scene))
+  {
+  }
+
+
+  void StripRecorder::add_row(const HistoryRow &row, const double, RunFolder &)
+  {
+    strip.sample(model.dynamics, model.contact.surface_impulses(), row.position);
+  }
+
+
+  void StripRecorder::finish(Report &report)
+  {
+    const std::vector<StripColumn> columns = strip.columns(model.dynamics);
+    const auto                     most =
+      std::max_element(columns.begin(), columns.end(), [](const StripColumn &a, const StripColumn &b) {
+        return a.largest.stress < b.largest.stress;
+      });
+    if (most != columns.end())
+      for (const auto &[name, value] :
+           std::vector<std::pair<const char *, double>>{{"strip_max_von_mises_Pa", most->largest.stress},
+                                                        {"strip_max_von_mises_x_m", most->x},
+                                                        {"strip_max_von_mises_y_m", most->y},
+                                                        {"strip_max_von_mises_depth_m", most->depth},
+                                                        {"strip_max_von_mises_time_s", most->largest.time}})
+        report.summary.set(name, value);
+    if (most != columns.end() && !model.scene.peak_stress.is_wanted())
+      report.extremes += line_of_stress("largest von Mises stress of the rail's cells", most->largest.stress,
+                                        most->x, most->y, most->depth);
+    report.folder.write_table("strip.csv", strip_columns(), columns);
+  }
+
+
+  namespace
+  {
+    StressPeaks peaks_of(const Model &model, const unsigned int body)
+    {
+      return StressPeaks(model.dynamics, &model.contact, body == rail_body, body,
+                         materials(model.scene)[body], peak_region(model.scene, body));
+    }
+  } // namespace
+
+
+  PeakRecorder::PeakRecorder(const Model &model)
+    : model(model)
+    , rail(peaks_of(model, rail_body))
+    , wheel(peaks_of(model, model.wheels.front().body))
+  {
+  }
+
+
+  void PeakRecorder::add_step()
+  {
+    const std::vector<RollingWheel> &wheels = model.wheels;
+    const auto                       near   = std::find_if(wheels.begin(), wheels.end(),
+                                                           [&](const RollingWheel &w) { return rail.concerns(w.hub.motion.x); });
+    if (near == wheels.end())
+      return;
+    const std::vector<Vector3> impulses = model.contact.surface_impulses();
+    rail.sample(model.dynamics, model.contact.active_nodes(), impulses, near->hub.motion.x);
+    if (near == wheels.begin())
+      wheel.sample(model.dynamics, {}, impulses, model.position());
+  }
+
+
+  void PeakRecorder::finish(Report &report)
+  {
+    // Slow cells are looked at when all nodes are at the same instant.
+    const ExplicitDynamics &dynamics = model.dynamics;
+    const double            last_instant =
+      dynamics.state.time - (std::uint64_t(1) << dynamics.max_level()) * dynamics.state.time_step;
+    bool       still_grows = false;
+    const auto add         = [&](const std::string &name, const Peak &peak, const bool with_depth) {
+      report.summary.set(name + "_Pa", peak.value);
+      report.summary.set(name + "_x_m", peak.x);
+      report.summary.set(name + "_y_m", peak.y);
+      if (with_depth)
+        report.summary.set(name + "_depth_m", peak.depth);
+      report.summary.set(name + "_time_s", peak.time);
+      still_grows = still_grows || peak.time >= last_instant;
+    };
+    for (const bool of_rail : {true, false})
+      {
+        const StressPeaks::Answer answer = (of_rail ? rail : wheel).answer(dynamics);
+        const std::string         prefix = of_rail ? "peak_" : "wheel_peak_";
+        Peak                      highest;
+        for (const StressPeaks::Layer &layer : answer.layers)
+          {
+            highest     = std::max(highest, layer.peak);
+            still_grows = still_grows || layer.peak.time >= last_instant;
+          }
+        add(prefix + "von_mises", highest, true);
+        add(prefix + "surface_von_mises", answer.surface.peak, false);
+        if (of_rail)
+          {
+            if (answer.from_tractions.value > 0.)
+              add("peak_surface_von_mises_from_tractions", answer.from_tractions, false);
+            add("peak_pressure", answer.pressure, false);
+            add("peak_shear", answer.shear, false);
+          }
+        const std::string body = of_rail ? "of the rail's" : "of the wheel's";
+        for (const auto &[where, peak] : {std::pair(" surface", answer.surface.peak), {" cells", highest}})
+          report.extremes += line_of_stress("largest von Mises stress " + body + where, peak.value, peak.x,
+                                            peak.y, peak.depth);
+        // The surface, at depth 0, and each layer of cells below it.
+        std::vector<StressPeaks::Layer> rows;
+        if (answer.surface.peak.value > 0.)
+          rows.push_back(answer.surface);
+        rows.insert(rows.end(), answer.layers.begin(), answer.layers.end());
+        report.folder.write_table(of_rail ? "peak_stress.csv" : "peak_stress_wheel.csv", peak_columns(), rows);
+      }
+    if (still_grows)
+      report.warnings.push_back(
+        "a largest stress of the region of 'Peak stress' is that of the last instant of the run, and "
+        "grew until then: roll farther");
+  }
+
+
+  void PeakRecorder::serialize(Archive &archive)
+  {
+    rail.serialize(archive);
+    wheel.serialize(archive);
+  }
+
+
+  SeatRecorder::SeatRecorder(const Model &model)
+    : model(model)
+    , seats(*model.supports, model.scene.recorded_supports(), model.scene.first_support())
+  {
+  }
+
+
+  namespace
+  {
+    constexpr double far = 1e30;
+
+    /// Of equal strains, such as those of a row of cells along the path, the place of the foremost, whatever
+    /// rank has it: x, y and depth, m.
+    std::array<double, 3> place_of(const double                     strain,
+                                   const std::vector<double>       &strains,
+                                   const std::vector<unsigned int> &cells,
+                                   const Model                     &model)
+    {
+      std::array<double, 3> place{{-far, -far, -far}};
+      for (const unsigned int c : cells)
+        if (strains[c] == strain)
+          {
+            dealii::Point<3> centre;
+            for (const unsigned int i : model.mesh.cells[c].nodes)
+              centre += model.mesh.nodes[i] / 8.;
+            place = std::max(place, {{centre[0], centre[1], model.scene.depth_in_rail(centre)}});
+          }
+      const auto places = dealii::Utilities::MPI::all_gather(model.comm, place);
+      return *std::max_element(places.begin(), places.end());
+    }
+  } // namespace
+
+
+  void PlasticStrainRecorder::finish(Report &report)
+  {
+    const PlasticCells &plastic = model.solid.plastic();
+    if (dealii::Utilities::MPI::sum(plastic.n_cells(), model.comm) == 0)
+      return;
+    const std::vector<double> strains = plastic.equivalent_plastic_strain(model.dynamics.state.history);
+    std::string               line;
+    for (const auto &[body, key, name] :
+         {std::tuple(rail_body, "largest_plastic_strain", "rail"),
+          std::tuple(model.wheels.front().body, "wheel_largest_plastic_strain", "wheel")})
+      {
+        std::vector<unsigned int> cells;
+        double                    own = -1.; // of this rank
+        for (unsigned int c = 0; c < model.mesh.cells.size(); ++c)
+          if (model.mesh.cells[c].body == body && plastic.contains(c))
+            {
+              cells.push_back(c);
+              own = std::max(own, strains[c]);
+            }
+        const double largest = dealii::Utilities::MPI::max(own, model.comm);
+        if (largest < 0.) // no cell of this body can yield
+          continue;
+        report.summary.set(key, largest);
+        line += format("%s %.3f %% in the %s", line.empty() ? "largest equivalent plastic strain" : ",",
+                       100. * largest, name);
+        if (body != rail_body || largest == 0.)
+          continue;
+        const std::array<double, 3> place = place_of(largest, strains, cells, model);
+        for (unsigned int d = 0; d < 3; ++d)
+          report.summary.set(std::string(key) + std::array{"_x_m", "_y_m", "_depth_m"}[d], place[d]);
+        line += format(" (x = %.2f mm, y = %.2f mm, depth %.2f mm)", 1e3 * place[0], 1e3 * place[1],
+                       1e3 * place[2]);
+      }
+    if (!line.empty())
+      report.lines += line + "\n";
+  }
+} // namespace tread
