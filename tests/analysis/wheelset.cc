@@ -470,7 +470,10 @@ namespace
         const WheelContact contact = answer(load), more = answer(1.0005 * load);
         check.relative(name + "vertical force, kN", 1e-3 * contact.force[2], load, 1e-4);
         check.that(name + "lower than under a smaller load", contact.position.height < before);
-        before = contact.position.height;
+        before                      = contact.position.height;
+        const reference::Grid &grid = contact.patches[0].solution.grid;
+        check.relative(name + "length of an element, mm", 1e3 * grid.dx, 0.4, 1e-12);
+        check.relative(name + "width of an element, mm", 1e3 * grid.dy, 0.3, 1e-12);
         check.that(name + "as many patches under a little more",
                    contact.patches.size() == more.patches.size());
         check.relative(name + "largest pressure under a little more, MPa",

@@ -282,6 +282,28 @@ class Corrugation(unittest.TestCase):
         self.assertAlmostEqual(found.gain[0] / expected, 1., delta=0.01)
         np.testing.assert_allclose(corrugation.gain_at_rest(parts), -parts["heights"].work)
 
+    def test_gain_on_a_rail_that_moves_along_itself(self):
+        """Of a contact whose answers are given: what the rail's head moves along the rail is creepage; a force along the rail in proportion to the load adds nothing."""
+        way = corrugation.Way(self.waves(50., period=0.1), -0.08, 0.18)
+        model = corrugation.Model(self.CONTACT, flat_force.Track(spans=4, stiffness_along=40e6), 25., 300., -0.1, 0.)
+        nothing, mobility = np.zeros(1, dtype=complex), model.mobility(way)
+
+        def swing(load: float = 0., by_creepage: float = 0.) -> corrugation.Gain:
+            force_along = {"heights": 0., "load": model.traction + load, "creepage": by_creepage}
+            return corrugation.gain_of_model(model, way, {name: corrugation.Response(nothing - (name == "heights"), nothing + along, nothing + (name == "creepage"))
+                                                          for name, along in force_along.items()})
+
+        still, places = swing(), model.roll(way, lambda x: 0.)[0]
+        rough, smooth = (model.roll(way, height) for height in (lambda x: float(way.heights(np.array(x))), lambda x: 0.))
+        along = corrugation.difference(way, (places, rough[2]), (places, smooth[2]))[0] / way.waves.amplitudes
+        self.assertGreater(abs(still.gain[0]), 0.)
+        np.testing.assert_allclose(still.gain, along / model.speed, rtol=1e-9)
+        self.assertGreater(abs(mobility[0] * 0.1 * still.force[0]), 0.05 * abs(along[0]))
+        np.testing.assert_allclose(swing(load=0.1).gain, (along - mobility * 0.1 * still.force) / model.speed, rtol=1e-9)
+        # A contact that answers to creepage holds the rail back.
+        per_speed = -4e6 / model.speed
+        np.testing.assert_allclose(swing(by_creepage=-4e6).gain, (along + mobility * per_speed * along / (1. - mobility * per_speed)) / model.speed, rtol=1e-9)
+
     def test_a_track_is_fitted(self):
         hidden = flat_force.Track(spans=5, elements=4, half_ends=True, absorbing=0.9, pad_stiffness=110e6, pad_damping=16e3, shear_factor=0.37)
         frequencies = np.arange(200., 1200., 100.)

@@ -153,6 +153,15 @@ namespace
                          here.uncertainty * unit + 1e-9);
         };
         compare("maximum pressure [MPa]", &RollingEstimate::max_pressure, 1e-6, 3e-4);
+        // Nor do the elements that the patch's edge cuts carry more than friction lets them.
+        const RollingResult &fields = estimate.fields;
+        double               excess = 0.;
+        for (std::size_t e = 0; e < fields.pressure.size(); ++e)
+          excess =
+            std::max(excess, std::hypot(fields.shear_x[e], fields.shear_y[e]) -
+                               c.friction_bound(fields.grid().x(e % fields.grid().n_x),
+                                                fields.grid().y(e / fields.grid().n_x), fields.pressure[e]));
+        check.below("shear beyond the friction bound [MPa]", 1e-6 * excess, 1e-9);
         if (c.prescribe_force)
           compare("creepage [1e-3]", &RollingEstimate::creepage, 1e3, one.of_force);
         else

@@ -229,6 +229,42 @@ namespace
     check.below("Winkler's foundation: largest deviation from the steady state", worst, .02);
     check.that("Winkler's foundation: a force at rest is told from it", std::abs(still / steady - 1.) > .05);
   }
+
+  /// Sleepers of 10 g on stiff ballast, stiffer and more damped under one of them, are faster than the cells:
+  /// a mass m between pad and ground is followed with steps up to 4/(C + (C^2 + 4 K)^1/2), with the row sums
+  /// K = (2 pad + ballast)/m of the stiffness and C of the damping.
+  void light_sleepers(tests::Check &check)
+  {
+    constexpr double          mass = .01;
+    TrackParameters           track;
+    TrackParameters::Springs &springs = track.springs;
+    springs.pad_stiffness             = 90e6;
+    springs.ballast_stiffness         = 4e9;
+    springs.pad_damping = springs.ballast_damping = 0.;
+    track.sleeper_mass                            = mass;
+    track.pad_length                              = .02;
+    track.pad_width                               = .03;
+    track.points_along                            = 1;
+    track.points_across                           = 2;
+    const auto critical                           = [&] {
+      Bar      bar(1.2, 24);
+      Supports supports(bar.mesh, 0, {-.4, 0., .4}, track);
+      bar.dynamics.add<RailOnSupports>(supports, tests::steel());
+      return bar.dynamics.critical_time_step();
+    };
+    const double of_cells = Bar(1.2, 24).dynamics.critical_time_step();
+    const auto   expected = [&](const TrackParameters::Springs &own) {
+      const double K = (2. * own.pad_stiffness + own.ballast_stiffness) / mass +
+                       4. / (of_cells * of_cells), // both in turn, as the bound has them
+        C = (2. * own.pad_damping + own.ballast_damping) / mass;
+      return 4. / (C + std::sqrt(C * C + 4. * K));
+    };
+    check.relative("light sleepers: critical time step, us", 1e6 * critical(), 1e6 * expected(springs), 0.01);
+    track.exceptions[1] = {springs.pad_stiffness, 12e9, 0., 9e3, 0.};
+    check.relative("one of them on stiffer ballast: critical time step, us", 1e6 * critical(),
+                   1e6 * expected(track.exceptions[1]), 0.01);
+    check.that("they are faster than the cells", 1.5 * expected(springs) < of_cells);
+  }
 } // namespace
 
 
@@ -236,4 +272,5 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   simply_supported(check);
   on_foundation(check);
+  light_sleepers(check);
 }
