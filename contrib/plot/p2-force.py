@@ -5,7 +5,7 @@
     contrib/plot/p2-force.py RUN [--picture FILE] [--element MM] [--step US]
 
 The lumped model: unsprung mass, Hertz's spring and the suspension with the sprung mass above, on a Timoshenko beam on pads,
-rigid sleepers and ballast with the ends of the run. The wheel's centre follows the rail top as far as a circle of its radius can.
+rigid sleepers and ballast with the ends of the run; endless ones go on for as many spans beyond the cells. The wheel's centre follows the rail top as far as a circle of its radius can.
 It is integrated in time (central differences, beam elements that are exact at rest), and starts 1.5 m before the joint.
 All numbers are those of the run's parameters.prm.
 
@@ -47,8 +47,11 @@ class Track:
         second = width * np.mean(top**3) / 3 - area * centre**2
         self.bending, self.shear = young * second, SHEAR_COEFFICIENT * young / (2 * (1 + nu)) * area
         self.mass, self.rotary = density * area, density * second
-        begin, length = 1e-3 * number("Rail/Begin (mm)"), 1e-3 * number("Rail/Length (mm)")
+        if p["Rail/Ends"] == "absorbing":
+            raise DataError("the beam of this script has symmetric or endless ends")
         spacing, first = number("Track/Sleeper spacing (m)"), 1e-3 * number("Track/Support 0 (mm)")
+        beyond = spacing * number("Rail/Spans beyond") if p["Rail/Ends"] == "endless" else 0.0
+        begin, length = 1e-3 * number("Rail/Begin (mm)") - beyond, 1e-3 * number("Rail/Length (mm)") + 2 * beyond
         n = round(length / element)
         self.x, self.h = np.linspace(begin, begin + length, n + 1), length / n
         supports = [first + spacing * i for i in range(-1000, 1000) if begin <= first + spacing * i <= begin + length]
@@ -86,30 +89,31 @@ class Track:
         torque[[0, -1]] = 0.0  # symmetry
         return force, torque, in_pad - self.ballast * sleeper - self.ballast_damping * sleeper_v
 
-    def dynamic_stiffness(self, omega: float, place: float) -> complex:
-        """Force over deflection at x, exp(i omega t)."""
+    def dynamic_stiffness(self, omega: np.ndarray, place: float) -> np.ndarray:
+        """(n,) complex: force over deflection at x, exp(i omega t). What lies to each side is condensed node by node."""
         n = len(self.x)
-        a = np.zeros((2 * n, 2 * n), dtype=complex)
         g, b, h = self.shear_of_element, self.bending / self.h, self.h
         element = g / h * np.array([[1, h / 2, -1, h / 2], [h / 2, h * h / 4, -h / 2, h * h / 4], [-1, -h / 2, 1, -h / 2],
                                     [h / 2, h * h / 4, -h / 2, h * h / 4]])
         element += b * np.array([[0, 0, 0, 0], [0, 1, 0, -1], [0, 0, 0, 0], [0, -1, 0, 1]])
-        for e in range(n - 1):
-            a[2 * e:2 * e + 4, 2 * e:2 * e + 4] += element
+        own = np.zeros((n, len(omega), 2, 2), dtype=complex)
+        own[:-1] += element[:2, :2]
+        own[1:] += element[2:, 2:]
+        own[..., 0, 0] -= np.outer(self.node_mass, omega**2)
+        own[..., 1, 1] -= np.outer(self.node_rotary, omega**2)
         pad = self.pad + 1j * omega * self.pad_damping
         below = self.ballast + 1j * omega * self.ballast_damping - omega**2 * self.sleeper
-        for node in self.support:
-            a[2 * node, 2 * node] += pad * below / (pad + below)
-            a[2 * node + 1, 2 * node + 1] += self.radius2 * pad
-        for i in range(n):
-            a[2 * i, 2 * i] -= omega**2 * self.node_mass[i]
-            a[2 * i + 1, 2 * i + 1] -= omega**2 * self.node_rotary[i]
-        for i in (0, n - 1):
-            a[2 * i + 1, 2 * i + 1] += 1e6 * b  # symmetry
+        own[self.support, :, 0, 0] += pad * below / (pad + below)
+        own[self.support, :, 1, 1] += self.radius2 * pad
+        own[[0, -1], :, 1, 1] += 1e6 * b  # symmetry
         i = int(np.argmin(abs(self.x - place)))
-        load = np.zeros(2 * n)
-        load[2 * i] = 1
-        return 1 / np.linalg.solve(a, load)[2 * i]
+        all_at_place = -own[i]
+        for nodes, to, back in ((range(i), element[2:, :2], element[:2, 2:]), (range(n - 1, i, -1), element[:2, 2:], element[2:, :2])):
+            beside = np.zeros_like(own[0])  # of the nodes on this side, felt by the next one
+            for node in nodes:
+                beside = -to @ np.linalg.inv(own[node] + beside) @ back
+            all_at_place += own[i] + beside
+        return 1 / np.linalg.inv(all_at_place)[:, 0, 0]
 
 
 class Wheel:
@@ -244,7 +248,7 @@ def jenkins(track: Track, wheel: Wheel) -> tuple[float, float, float, float, flo
     frequencies = np.linspace(10, 60, 11)
     for _ in range(5):
         omega = 2 * np.pi * frequencies
-        stiffness = np.array([track.dynamic_stiffness(o, wheel.joint) for o in omega])
+        stiffness = track.dynamic_stiffness(omega, wheel.joint)
         (k, m), *_ = np.linalg.lstsq(np.stack([np.ones_like(omega), -omega**2], 1), stiffness.real, rcond=None)
         c = np.sum(stiffness.imag * omega) / np.sum(omega**2)
         frequencies = np.linspace(10, np.sqrt(k / (wheel.unsprung + m)) / (2 * np.pi), 11)
