@@ -388,10 +388,6 @@ namespace tread
         list.push_back(doubt);
     if (rail_mesh())
       list.insert(list.end(), rail_mesh()->mesh.doubts.begin(), rail_mesh()->mesh.doubts.end());
-    if (rail.ends == EndKind::endless && track.has_solid_sleepers())
-      list.push_back(
-        "'Rail/Ends' endless: sleepers beyond the cells are rigid, those under them are not: forces behind a "
-        "defect change with the number of spans by per cents of their swing (doc/track.md)");
     return list;
   }
 } // namespace tread

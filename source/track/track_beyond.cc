@@ -22,6 +22,16 @@ namespace tread
     /// m: half of its mass lies beside the section instead of in it, which reflects 1e-5 of a wave's energy
     /// along the rail at 2 kHz.
     constexpr double first_element = 0.0125;
+
+    SleeperModes rigid_sleeper(const reference::SupportLayers &layers)
+    {
+      if (!std::isfinite(layers.ballast_stiffness))
+        return {};
+      return {{layers.sleeper_mass},
+              {layers.ballast_stiffness},
+              {layers.sleeper_mass},
+              {layers.ballast_damping}};
+    }
   } // namespace
 
 
@@ -29,8 +39,10 @@ namespace tread
                            const double                  axial_stiffness,
                            const TrackBeyondParameters  &parameters)
     : parameters(parameters)
-    , has_sleepers(std::isfinite(parameters.layers.ballast_stiffness))
   {
+    if (parameters.sleeper.size() == 0)
+      this->parameters.sleeper = rigid_sleeper(parameters.layers);
+    const SleeperModes &sleeper = this->parameters.sleeper;
     // Half a span is left behind the last support.
     std::vector<double> places{0.};
     const auto          divide = [&](const double to) {
@@ -47,7 +59,7 @@ namespace tread
       }
     divide(places.back() + 0.5 * parameters.spacing);
     n_nodes                    = places.size() - 1;
-    const std::size_t   n      = 3 * n_nodes + (has_sleepers ? parameters.n_spans : 0);
+    const std::size_t   n      = 3 * n_nodes + parameters.n_spans * sleeper.size();
     const double        length = places.back();
     const AbsorbingEnds layer  = {-length, length, 0.5 * length, parameters.shear_speed};
 
@@ -73,16 +85,25 @@ namespace tread
         for (const unsigned int kind : {along, up, slope})
           rate[unknown(kind, i)] = layer.rate(places[i + 1]);
       }
-    if (has_sleepers)
-      for (unsigned int s = 0; s < parameters.n_spans; ++s)
+    for (unsigned int s = 0; s < parameters.n_spans; ++s)
+      for (std::size_t j = 0; j < sleeper.size(); ++j)
         {
-          const std::size_t k = 3 * n_nodes + s;
-          mass[k]             = parameters.layers.sleeper_mass;
-          weight[k]           = -parameters.gravity * mass[k];
+          const std::size_t k = of_sleeper(s, j);
+          mass[k]             = sleeper.mass[j];
+          weight[k]           = -parameters.gravity * sleeper.weighing[j];
           rate[k]             = layer.rate(places[node_of_support[s] + 1]);
         }
     find_shapes();
     set_at_rest(AtSection());
+  }
+
+
+  double TrackBeyond::under_pad(const std::vector<double> &values, const std::size_t support) const
+  {
+    double sum = 0.;
+    for (std::size_t j = 0; j < parameters.sleeper.size(); ++j)
+      sum += values[of_sleeper(support, j)];
+    return sum;
   }
 
 
@@ -118,11 +139,10 @@ namespace tread
         f[unknown(along, node)] -= parameters.stiffness_along * u[unknown(along, node)];
         f[unknown(slope, node)] -=
           layers.pad_stiffness * layers.pad_radius * layers.pad_radius * u[unknown(slope, node)];
-        const double sleeper = has_sleepers ? u[3 * n_nodes + s] : 0.,
-                     pad     = layers.pad_stiffness * (u[unknown(up, node)] - sleeper);
+        const double pad = layers.pad_stiffness * (u[unknown(up, node)] - under_pad(u, s));
         f[unknown(up, node)] -= pad;
-        if (has_sleepers)
-          f[3 * n_nodes + s] = pad - layers.ballast_stiffness * sleeper;
+        for (std::size_t j = 0; j < parameters.sleeper.size(); ++j)
+          f[of_sleeper(s, j)] = pad - parameters.sleeper.stiffness[j] * u[of_sleeper(s, j)];
       }
     // The plane of symmetry.
     f[unknown(along, n_nodes - 1)] = f[unknown(slope, n_nodes - 1)] = 0.;
@@ -135,16 +155,22 @@ namespace tread
     for (std::size_t k = 0; k < velocity.size(); ++k)
       damping[k] = -rate[k] * mass[k] * velocity[k];
     const reference::SupportLayers &layers = parameters.layers;
+    const std::size_t               n      = parameters.sleeper.size();
     for (std::size_t s = 0; s < node_of_support.size(); ++s)
       {
-        const std::size_t node    = node_of_support[s];
-        const double      sleeper = has_sleepers ? velocity[3 * n_nodes + s] : 0.,
-                     pad          = layers.pad_damping * (velocity[unknown(up, node)] - sleeper);
+        const std::size_t node = node_of_support[s];
+        const double      pad  = layers.pad_damping * (velocity[unknown(up, node)] - under_pad(velocity, s));
         damping[unknown(up, node)] -= pad;
         damping[unknown(slope, node)] -=
           layers.pad_damping * layers.pad_radius * layers.pad_radius * velocity[unknown(slope, node)];
-        if (has_sleepers)
-          damping[3 * n_nodes + s] += pad - layers.ballast_damping * sleeper;
+        // Row after row of a symmetric matrix, so that all coordinates of a sleeper are counted at once.
+        double       *of_ballast = damping.data() + of_sleeper(s);
+        const double *speed      = velocity.data() + of_sleeper(s);
+        for (std::size_t j = 0; j < n; ++j)
+          of_ballast[j] += pad;
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = 0; j < n; ++j)
+            of_ballast[j] -= parameters.sleeper.damping[i * n + j] * speed[i];
       }
   }
 
@@ -157,24 +183,29 @@ namespace tread
     const std::size_t      n     = mass.size();
     std::vector<double>    unit(n, 0.), f(n, 0.);
     std::vector<int>       node_of(n);
+    const std::size_t      n_coordinates = parameters.sleeper.size();
     for (std::size_t k = 0; k < n; ++k)
-      node_of[k] = k < 3 * n_nodes ? k % n_nodes : node_of_support[k - 3 * n_nodes];
+      node_of[k] = k < 3 * n_nodes ? k % n_nodes : node_of_support[(k - 3 * n_nodes) / n_coordinates];
     struct Entry
     {
       std::size_t row, column;
       double      value;
     };
     std::vector<Entry> entries;
-    for (unsigned int kind = 0; kind < (has_sleepers ? 4 : 3); ++kind)
+    for (unsigned int kind = 0; kind < 3 + n_coordinates; ++kind)
       for (unsigned int colour = 0; colour < (kind < 3 ? every : 1); ++colour)
         {
           std::vector<int> column_of(n_nodes, -1); // by node
-          for (std::size_t k = kind * n_nodes; k < (kind < 3 ? (kind + 1) * n_nodes : n); ++k)
-            if (kind == 3 || node_of[k] % every == colour)
-              {
-                unit[k]               = 1.;
-                column_of[node_of[k]] = k;
-              }
+          const auto       move = [&](const std::size_t k) {
+            unit[k]               = 1.;
+            column_of[node_of[k]] = k;
+          };
+          if (kind < 3)
+            for (std::size_t node = colour; node < n_nodes; node += every)
+              move(unknown(kind, node));
+          else
+            for (std::size_t s = 0; s < node_of_support.size(); ++s)
+              move(of_sleeper(s, kind - 3));
           spring_forces(AtSection(), unit, f);
           for (std::size_t i = 0; i < n; ++i)
             for (int node = node_of[i] - 1; node <= node_of[i] + 1; ++node)
@@ -283,15 +314,17 @@ namespace tread
           add(up, node, shear * (2. + element.length));
           add(slope, node, 2. * element.bending + shear * element.length * (1. + 0.5 * element.length));
         }
-    const reference::SupportLayers &layers = parameters.layers;
+    const reference::SupportLayers &layers        = parameters.layers;
+    const std::size_t               n_coordinates = parameters.sleeper.size();
     for (std::size_t s = 0; s < node_of_support.size(); ++s)
       {
         const std::size_t node = node_of_support[s];
         add(along, node, parameters.stiffness_along);
-        add(up, node, 2. * layers.pad_stiffness);
+        add(up, node, std::max<double>(2., 1. + n_coordinates) * layers.pad_stiffness);
         add(slope, node, layers.pad_stiffness * layers.pad_radius * layers.pad_radius);
-        if (has_sleepers)
-          rows[3 * n_nodes + s] = 2. * layers.pad_stiffness + layers.ballast_stiffness;
+        for (std::size_t j = 0; j < n_coordinates; ++j)
+          rows[of_sleeper(s, j)] =
+            (1. + n_coordinates) * layers.pad_stiffness + parameters.sleeper.stiffness[j];
       }
     double largest = 0.;
     for (std::size_t k = 0; k < rows.size(); ++k)
@@ -303,18 +336,23 @@ namespace tread
   double TrackBeyond::damping_over_mass() const
   {
     const reference::SupportLayers &layers  = parameters.layers;
+    const std::size_t               n       = parameters.sleeper.size();
     double                          largest = *std::max_element(rate.begin(), rate.end());
     for (std::size_t s = 0; s < node_of_support.size(); ++s)
       {
         const std::size_t node = node_of_support[s];
-        largest =
-          std::max({largest, rate[unknown(up, node)] + 2. * layers.pad_damping / mass[unknown(up, node)],
-                    rate[unknown(slope, node)] + layers.pad_damping * layers.pad_radius * layers.pad_radius /
-                                                   mass[unknown(slope, node)]});
-        if (has_sleepers)
-          largest =
-            std::max(largest, rate[3 * n_nodes + s] +
-                                (2. * layers.pad_damping + layers.ballast_damping) / mass[3 * n_nodes + s]);
+        largest                = std::max({largest,
+                                           rate[unknown(up, node)] +
+                                             std::max<double>(2., 1. + n) * layers.pad_damping / mass[unknown(up, node)],
+                                           rate[unknown(slope, node)] + layers.pad_damping * layers.pad_radius *
+                                                                          layers.pad_radius / mass[unknown(slope, node)]});
+        for (std::size_t j = 0; j < n; ++j)
+          {
+            double row = (1. + n) * layers.pad_damping;
+            for (std::size_t i = 0; i < n; ++i)
+              row += std::abs(parameters.sleeper.damping[j * n + i]);
+            largest = std::max(largest, rate[of_sleeper(s, j)] + row / mass[of_sleeper(s, j)]);
+          }
       }
     return largest;
   }
@@ -347,14 +385,13 @@ namespace tread
     };
     for (std::size_t s = 0; s < node_of_support.size(); ++s)
       {
-        const std::size_t node    = node_of_support[s];
-        const double      sleeper = has_sleepers ? displacement[3 * n_nodes + s] : 0.;
+        const std::size_t node = node_of_support[s];
         energy +=
           parameters.stiffness_along * half_square(displacement[unknown(along, node)]) +
-          layers.pad_stiffness * (half_square(displacement[unknown(up, node)] - sleeper) +
+          layers.pad_stiffness * (half_square(displacement[unknown(up, node)] - under_pad(displacement, s)) +
                                   half_square(layers.pad_radius * displacement[unknown(slope, node)]));
-        if (has_sleepers)
-          energy += layers.ballast_stiffness * half_square(sleeper);
+        for (std::size_t j = 0; j < parameters.sleeper.size(); ++j)
+          energy += parameters.sleeper.stiffness[j] * half_square(displacement[of_sleeper(s, j)]);
       }
     return energy;
   }

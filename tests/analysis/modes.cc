@@ -4,10 +4,12 @@
 // They converge as cells become smaller. Then a track of cells: its receptance from modes against hammer
 // blows in the time domain (doc/track.md), and the same modes on several ranks.
 #include <tread/analysis/modes.h>
+#include <tread/analysis/seat_modes.h>
 #include <tread/mesh/sleeper_body.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include "check.h"
 #include "driven_ring.h"
@@ -393,13 +395,88 @@ namespace
       }
     compare("wheel", Wheel(MPI_COMM_WORLD), Wheel(MPI_COMM_SELF), nullptr, nullptr);
   }
+
+
+  /// A solid sleeper on ballast as its pad feels it, with a dozen coordinates, beside all modes of its cells.
+  void seat(tests::Check &check, const MPI_Comm comm)
+  {
+    TrackParameters pads;
+    pads.pad_width = .05;
+    const tests::TrackRail rail(comm, tests::bar(3, 12), 3, pads, DynamicsParameters(), {}, true);
+    const Mesh            &mesh    = *rail.mesh;
+    const SolidSleeper     sleeper = rail.supports->solid_sleepers[1];
+    TrackParameters        bare    = pads;
+    bare.springs.pad_stiffness = bare.springs.pad_damping = 0.;
+    const Supports    support(mesh, 0, {rail.positions[1]}, bare, {sleeper});
+    std::vector<char> with_body(mesh.body_names.size(), false);
+    with_body[sleeper.body] = true;
+    ElasticSystem system(mesh, with_body, Track::materials(rail), SolidParameters());
+    system.attach_supports(support);
+    system.guide_nodes(support.guided_nodes(0), 0);
+    system.guide_nodes(mesh.boundary_nodes(sleeper.body, Boundary::end), 1);
+    system.assemble();
+    ElasticSystem::Place seat;
+    for (const Supports::Link &link : support.links())
+      if (link.layer == Supports::pad)
+        for (const auto &[node, share] : link.nodes)
+          if (mesh.node_bodies[node] == sleeper.body)
+            seat.emplace_back(node, std::abs(share) / (bare.points_along * bare.points_across));
+    double shares = 0., mass = 0.;
+    for (const auto &entry : seat)
+      shares += entry.second;
+    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+      if (mesh.shared_nodes.is_owned(i))
+        mass += system.masses()[i];
+    mass = dealii::Utilities::MPI::sum(mass, comm);
+    check.relative("seat: shares of the nodes", dealii::Utilities::MPI::sum(shares, comm), 1., 1e-9);
+
+    const SleeperModes                reduced = modes_at_place(system, seat, 12);
+    const Modes                       modes(system, 4000.);
+    const std::vector<double>         frequencies{1., 60., 300., 700., 1200., 2000.}; // Hz
+    std::vector<std::complex<double>> omega;
+    for (const double frequency : frequencies)
+      omega.emplace_back(2. * pi * frequency, 0.);
+    const std::vector<std::complex<double>> all = modes.receptance(seat, omega);
+    const unsigned int                      n   = reduced.size();
+    check.that("seat: coordinates that the pad feels",
+               n > 6 && n <= 12 && *std::max_element(reduced.mass.begin(), reduced.mass.end()) < 1e8);
+    for (unsigned int line = 0; line < omega.size(); ++line)
+      {
+        dealii::LAPACKFullMatrix<std::complex<double>> matrix(n);
+        dealii::Vector<std::complex<double>>           answer(n);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            for (unsigned int j = 0; j < n; ++j)
+              matrix(i, j) = std::complex<double>(0., 1.) * omega[line] * reduced.damping[i * n + j];
+            matrix(i, i) += reduced.stiffness[i] - omega[line] * omega[line] * reduced.mass[i];
+            answer(i) = 1.;
+          }
+        matrix.compute_lu_factorization();
+        matrix.solve(answer);
+        std::complex<double> sum = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          sum += answer(i);
+        check.below("seat: receptance at " + std::to_string(std::lround(frequencies[line])) +
+                      " Hz beside all modes, share",
+                    std::abs(sum - all[line]) / std::abs(all[line]), 2e-3);
+      }
+    // On ballast it sinks under its weight nearly as a rigid one does.
+    double sunk = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      sunk += reduced.weighing[i] / mass / reduced.stiffness[i];
+    check.relative("seat: sinks under its weight of 1 N, nm", 1e9 * sunk,
+                   1e9 / bare.springs.ballast_stiffness, 0.05);
+  }
 } // namespace
 
 
 void run_test(tests::Check &check, const tests::Arguments &arguments)
 {
   if (arguments.empty())
-    ranks(check);
+    {
+      ranks(check);
+      seat(check, MPI_COMM_WORLD);
+    }
   for (const std::string &part : arguments)
     if (part == "ring")
       ring(check);

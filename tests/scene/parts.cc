@@ -435,16 +435,6 @@ namespace
     check.that("endless ends", bool(beyond));
     if (!beyond)
       return;
-    const auto doubts_sleepers = [](const Scene &of) {
-      const std::vector<std::string> list = of.doubts();
-      return std::any_of(list.begin(), list.end(), [](const std::string &line) {
-        return line.find("sleepers beyond the cells are rigid") != std::string::npos;
-      });
-    };
-    check.that("track beyond: rigid sleepers behind solid ones are doubted", doubts_sleepers(*scene));
-    check.that("track beyond: behind rigid ones they are not",
-               !doubts_sleepers(
-                 *scene_of(on_track, {"Track/Pads pull=true", "Rail/Ends=endless", "Track/Sleepers=mass"})));
     // The middles of sleepers go on at 610 mm, from -1780 and 1880 mm.
     check.absolute("track beyond: first support before the rail, mm", 1e3 * (*beyond)[0].first_support, 340.,
                    1e-9);

@@ -354,6 +354,27 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check.absolute("longitudinal pulse: energy that comes back from the far end (%)",
                  100. * left_of_pulse(free, 4. * tests::spacing), 100. * kept, 1.);
 
+  // A rigid sleeper as two coordinates that move alike, each with twice its mass and springs: the same track.
+  const auto in_two = [](TrackBeyondBoth both) {
+    for (TrackBeyondParameters &end : *both)
+      {
+        const reference::SupportLayers &rigid = end.layers;
+        const double m = rigid.sleeper_mass, k = rigid.ballast_stiffness, c = rigid.ballast_damping;
+        end.sleeper = {{2. * m, 2. * m}, {2. * k, 2. * k}, {m, m}, {1.5 * c, .5 * c, .5 * c, 1.5 * c}};
+      }
+    return both;
+  };
+  const auto force_at_rest = [&](const TrackBeyondBoth &both) {
+    TrackBeyond track(bar.section, 1e9, (*both)[0]);
+    track.set_at_rest({0., -1e-3, 2e-3});
+    return track.present_force_on_section();
+  };
+  const TrackBeyond::AtSection of_one = force_at_rest(beyond(points(), 9.81)),
+                               of_two = force_at_rest(in_two(beyond(points(), 9.81)));
+  check.relative("sleepers of two coordinates: force at rest, kN", 1e-3 * of_two.up, 1e-3 * of_one.up, 1e-9);
+  check.relative("sleepers of two coordinates: moment at rest, kN m", 1e-3 * of_two.slope,
+                 1e-3 * of_one.slope, 1e-9);
+
   // Nothing comes back from the ends of 61 spans while the record counts, 20 ms at a decay of 200 1/s.
   const tests::Receptance endless = strike(61, {}), symmetric = strike(5, {}),
                           five = strike(5, beyond(points()));
@@ -361,6 +382,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   (*few)[0].n_spans = (*few)[1].n_spans = 8;
   check.below("eight spans beyond, 30 to 2000 Hz: share of the energy that comes back (%)",
               100. * tests::reflected(strike(5, few), endless, 30., 2000.), 6e-3);
+  check.below("sleepers of two coordinates, 30 to 2000 Hz: energy of the difference (%)",
+              100. * tests::reflected(strike(5, in_two(beyond(points()))), five, 30., 2000.), 1e-8);
   struct Band
   {
     double from, to, limit; ///< Hz, %

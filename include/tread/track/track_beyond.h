@@ -9,6 +9,20 @@
 
 namespace tread
 {
+  /// A sleeper as the pad on it feels it: coordinates whose sum is the displacement under the pad. A rigid
+  /// one has one; without any the pads stand on the ground.
+  struct SleeperModes
+  {
+    std::vector<double> mass, stiffness; ///< of each coordinate: kg, N/m
+    std::vector<double> weighing;        ///< what gravity pulls at each, kg
+    std::vector<double> damping;         ///< of the ballast, row by row of a symmetric matrix, N s/m
+
+    std::size_t size() const
+    {
+      return mass.size();
+    }
+  };
+
   struct TrackBeyondParameters
   {
     unsigned int             n_spans         = 20;
@@ -18,10 +32,11 @@ namespace tread
     double                   shear_speed     = 3200; ///< of the steel, m/s: @see AbsorbingEnds
     double                   gravity         = 0.;   ///< m/s^2
     reference::SupportLayers layers;                 ///< of each support
+    SleeperModes             sleeper;                ///< none given: that of the layers, which is rigid
   };
 
   /// The track beyond one end of a rail of cells: a Timoshenko beam and bar on supports (springs, dampers and
-  /// rigid sleepers), whose first node is the section where the cells end. In the half that is farther away
+  /// sleepers), whose first node is the section where the cells end. In the half that is farther away
   /// damping grows towards a plane of symmetry, as at absorbing ends. Coordinates point outwards from the
   /// cells: along the rail, upwards, and the slope of a cross-section. Linear: supports pull and have no
   /// gaps.
@@ -79,12 +94,18 @@ namespace tread
     void serialize(Archive &archive);
 
   private:
-    /// What an element or a spring does to two unknowns is added up in this order: along, up and slope of the
-    /// nodes behind the section, then the sleepers.
+    /// Unknowns in this order: along, up and slope of the nodes behind the section, then the coordinates of
+    /// one sleeper after the other.
     std::size_t unknown(const unsigned int kind, const std::size_t node) const
     {
       return kind * n_nodes + node;
     }
+    std::size_t of_sleeper(const std::size_t support, const std::size_t coordinate = 0) const
+    {
+      return 3 * n_nodes + support * parameters.sleeper.size() + coordinate;
+    }
+    /// What these unknowns have under the pad of a support.
+    double under_pad(const std::vector<double> &values, const std::size_t support) const;
     /// Forces of beam and springs at these displacements. @returns what acts on the section
     AtSection spring_forces(const AtSection           &section,
                             const std::vector<double> &displacement,
@@ -101,7 +122,6 @@ namespace tread
     std::size_t              n_nodes = 0;
     std::vector<std::size_t> node_of_support;
     std::vector<double>      mass, weight, rate; ///< kg, kg m^2; N; 1/s: by unknown
-    bool                     has_sleepers = false;
 
     // At rest: with a unit displacement of the section each, and with the weight alone.
     std::vector<double> shapes[3], sagged;

@@ -145,7 +145,7 @@ namespace tread
     section.add(
       "Spans beyond", spans_beyond,
       "Sleeper spans of the beam behind each endless end, whose farther half absorbs what arrives. "
-      "Their supports are those of section Track, with rigid sleepers, whatever 'Track/Support file' has.",
+      "Their supports are those of section Track, all alike, whatever 'Track/Support file' has.",
       Integer(4, 1000));
     material.declare(section);
   }

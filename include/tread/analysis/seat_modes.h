@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_analysis_seat_modes_h
+#define tread_analysis_seat_modes_h
+
+#include <tread/analysis/elastic_system.h>
+#include <tread/track/track_beyond.h>
+
+namespace tread
+{
+  /// A structure as forces on one place feel it, with a few coordinates: the modes of its motion in the Krylov
+  /// space of the response at rest, K^-1 f, K^-1 M K^-1 f, ... (Nour-Omid & Clough, Earthquake Engineering and
+  /// Structural Dynamics 12, 1984), each scaled so that the place moves as the coordinate does. The response at
+  /// rest is that of the structure itself, and so are those of low frequencies.
+  /// @param system that is held: its stiffness matrix is regular; assembled. @param n coordinates at most;
+  /// fewer where the space has no more or the place does not feel them. Collective. @throws std::runtime_error if the equations have no answer
+  SleeperModes modes_at_place(const ElasticSystem        &system,
+                              const ElasticSystem::Place &place,
+                              const unsigned int          n);
+} // namespace tread
+
+#endif
