@@ -21,7 +21,7 @@ effort=${TREAD_EFFORT:-1}
 
 # Reader and number of files, the longest first.
 readers=(
-  "supports 120" "settings 50" "scene 50" "parameters 250" "defect 4000" "simpack 4000" "miniprof 4000" "batch 250"
+  "parameters 250" "supports 120" "settings 50" "scene 50" "defect 4000" "simpack 4000" "miniprof 4000" "batch 250"
   "archive 10000" "two-columns 4000" "map 10000" "slices 4000" "deviation 4000" "guidance 10000"
   "gmsh 6000" "abaqus 6000" "ls-dyna 6000"
 )
