@@ -19,7 +19,7 @@ from tread_runner import Check, execute_often, run
 program = sys.argv[1]
 check = Check()
 SCENE = "damage/profile-wear.prm"
-SHORT = {"Profile wear/Passages": 4000, "Profile wear/Wheel turns": 6000, "Profile wear/States": 2, "Damage/Wear coefficient": 1e-3}
+SHORT = {"Profile wear/Passages": 2000, "Profile wear/Wheel turns": 3000, "Profile wear/States": 2, "Damage/Wear coefficient": 1e-3}
 HEAD = "weight,shift_mm,yaw_mrad,load_kN,creepage\n"
 ROWS = ["2,1.2,0.5,105,0.0006\n", "1,5.8,2,95,-0.0004\n"]
 
@@ -43,7 +43,7 @@ with tempfile.TemporaryDirectory() as folder:
     summary = run(program, SCENE, path("wear"), settings, more=["--wear", usual])
 
     # By Coulomb's and Archard's laws what slips loses coefficient over hardness times work over friction.
-    for body, passages in (("rail", 4000), ("wheel", 6000)):
+    for body, passages in (("rail", 2000), ("wheel", 3000)):
         lost = summary[f"{body}_wear_area_by_law_m2"]
         check.relative(f"{body}: area by the law over that by the work", lost, 1e-3 / 2800e6 / 0.3 * summary[f"{body}_friction_work_J_per_m"], 1e-3)
         check.relative(f"{body}: area between the profiles over that by the law", summary[f"{body}_wear_area_m2"], lost, 1e-3)
@@ -61,9 +61,9 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"{body}: its states", sorted(set(count)) == [0, passages / 2, passages])
         profile = np.loadtxt(os.path.join(path("wear"), f"worn_{body}_2.csv"), delimiter=",", skiprows=1)
         check.below(f"{body}: its file, mm", np.abs(profile - np.column_stack([now_y, now_z])).max(), 1e-6)
-    check.that("what the summary counts", summary["rail_passages"] == 4000 and summary["wheel_turns"] == 6000 and summary["contacts"] == len(ROWS))
+    check.that("what the summary counts", summary["rail_passages"] == 2000 and summary["wheel_turns"] == 3000 and summary["contacts"] == len(ROWS))
     steps = read_table(os.path.join(path("wear"), "wear_steps.csv"))
-    check.that("steps go up to the end", steps["passages"][0] == 0 and steps["passages"][-1] == 4000 and steps["wheel_turns"][-1] == 6000 and np.all(np.diff(steps["passages"]) > 0))
+    check.that("steps go up to the end", steps["passages"][0] == 0 and steps["passages"][-1] == 2000 and steps["wheel_turns"][-1] == 3000 and np.all(np.diff(steps["passages"]) > 0))
     check.that("a step changes the pressure by what is allowed", steps["change"].max() <= 0.1 and steps["change"].max() > 0.01 and summary["wear_steps"] == len(steps["change"]) - 1)
     for name, key in (("rail_depth_mm", "rail_wear_depth_m"), ("wheel_depth_mm", "wheel_wear_depth_m")):
         check.relative(f"{name} at the end", 1e-3 * steps[name][-1], summary[key], 1e-6)
@@ -119,7 +119,7 @@ with tempfile.TemporaryDirectory() as folder:
     for number, (name, exit_code) in ((signal.SIGKILL, ("killed", -9)), (signal.SIGINT, ("interrupted", 130))):
         process = subprocess.Popen(command([*arguments_of(SCENE, settings, path(name)), "--wear", usual], 1, program), env=environment(), stdout=subprocess.DEVNULL)
         # The one that is killed between two states that are kept.
-        grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and read_table(os.path.join(path(name), "wear_steps.csv"))["passages"].max() > (2000 if name == "killed" else 0)
+        grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and read_table(os.path.join(path(name), "wear_steps.csv"))["passages"].max() > (1000 if name == "killed" else 0)
         while process.poll() is None and not grown():
             time.sleep(0.02)
         process.send_signal(number)
