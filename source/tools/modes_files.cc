@@ -507,7 +507,7 @@ namespace tread
       std::vector<std::pair<double, std::string>> files;
     };
 
-    /// Hold and support the rail and its sleepers as a run does (@see Simulation).
+    /// Hold and support the rail and its sleepers as a run does (@see Model).
     void hold_track(const Scene &scene, const Mesh &mesh, const Supports *supports, ElasticSystem &system)
     {
       if (!supports)
