@@ -17,6 +17,10 @@ namespace tread
 {
   namespace
   {
+    /// Of a vector from which the part in a basis has been subtracted, less than this share of its size is
+    /// rounding.
+    constexpr double rounding_share = 1e-8;
+
     /// Displacement by which forces are differentiated, over the size of a cell. Central differences then
     /// leave an error of the order of its square, 1e-10, and rounding one of 1e-16/1e-5: both vanish beside
     /// any other error, at half and at double the value, too.
@@ -606,6 +610,32 @@ namespace tread
     for (const double velocity : v.sleepers)
       sums[2] += supports->parameters.sleeper_mass * velocity * velocity;
     return sums;
+  }
+
+
+  bool ElasticSystem::normalise_against(const std::vector<Vec> &basis, Vec vector) const
+  {
+    Vec        product = new_vector();
+    const auto size    = [&]() {
+      check_petsc(MatMult(M, vector, product));
+      return std::sqrt(std::max(0., dot(vector, product)));
+    };
+    const double             before = size();
+    std::vector<PetscScalar> shares(basis.size());
+    for (unsigned int pass = 0; pass < 2 && !basis.empty(); ++pass)
+      {
+        check_petsc(MatMult(M, vector, product));
+        check_petsc(VecMDot(product, basis.size(), basis.data(), shares.data()));
+        for (PetscScalar &share : shares)
+          share = -share;
+        check_petsc(VecMAXPY(vector, basis.size(), shares.data(), const_cast<Vec *>(basis.data())));
+      }
+    const double after   = size();
+    const bool   remains = after > rounding_share * before && after > 0.;
+    if (remains)
+      check_petsc(VecScale(vector, 1. / after));
+    check_petsc(VecDestroy(&product));
+    return remains;
   }
 
 

@@ -30,19 +30,8 @@ namespace tread
     /// Modes whose squared frequencies differ by less, relatively, count as equal.
     constexpr double equal_frequencies = 1e-7;
 
-    /// Of a vector from which the part in a basis has been subtracted, less than this share of its size is
-    /// rounding.
-    constexpr double rounding_share = 1e-8;
-
     /// Vectors of the Krylov space of the force that enter the reduced equations.
     constexpr unsigned int n_krylov = 3;
-
-    double dot(const Vec a, const Vec b)
-    {
-      PetscScalar value;
-      check_petsc(VecDot(a, b, &value));
-      return value;
-    }
   } // namespace
 
 
@@ -247,32 +236,6 @@ namespace tread
   }
 
 
-  bool Modes::normalise_against(const std::vector<Vec> &basis, Vec vector) const
-  {
-    Vec        product = system.new_vector();
-    const auto size    = [&]() {
-      check_petsc(MatMult(system.mass(), vector, product));
-      return std::sqrt(std::max(0., dot(vector, product)));
-    };
-    const double             before = size();
-    std::vector<PetscScalar> shares(basis.size());
-    for (unsigned int pass = 0; pass < 2 && !basis.empty(); ++pass)
-      {
-        check_petsc(MatMult(system.mass(), vector, product));
-        check_petsc(VecMDot(product, basis.size(), basis.data(), shares.data()));
-        for (PetscScalar &share : shares)
-          share = -share;
-        check_petsc(VecMAXPY(vector, basis.size(), shares.data(), const_cast<Vec *>(basis.data())));
-      }
-    const double after   = size();
-    const bool   remains = after > rounding_share * before && after > 0.;
-    if (remains)
-      check_petsc(VecScale(vector, 1. / after));
-    check_petsc(VecDestroy(&product));
-    return remains;
-  }
-
-
   std::vector<std::complex<double>> Modes::receptance(const ElasticSystem::Place              &place,
                                                       const std::vector<std::complex<double>> &omega) const
   {
@@ -285,7 +248,7 @@ namespace tread
     const auto       add = [&](Vec load) {
       Vec answer = system.new_vector();
       check_petsc(KSPSolve(linear, load, answer));
-      if (normalise_against(basis, answer))
+      if (system.normalise_against(basis, answer))
         basis.push_back(answer);
       else
         check_petsc(VecDestroy(&answer));

@@ -5,7 +5,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/lac/exceptions.h>
 
-#include <petscsys.h>
+#include <petscvec.h>
 
 namespace tread
 {
@@ -14,6 +14,13 @@ namespace tread
   inline void check_petsc(const PetscErrorCode error)
   {
     AssertThrow(error == 0, dealii::LACExceptions::ExcPETScError(error));
+  }
+
+  inline double dot(const Vec a, const Vec b)
+  {
+    PetscScalar value;
+    check_petsc(VecDot(a, b, &value));
+    return value;
   }
 } // namespace tread
 

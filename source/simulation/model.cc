@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // From a scene to what rolls.
-#include <tread/analysis/elastic_system.h>
 #include <tread/analysis/seat_modes.h>
 #include <tread/base/format.h>
 #include <tread/dynamics/parts/nodes.h>
@@ -21,35 +20,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    /// What the pad on one of the solid sleepers of the mesh feels of it and of the ballast under it.
-    SleeperModes modes_at_seat(const Scene &scene, const Mesh &mesh)
-    {
-      constexpr unsigned int n       = 12; // receptances up to 2 kHz within some thousandths
-      const SolidSleeper     sleeper = solid_sleepers(scene).front();
-      TrackParameters        track   = scene.track_parameters();
-      track.exceptions.clear();
-      track.springs.pad_stiffness = track.springs.pad_damping = 0.;
-      const Supports    support(mesh, rail_body, {scene.support_positions().front()}, track, {sleeper});
-      std::vector<char> with_body(mesh.body_names.size(), false);
-      with_body[sleeper.body] = true;
-      ElasticSystem system(mesh, with_body, materials(scene), solid_parameters(scene));
-      system.attach_supports(support);
-      system.guide_nodes(support.guided_nodes(0), 0);
-      system.guide_nodes(mesh.boundary_nodes(sleeper.body, Boundary::end), 1);
-      system.assemble();
-      ElasticSystem::Place seat; // the points of the pad, alike
-      for (const Supports::Link &link : support.links())
-        if (link.layer == Supports::pad)
-          for (const auto &[node, share] : link.nodes)
-            if (mesh.node_bodies[node] == sleeper.body)
-              seat.emplace_back(node, std::abs(share) / (track.points_along * track.points_across));
-      return modes_at_place(system, seat, n);
-    }
-  } // namespace
-
-
   Model::Model(const Scene &scene, const MPI_Comm comm, const WindowPlace &window)
     : scene(scene)
     , comm(comm)
@@ -109,7 +79,13 @@ namespace tread
       supports->add_probe(mid_span_beside(scene, number));
     auto beyond = scene.track_beyond();
     if (beyond && scene.track.has_solid_sleepers())
-      (*beyond)[0].sleeper = (*beyond)[1].sleeper = modes_at_seat(scene, mesh);
+      {
+        TrackParameters alike = scene.track_parameters();
+        alike.exceptions.clear();
+        (*beyond)[0].sleeper = (*beyond)[1].sleeper =
+          modes_at_seat(mesh, rail_body, supports->solid_sleepers.front(), scene.support_positions().front(),
+                        alike, materials(scene), solid_parameters(scene));
+      }
     dynamics.add<RailOnSupports>(*supports, scene.rail.material.elastic(), beyond);
     if (beyond)
       dynamics.add<RailOnTrackBeyond>(rail_body, scene.rail.material.elastic(), *beyond);

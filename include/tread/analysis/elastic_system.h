@@ -111,6 +111,10 @@ namespace tread
     /// Collective.
     std::vector<Vec> damper_forces() const;
 
+    /// Make a vector M-orthogonal to all of a basis that is so, and of unit modal mass. @returns false if
+    /// nothing but rounding remains. Collective.
+    bool normalise_against(const std::vector<Vec> &basis, Vec vector) const;
+
     /// Vertical displacement of a place. Collective.
     double displacement_of(const Place &place, const NodalField &field) const;
 

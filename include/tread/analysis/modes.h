@@ -63,8 +63,6 @@ namespace tread
   private:
     unsigned int number_below(const double omega_squared) const;
     void         solve(const unsigned int n);
-    /// M-orthogonal to all of the basis, and of unit modal mass. @returns false if nothing remains.
-    bool normalise_against(const std::vector<Vec> &basis, Vec vector) const;
 
     Mat                 shifted = nullptr; ///< K + s^2 M
     EPS                 solver  = nullptr;

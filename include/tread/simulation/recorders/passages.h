@@ -36,7 +36,6 @@ namespace tread
     void serialize(Archive &archive) override;
 
   private:
-    bool is_in_middle(const dealii::Point<3> &p) const;
     /// Means of the surface's line of the path, and the largest stress and strain below it.
     void measure_rail(Passage &passage) const;
 
