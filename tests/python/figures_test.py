@@ -68,6 +68,16 @@ class FlatForce(unittest.TestCase):
         expected = self.LOAD + stiffness * step * np.cos(math.sqrt(stiffness / self.MASS) * places / 0.5)
         np.testing.assert_allclose(forces, expected, atol=0.03 * stiffness * step)
 
+    def test_long_steps_of_a_light_wheel(self):
+        # The trapezoidal rule from rest after a step in height: with tan(turn) = w h/2 the force turns by 2 turn in each step of h.
+        rigid = flat_force.Track(young=1e16, spans=4, pad_stiffness=1e14, ballast_stiffness=1e14, pad_damping=0., ballast_damping=0.)
+        load, mass, height, step = 1e4, 5., 1e-8, 40e-6
+        stiffness = 1.5 * self.STIFFNESS**(2 / 3) * load**(1 / 3)
+        forces = flat_force.roll(rigid, lambda way: height if way > 0. else 0., 0.5, 1e-3, load, mass, self.STIFFNESS, 0., step)[1]
+        turn = math.atan(0.5 * math.sqrt(stiffness / mass) * step)
+        expected = math.cos(turn) * np.cos((2 * np.arange(1, len(forces) + 1) - 1) * turn)
+        np.testing.assert_allclose((forces - load) / (stiffness * height), expected, atol=0.01)
+
     def test_a_smooth_wheel_keeps_its_load(self):
         places, forces = self.rolled(flat_force.Track(spans=16), lambda way: 0., 10., 0.1)
         self.assertAlmostEqual(places[-1], 0.1, delta=2e-4)
@@ -667,6 +677,21 @@ class Pictured(InFolder):
         self.close(sum(shares), 1., 2e-3)
         self.close(impact.zimmermann_share(0., 0.6, 0.8), 0.375)
         self.close(impact.zimmermann_share(-0.8 * math.pi * 0.75, 0.6, 0.8), 0., 1e-6)
+
+    def test_forces_over_speed(self):
+        """Contact, two pads and ballast of two runs, their spectra and peaks: each with a legend, and no frame is left empty."""
+        def run(speed, supports):
+            shares = {impact.CONTACT: 1.} | {f"support_{n}_{layer}_N": 0.1 * n for n in supports for layer in ("pad", "ballast")}
+            forces = {name: share * speed * 1e3 * np.ones(3) for name, share in shares.items()}
+            return SimpleNamespace(speed=speed, label=f"{speed:.0f} m/s", parameters={}, supports=lambda layer: supports,
+                                   dynamic={"position_m": np.arange(3.), **forces}, spectrum={"frequency_Hz": np.arange(3.), **forces},
+                                   figures={"forces": {name: {"peak_N": -force[0]} for name, force in forces.items()}, "window": "Hann", "resolution_Hz": 1.})
+        for supports, labels in (([], ["contact"]), ([3, 4], ["contact", "pad 3", "pad 4", "ballast 4"])):
+            figure = impact.draw_speeds([run(20., supports), run(10., supports)])
+            legends = [[text.get_text() for text in axis.get_legend().get_texts()] for axis in figure.axes]
+            of_runs = ["10 m/s", "20 m/s"]
+            self.assertEqual(legends, [of_runs] * len(labels) + [[f"{label}, resolution 1 Hz" for label in of_runs], labels])
+            self.close(figure.axes[-1].lines[0].get_xydata(), [[36., 10.], [72., 20.]])
 
     def test_lines_of_contact_points_are_broken_where_they_jump(self):
         table = {"lateral_shift_mm": np.array([0., 1., 2., 3.])} | {f"{side}_{place}_mm": np.array([0., 2., 4. + 10. * (side == "own"), 6. + 10. * (side == "own")])

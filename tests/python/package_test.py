@@ -528,6 +528,11 @@ class Studies(InFolder):
             self.assertEqual((result.returncode, what in result.stderr), (code, True), result.stderr)
         with self.assertRaisesRegex(tread.DataError, "is included by files that it includes"):
             files.texts_of(write(self.path("self.prm"), "include self.prm\n"))
+        # Twenty files one in the other are read.
+        for number in range(20):
+            write(self.path(f"{number}.prm"), f"include {number + 1}.prm\n")
+        write(self.path("20.prm"), "subsection General\n  set Title = innermost\nend\n")
+        self.assertEqual(files.own_parameters(self.path("0.prm")), {"General/Title": "innermost"})
 
     def test_a_parameter_that_there_is_not_is_refused_before_the_first_run(self):
         text = "set Scene = {}\nset Settings = {}=1\nset Smooth twin = {}=none\nsubsection Vary\n  set {} & {} = 0.001 & 1 | 0.002 & 2\nend\n"
