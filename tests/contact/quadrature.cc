@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Integrals over the common parts of two faces: exact up to the products of shape functions, whichever corner
-// a polygon begins at, and for its mirror image.
+// a polygon begins at, and for its mirror image. Shape functions at points of faces that are no
+// parallelograms.
 #include "check.h"
 #include "contact/quadrilateral.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -76,11 +78,41 @@ namespace
     check.below(name + ": whichever corner is the first", turned, 2e-15);
     check.below(name + ": its mirror image", reflected, 2e-15);
   }
+
+  /// A place of a face is the mean of its corners with the shape functions there as weights.
+  void check_shape_functions(Check &check, const std::string &name, const std::array<Plane2, 4> &corners)
+  {
+    Quadrilateral face;
+    face.corners = corners;
+    face.prepare();
+    const double xi[8]  = {-1., -0.7, -0.1, 0.3, 0.9, 1., 0., -0.95},
+                 eta[8] = {-1., 0.8, -0.2, 0.5, 0.95, 1., 0., -0.9};
+    AtPoints              s{}, t{};
+    double                worst = 0.;
+    std::array<double, 4> expected[8];
+    for (unsigned int i = 0; i < 8; ++i)
+      {
+        expected[i] = Quadrilateral::shape(xi[i], eta[i]);
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            s[i] += expected[i][k] * corners[k].s;
+            t[i] += expected[i][k] * corners[k].t;
+          }
+      }
+    const std::array<AtPoints, 4> found = face.shape_at(s, t);
+    for (unsigned int i = 0; i < 8; ++i)
+      for (unsigned int k = 0; k < 4; ++k)
+        worst = std::max(worst, std::abs(found[k][i] - expected[i][k]));
+    check.below(name + ": shape functions at its places", worst, 1e-9);
+  }
 } // namespace
 
 
 void run_test(Check &check, const tests::Arguments &)
 {
+  check_shape_functions(check, "parallelogram", {{{0., 0.}, {1., 0.2}, {1.3, 1.}, {0.3, 0.8}}});
+  check_shape_functions(check, "trapezoid", {{{0., 0.}, {1., 0.}, {0.8, 1.}, {0.1, 1.}}});
+  check_shape_functions(check, "face with no parallel sides", {{{0., 0.}, {1., 0.2}, {0.8, 1.}, {0.1, 0.6}}});
   const double exact = 1e-14; // fifteen digits of the points on triangles
   check_polygon(check, "triangle", {{0.1, 0.2}, {1.1, 0.3}, {0.4, 1.}}, exact);
   check_polygon(check, "rectangle", {{-0.3, 0.1}, {0.9, 0.1}, {0.9, 0.8}, {-0.3, 0.8}}, exact);
