@@ -2,6 +2,7 @@
 // Wheels that are not round: scans, flats and waves against closed forms, and scans that no wheel can have.
 #include <tread/analysis/wheelset_contact.h>
 #include <tread/base/input_error.h>
+#include <tread/geometry/patch_surfaces.h>
 #include <tread/geometry/wheel_deviation.h>
 
 #include "check.h"
@@ -169,6 +170,39 @@ namespace
     check.absolute("its height, nm", 1e9 * zero.position.height, 1e9 * round.position.height, 2.);
   }
 
+  /// A cylinder on a flat rail that is narrower than it, and on one that is wider.
+  void ends(tests::Check &check)
+  {
+    const auto on_flat = [](const double width) {
+      std::vector<dealii::Point<2>> flat;
+      for (int i = -10; i <= 10; ++i)
+        flat.emplace_back(0.05 * i * width, 0.);
+      return WheelOnRail(
+        WheelSurface(wheel_curve("cylinder"), wheel_deviation("waves: 1=0.01@0", cylinder, radius, 0.)),
+        std::make_shared<PrismSurface>(ProfileCurve(flat)), radius, TrackGauge(),
+        WheelOnRail::RailOrigin{0.75, 0.});
+    };
+    // Looked at in 808 columns of 0.05 mm, of which there is an overlap in the last one as in the first.
+    constexpr double  width  = 40.37e-3;
+    const WheelOnRail narrow = on_flat(width);
+    WheelsetPosition  sunk;
+    sunk.height                                    = -0.1e-3;
+    const std::vector<WheelOnRail::Region> regions = narrow.overlaps(sunk, 1e-3);
+    if (check.absolute("narrow rail: overlaps", regions.size(), 1., 0.))
+      {
+        check.absolute("its width, mm", 1e3 * (regions[0].s_end - regions[0].s_begin), 1e3 * width, 0.05);
+        check.absolute("its depth, um", 1e6 * regions[0].overlap, 110., 0.5);
+      }
+    const WheelOnRail   wide = on_flat(160e-3);
+    WheelOnRail::Region all;
+    all.s_end     = wide.wheel().length();
+    all.reference = {{0., 0.75, 0.}};
+    const PatchSurfaces heights(wide, {}, all);
+    check.that("wide rail: the wheel ends where its profile does",
+               heights.exists(0., 59.9e-3) && !heights.exists(0., 60.1e-3) && heights.exists(0., -69.9e-3) &&
+                 !heights.exists(0., -70.1e-3));
+  }
+
   void refusals(tests::Check &check)
   {
     const auto refused = [&](const std::string &what, const std::string &word, const auto &make) {
@@ -291,6 +325,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   scan(check);
   contact(check);
+  ends(check);
   refusals(check);
   files(check);
 }
