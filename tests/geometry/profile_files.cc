@@ -595,6 +595,18 @@ namespace
     check.absolute("smoothing over 6 mm moves the first point of a parabola, um",
                    1e6 * kept.front().distance(bow.front()), 0., 0.1);
     check.absolute("and the last one, um", 1e6 * kept.back().distance(bow.back()), 0., 0.1);
+    // How far one point that stands out was moved, at right angles to the line through those beside it.
+    std::ofstream head("geometry_profile_files.txt");
+    for (int i = -72; i <= 72; ++i)
+      head << 0.5 * i << " " << std::to_string((i == 0 ? 0.008 : 0.) - 0.25 * i * i / 600.) << "\n";
+    head.close();
+    const MeasuredProfile peak =
+      read_measured_profile("geometry_profile_files.txt", ProfileBody::rail, {false, 0., 6e-3});
+    std::remove("geometry_profile_files.txt");
+    check.absolute("smoothing moves most where a point stands out, at y, mm", 1e3 * peak.y_of_change, 0.,
+                   1e-6);
+    check.relative("and by, um", 1e6 * peak.largest_change, 1e6 * (peak.measured[72].z - peak.points[72].z),
+                   1e-6);
     for (const unsigned int i : {0u, 4u})
       {
         const Shape  &shape  = shapes[i];
@@ -625,11 +637,30 @@ namespace
                    smooth.largest_change > 6e-6 && smooth.largest_change < 60e-6);
       }
   }
+
+  /// A point that is given twice, a nanometre's part beside itself, is one: a curve through both would turn
+  /// there.
+  void check_repeated(tests::Check &check)
+  {
+    std::vector<dealii::Point<2>> points;
+    for (int i = -20; i <= 20; ++i)
+      {
+        const double y = 1e-3 * i;
+        points.emplace_back(y, -y * y / 0.6);
+        if (i == 5)
+          points.emplace_back(y, -y * y / 0.6 + 0.5e-9);
+      }
+    const ProfileCurve curve(points);
+    check.absolute("a point given twice: points of the curve", curve.knots().size(), 41., 0.);
+    const ProfileCurve::Place there = curve.at(curve.knots()[25]);
+    check.absolute("a point given twice: slope there", there.dz / there.dy, -5e-3 / 0.3, 1e-5);
+  }
 } // namespace
 
 void run_test(tests::Check &check, const tests::Arguments &arguments)
 {
   check_smoothing(check);
+  check_repeated(check);
   if (arguments.empty())
     {
       check_drawn(check, 1);
