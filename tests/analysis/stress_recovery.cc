@@ -322,6 +322,20 @@ namespace
         const std::string name = bend == 0. ? "yielded: stretched: " : "yielded: stretched and bent: ";
         check.relative(name + "largest stress at the surface, MPa", 1e-6 * largest(most), 500., 1e-9);
         check.relative(name + "least stress at the surface, MPa", -1e-6 * largest(-least), 500., 1e-9);
+        // What lies on the surface is in equilibrium with its stress, and the rest is what the yield stress
+        // leaves.
+        const auto loaded = block.recovered(everywhere, u, [](const Point<3> &) {
+          return Vector3{100e6, -50e6, -200e6, 0.};
+        });
+        double     off = 0., unbalanced = 0.;
+        for (const Stress &stress : loaded.stress_at_surface())
+          {
+            off        = std::max(off, std::abs(von_mises(stress) - 500e6));
+            unbalanced = std::max({unbalanced, std::abs(stress[2] + 200e6), std::abs(stress[4] + 50e6),
+                                   std::abs(stress[5] - 100e6)});
+          }
+        check.below(name + "under pressure and shear: off the yield stress, MPa", 1e-6 * largest(off), 1e-6);
+        check.below(name + "stress at the surface less the traction, MPa", 1e-6 * largest(unbalanced), 1e-6);
       }
   }
 } // namespace

@@ -20,6 +20,7 @@ namespace
     EnergyLedger        ledger;
     double              time_step;
     std::uint64_t       n_hanging;
+    double largest_force = 0., off_whole = 0.; ///< of supports on nodes, and off whole newtons (N)
   };
 
   History run(const MPI_Comm comm, const TrackParameters &track, const bool solid_sleepers)
@@ -52,6 +53,15 @@ namespace
               history.energies.push_back(energy);
           }
       }
+    // What the last springs give to the nodes, in whole newtons.
+    rail.supports->set_quanta(Quantum(1.), Quantum(1.));
+    NodalField force(rail.mesh->nodes.size(), Vector3{});
+    rail.supports->add_forces(force.data());
+    for (const Vector3 &f : force)
+      {
+        history.largest_force = std::max(history.largest_force, std::abs(f[2]));
+        history.off_whole     = std::max(history.off_whole, std::abs(f[2] - std::round(f[2])));
+      }
     return history;
   }
 } // namespace
@@ -74,6 +84,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.that(name + "has hanging nodes", alone.n_hanging > 0);
       // 1e-3 is what a run is judged by (verification list, 40).
       check.below(name + "energy residual/gross work", alone.worst_residual, 1e-3);
+      check.that(name + "forces of supports are rounded, so that sums over ranks have no order",
+                 alone.largest_force >= 1. && alone.off_whole == 0.);
       check.that(name + "dampers have taken energy", l.damping > .05 * l.external_work);
       check.relative(name + "time step (us)", 1e6 * together.time_step, 1e6 * alone.time_step, 1e-12);
       // Sums over ranks differ in order: 1e-16 a step, and rounding of positions (1e-16 m) over displacements
