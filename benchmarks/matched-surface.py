@@ -11,8 +11,8 @@ from __future__ import annotations
 import os
 
 from tread.commands import command_parser, run_command
-from tread.measured_runs import MATCHED_SURFACE, available_ranks, contact_measures, in_turn, run_scene, steps_seconds
-from tread.low_strain import (LOW_STRAIN_LOAD, LOW_STRAIN_SPIN, LOW_STRAIN_SPIN_CELLS, LOW_STRAIN_SPIN_LIMIT, SUMMARY_MEASURES, difference,
+from tread.measured_runs import MATCHED_SURFACE, available_ranks, in_turn, run_scene, steps_seconds
+from tread.low_strain import (LOW_STRAIN_SPIN, LOW_STRAIN_SPIN_CELLS, LOW_STRAIN_SPIN_LIMIT, SUMMARY_MEASURES, compare_with_half_space, difference,
                               low_strain_scene, signed)
 from tread.runs import ROOT
 from tread.tables import fill, markdown, number, provenance
@@ -43,7 +43,7 @@ def main() -> None:
                 under_spin = run_scene(scene, folder("spin", kind, 0), {**settings, **LOW_STRAIN_SPIN, **changes,
                                                                         "Output/Write volume": "false"})
                 spin = 100 * (abs(under_spin["lateral_force_N"]) / under_spin["normal_force_N"] / LOW_STRAIN_SPIN_LIMIT - 1)
-            fields = contact_measures(summary["folder"], 0.30, LOW_STRAIN_LOAD)
+            fields = compare_with_half_space(summary["folder"])
             rows.append([f"{size:g}", kind, number(summary["cells"]), number(summary["seconds"]),
                          f"{summary['seconds'] / best['without']['seconds']:.3f}",
                          f"{steps_seconds(summary) / steps_seconds(best['without']):.3f}"]

@@ -18,7 +18,7 @@ from tread.comparison import compare
 from tread.commands import command_parser, run_command
 from tread.measured_runs import contact_measures, run_scene, shipped_scenes
 from tread.low_strain import (LOW_STRAIN, LOW_STRAIN_LOAD, LOW_STRAIN_SPIN, LOW_STRAIN_SPIN_CELLS, LOW_STRAIN_SPIN_LIMIT, SUMMARY_MEASURES,
-                              difference, low_strain_scene, signed)
+                              compare_with_half_space, difference, low_strain_scene, signed)
 from tread.patches import read_patch
 from tread.files import is_complete, read_summary, reference_value
 from tread.runs import ROOT
@@ -90,10 +90,10 @@ def low_strain_table(results: str) -> str | None:
         if is_complete(run):
             summary = read_summary(run)
             values = {label: difference(summary, key, source) for label, key, source in SUMMARY_MEASURES}
-            fields = contact_measures(run, 0.30, LOW_STRAIN_LOAD)
-            for label, key in (("pressure, RMS", "pressure_rms_over_max"), ("shear stress, RMS", "shear_rms_over_max"),
-                               ("micro-slip, RMS", "micro_slip_rms_over_max")):
-                values[label] = 100 * fields[key]
+            for fields, beside in ((compare_with_half_space(run), ""), (contact_measures(run, 0.30, LOW_STRAIN_LOAD), " beside CONTACT")):
+                for label, key in (("pressure, RMS", "pressure_rms_over_max"), ("shear stress, RMS", "shear_rms_over_max"),
+                                   ("micro-slip, RMS", "micro_slip_rms_over_max")):
+                    values[label + beside] = 100 * fields[key]
             found[size] = values, summary
     if len(found) < 2:
         print(f"note: too few results in {results}/low-strain-*")

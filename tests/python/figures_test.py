@@ -17,9 +17,9 @@ from unittest import mock
 
 import numpy as np
 
-from tread import blows, comparison, contact_cases, corrugation, creep_table, crossing_force, differences, flat_force, half_space, hertz, limits, measured_runs, plots, rail_mesh, schema, studies, subsurface, tables, vtu, wavelets
-from tread.patches import Patch
-from tread.runs import Run
+from tread import blows, comparison, contact_cases, corrugation, creep_table, crossing_force, differences, flat_force, half_space, hertz, limits, low_strain, measured_runs, plots, rail_mesh, schema, studies, subsurface, tables, vtu, wavelets
+from tread.patches import Patch, read_contact
+from tread.runs import ROOT, Run
 
 try:
     from tread.pictures import contact_points, damage, impact, mesh, patch as patch_pictures, plastic, profile_wear
@@ -470,6 +470,39 @@ class Patches(InFolder):
         self.close(found["micro_slip_rms_over_max"], 0.75 / 0.75 * share, 0.02)
         self.close(found["max_slip_relative_difference"], 1., 1e-6)
         self.close(found["max_slip_m_per_s"], 0.075)
+
+    def test_half_space_theory_on_fine_elements(self):
+        """Forces, Hertz's pressure and CONTACT's fields, whose slip on elements of 0.1 mm is that of half an element ahead."""
+        patch = low_strain.half_space_patch(29232., 0.3, element=0.2)
+        self.close(patch.normal_force, 29232., 2e-4)
+        self.close((patch.shear_x * patch.area).sum(), 0.3 * 29232., 3e-4)
+        self.close(patch.pressure.max(), 308.3, 1e-3)
+        contact = read_contact(os.path.join(ROOT, "contrib/contact-data/contact_F127_mu030_dx010.csv.gz"))
+        inside = (contact.x / 7.76) ** 2 + (contact.y / 5.84) ** 2 < 0.9 ** 2
+        for field, most in (("pressure", 0.003), ("shear_x", 0.014), ("slip_x", 0.013)):
+            known = low_strain.LOW_STRAIN_LOAD * getattr(contact, field)
+            off = (patch.sampled(field, contact.x, contact.y) - known)[inside]
+            self.assertLess(np.sqrt(np.mean(off ** 2)) / abs(known).max(), most, field)
+
+    def test_beside_half_space_theory(self):
+        """Nodes whose tractions are the means of fine elements over 0.6 mm are nothing off; with 5 % more pressure they are by 5 % of it."""
+        fine = low_strain.half_space_patch(29232., 0.3)
+        x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-9., 9.1, 0.6), np.arange(-7.2, 7.3, 0.6)))
+        places = (np.arange(6) - 2.5) * 0.1
+        means = {field: np.mean([fine.sampled(field, x + along, y + across) for along in places for across in places], axis=0) for field in fine.fields}
+        inside = means["pressure"] > 0
+        own = np.sqrt(np.mean(means["pressure"][inside] ** 2)) / fine.pressure.max()
+        os.makedirs(self.path("run"))
+        with open(self.path("run", "summary.json"), "w", encoding="utf-8") as stream:
+            stream.write('{"normal_force_N": 29232.0, "traction_coefficient": 0.3}')
+        for more in (1., 1.05):
+            table = {"x_mm": x, "y_mm": y, **{name: more ** (name == FIELDS[0]) * means[field] for name, field in zip(FIELDS, fine.fields)},
+                     "state": np.where(np.hypot(means["slip_x"], means["slip_y"]) > 0, "slip", "adhesion")}
+            write_table(self.path("run", "patch.csv"), {name: values[inside] for name, values in table.items()})
+            found = low_strain.compare_with_half_space(self.path("run"))
+            self.assertLess(abs(found["pressure_rms_over_max"] - (more - 1) * own), 0.0015)
+            self.assertLess(found["shear_rms_over_max"], 0.002)
+            self.assertLess(found["micro_slip_rms_over_max"], 0.01)  # at the nodes, not over their areas
 
     def test_neighbours(self):
         """Of 3 x 2 nodes the one in the middle of a long side has all others, a corner three; a node that alone adheres is isolated."""

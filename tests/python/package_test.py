@@ -29,7 +29,7 @@ import numpy as np
 import tread
 from tread import arcs, files, limits, low_strain, measured_runs, schema, studies, tables
 from tread.comparison import compare
-from tread.patches import read_patch, read_patches
+from tread.patches import Patch, read_patch, read_patches
 from tread.files import read_table
 from tread.runs import ROOT, arguments_of, command, environment
 from tread.wavelets import NOISE_95, Scalogram, band_pass
@@ -159,6 +159,15 @@ class Patches(InFolder):
             patch.grid("presure")
         with self.assertRaisesRegex(tread.Error, "3 values for the .* nodes in contact"):
             patch.grid([1.0, 2.0, 3.0])
+
+    def test_means_over_areas(self):
+        """Of a plane its value, of a parabola a twelfth of the square of each width more; without width what is interpolated."""
+        x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-2, 2, 81), np.linspace(-1, 1, 41)))
+        table = {"x_mm": x, "y_mm": y, "state": np.full(len(x), "slip"), "pressure": 100 + 3 * x - 5 * y, "shear_x": x ** 2 + 10 * y ** 2}
+        patch = Patch("made", table, Patch.fields)
+        np.testing.assert_allclose(patch.averaged("pressure", [0.3, 0.], [0.1, -0.2], 0.8, 0.4), [100.4, 101.])
+        np.testing.assert_allclose(patch.averaged("shear_x", [0., 0.5], [0., 0.2], 0.8, 0.4), np.array([0, 0.65]) + (0.8**2 + 10 * 0.4**2) / 12, rtol=0.03)
+        np.testing.assert_allclose(patch.averaged("shear_x", [0.5], [0.2], 0., 0.), [0.65])
 
     def test_comparison(self):
         own, contact = self.path("run", "patch.csv"), self.write_patch("contact.csv", contact=True)

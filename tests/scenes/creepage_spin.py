@@ -27,7 +27,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("adhesion share, %", 100. * one["adhesion_share"], 100. * half_space["adhesion_share"], 1.5)
     measures = compare(path("1"))
     check.below("pressure, RMS over the maximum", measures["pressure_rms_over_max"], 0.010)
-    check.below("shear stress, RMS over the maximum", measures["shear_rms_over_max"], 0.020)
+    check.below("shear stress, RMS over the maximum", measures["shear_rms_over_max"], 0.017)
     check.below("largest slip in adhesion, m/s", measures["max_slip_in_adhesion_m_per_s"], 1e-6)
     check.energy("", one, 0.004)
     # What the imposed sliding puts in is work from outside: without it a third of the friction would lack its source.

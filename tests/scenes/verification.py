@@ -8,6 +8,7 @@ import os
 import sys
 import tempfile
 
+from tread.low_strain import compare_with_half_space
 from tread.runs import ROOT
 from tread_runner import Check, rows_of, run, script
 
@@ -16,9 +17,9 @@ program, scene, contact = sys.argv[1:4]
 # of each size instead of layers as thick as a semi-axis the largest pressure is 0.66 % off at low strain and 1.15 % at the
 # usual load. Load over that of CONTACT's case; largest pressure; RMS of pressure, shear stress, micro-slip; adhesion share
 # [points]; creepage; energy residual of what was dissipated.
-LIMITS = {"half-space-0.63-mu0.15": (1., 0.009, 0.020, 0.026, 0.033, 1.1, 0.010, 0.016),
-          "half-space-0.63-mu0.30": (1., 0.009, 0.020, 0.022, 0.021, 1.0, 0.010, 0.005),
-          "low-strain-0.63": (29232. / 127100., 0.0045, 0.019, 0.021, 0.021, 0.9, 0.015, 0.004)}
+LIMITS = {"half-space-0.63-mu0.15": (1., 0.008, 0.011, 0.018, 0.021, 0.5, 0.010, 0.016),
+          "half-space-0.63-mu0.30": (1., 0.008, 0.011, 0.015, 0.0148, 0.5, 0.010, 0.005),
+          "low-strain-0.63": (29232. / 127100., 0.0041, 0.010, 0.014, 0.0165, 0.5, 0.015, 0.004)}
 scale, pressure, pressure_rms, shear_rms, slip_rms, adhesion, creepage, energy = LIMITS[scene]
 check = Check()
 with tempfile.TemporaryDirectory() as folder:
@@ -33,6 +34,7 @@ with tempfile.TemporaryDirectory() as folder:
         print(stream.read())
         stream.seek(0)
         m = json.load(stream)
+    fine = compare_with_half_space(folder) if scene.startswith("low-strain") else {}
     run(program, f"verification/{scene}.prm", os.path.join(folder, "half-space"), peaks, more=["--reference-only"])
     peak_rows = rows_of(folder, "peak_stress.csv")
     with open(os.path.join(folder, "half-space", "subsurface.csv"), encoding="utf-8") as stream:
@@ -49,6 +51,10 @@ check.below("shear stress, RMS over the maximum", m["shear_rms_over_max"], shear
 check.absolute("adhesion share, %", 100. * summary["adhesion_share"], 100. * half_space["adhesion_share"], adhesion)
 check.relative("creepage at this traction", summary["creepage"], half_space["creepage"], creepage)
 check.below("micro-slip averaged over one cell, RMS over the maximum", m["micro_slip_rms_over_max"], slip_rms)
+if fine:
+    # Half of what is left beside CONTACT is that of its elements. Found: 0.7, 0.9 and 0.5 %.
+    for name, most in (("pressure", 0.010), ("shear", 0.013), ("micro_slip", 0.008)):
+        check.below(f"{name} beside half-space theory of second order, RMS over the maximum", fine[f"{name}_rms_over_max"], most)
 check.below("isolated nodes of adhesion in the slip area", m["isolated_adhesion_nodes"], 0.)
 check.below("largest slip in adhesion, m/s, at the solver's tolerance", m["max_slip_in_adhesion_m_per_s"], 1e-6)
 check.below("ripple of the normal force over the last 10 mm", summary["normal_force_ripple_share"], 0.002)

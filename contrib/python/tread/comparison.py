@@ -3,7 +3,9 @@
 forces (reference_patch.csv) where no file is named.
 
 CONTACT's patch is shifted so that the centres of pressure coincide, and interpolated bilinearly at
-the nodes of the run. Root mean squares (RMS) are taken over all nodes that are in contact in the run
+the nodes of the run. A node's tractions are impulses over the area that it stands for, and are compared with the
+means over that area: of CONTACT's elements, which are means themselves, over a rectangle with as much variance as is left,
+the root of the difference of both sizes' squares. Root mean squares (RMS) are taken over all nodes that are in contact in the run
 or in CONTACT, and related to CONTACT's largest value. Micro-slip is compared inside 0.9 of the Hertz
 ellipse only, because it jumps at the trailing edge; patch_averaged.csv (mean over the passage of one
 cell) is used for it if the run wrote one. A node of adhesion is isolated if it has neighbours in
@@ -45,7 +47,10 @@ class Shifted:
         self.x, self.y = (values.ravel() for values in np.meshgrid(gx, gy))
         self.in_run = ~np.isnan(inside).ravel()
         self.own = {field: np.nan_to_num(patch.grid(getattr(patch, field))[2]).ravel() for field in patch.fields}
-        self.reference = {field: contact.sampled(getattr(contact, field), self.x - shift[0], self.y - shift[1])
+        widths = [max(0.0, own ** 2 - of_contact ** 2) ** 0.5
+                  for own, of_contact in ((patch.size_x, contact.size_x), (patch.size_y, contact.size_y))]
+        self.reference = {field: contact.averaged(field, self.x - shift[0], self.y - shift[1],
+                                                  *((0.0, 0.0) if field in contact.slip_fields else widths))
                           for field in contact.fields}
         self.counted = self.in_run | (self.reference["pressure"] > 0)
 
@@ -62,11 +67,20 @@ def hertz_axes(summary: Mapping, contact: Patch) -> list[float]:
 
 
 def compare(run: str, contact_file: str | None = None, scale: float = 1.0) -> dict:
-    summary = read_summary(run)
-    patch = read_patch(os.path.join(run, "patch.csv"))
     contact = read_contact(contact_file) if contact_file else read_patch(os.path.join(run, "reference_patch.csv"))
     for field in contact.fields:
         setattr(contact, field, scale * getattr(contact, field))
+    result = compare_fields(run, contact)
+    if contact_file:
+        result.update(compare_forces(read_summary(run), contact_file, scale))
+    result.update(steadiness(run))
+    return result
+
+
+def compare_fields(run: str, contact: Patch) -> dict:
+    """The measures of the fields against any patch."""
+    summary = read_summary(run)
+    patch = read_patch(os.path.join(run, "patch.csv"))
     shift = [own - other for own, other in zip(patch.centroid(), contact.centroid())]
     at_nodes = Shifted(contact, patch, shift)
 
@@ -79,7 +93,7 @@ def compare(run: str, contact_file: str | None = None, scale: float = 1.0) -> di
     def inside(nodes: Shifted, offset: Sequence[float]) -> np.ndarray:
         return ((nodes.x - offset[0]) / a) ** 2 + ((nodes.y - offset[1]) / b) ** 2 < 0.9 ** 2
 
-    slip_fields, shear_fields = ("slip_x", "slip_y"), ("shear_x", "shear_y")
+    shear_fields = ("shear_x", "shear_y")
     p_max, shear_max, slip_max = contact.pressure.max(), contact.shear.max(), contact.slip.max()
     result = {
         "nodes_in_contact": len(patch.x),
@@ -98,18 +112,15 @@ def compare(run: str, contact_file: str | None = None, scale: float = 1.0) -> di
         "max_slip_m_per_s": slips.slip.max(),
         "max_slip_relative_difference": slips.slip.max() / slip_max - 1,
         "micro_slip_rms_over_max": slip_at_nodes.rms(
-            slip_fields, slip_at_nodes.counted & inside(slip_at_nodes, slip_shift)) / slip_max,
+            contact.slip_fields, slip_at_nodes.counted & inside(slip_at_nodes, slip_shift)) / slip_max,
         "micro_slip_rms_over_max_instant": at_nodes.rms(
-            slip_fields, at_nodes.counted & inside(at_nodes, shift)) / slip_max,
+            contact.slip_fields, at_nodes.counted & inside(at_nodes, shift)) / slip_max,
         "max_slip_in_adhesion_m_per_s": patch.slip[patch.adhesion].max(initial=0.0),
         "isolated_adhesion_nodes": isolated_adhesion(patch),
     }
     if abs(at_nodes.own["shear_x"].sum() + at_nodes.reference["shear_x"].sum()) \
             < 0.5 * abs(at_nodes.own["shear_x"].sum() - at_nodes.reference["shear_x"].sum()):
         print("note: the shear of the run and of CONTACT have opposite signs")
-    if contact_file:
-        result.update(compare_forces(summary, contact_file, scale))
-    result.update(steadiness(run))
     return {key: value.item() if isinstance(value, np.generic) else value for key, value in result.items()}
 
 

@@ -18,7 +18,8 @@ class Patch:
 
     units = {"x": "mm", "y": "mm", "pressure": "MPa", "shear_x": "MPa", "shear_y": "MPa", "slip_x": "m/s", "slip_y": "m/s", "area": "mm2",
              "shear": "MPa", "slip": "m/s"}
-    fields = ("pressure", "shear_x", "shear_y", "slip_x", "slip_y")
+    slip_fields = ("slip_x", "slip_y")
+    fields = ("pressure", "shear_x", "shear_y", *slip_fields)
     pressure: np.ndarray
     shear_x: np.ndarray
     shear_y: np.ndarray
@@ -111,6 +112,12 @@ class Patch:
                  + (1 - s) * t * grid[j + 1, i] + s * t * grid[j + 1, i + 1])
         outside = (x < gx[0]) | (x > gx[-1]) | (y < gy[0]) | (y > gy[-1])
         return np.where(outside, 0.0, value)
+
+    def averaged(self, values: np.ndarray | str, x: np.ndarray, y: np.ndarray, width_x: float, width_y: float) -> np.ndarray:
+        """Means of what `sampled` gives over rectangles of width_x by width_y, mm, around the points (x, y): at 8 by 8 places each, at one where
+        the rectangle has no width."""
+        places = [width * ((np.arange(8) + 0.5) / 8 - 0.5) if width > 0 else np.zeros(1) for width in (width_x, width_y)]
+        return np.mean([self.sampled(values, x + along, y + across) for along in places[0] for across in places[1]], axis=0)
 
 
 class Instant(NamedTuple):
