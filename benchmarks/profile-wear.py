@@ -6,7 +6,7 @@ are and smoothed over 2 mm, as profiles wear.
     benchmarks/profile-wear.py FOLDER [--program tread] [--cell 0.5] [--ranks 2]
 
 Wears the rail of prm/damage/profile-wear.prm by prm/damage/contacts.csv; then rolls, at the start, after half of the passages and after all, some of
-these contacts by finite elements over the profiles of that state, with wear recorded, and solves the same by tread --reference-only.
+these contacts by finite elements over the profiles of that state, with wear recorded, and solves the same by tread reference.
 """
 
 from __future__ import annotations

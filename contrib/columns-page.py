@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""doc/columns.md: the keys of summary.json and the columns of all tables with their units and meanings, as `tread --print-columns` says them.
+"""doc/columns.md: the keys of summary.json and the columns of all tables with their units and meanings, as `tread columns` says them.
 
 With --check the page is only compared; the exit code is 1 if it is not current.
 """
@@ -22,7 +22,7 @@ This page is written by `contrib/columns-page.py`.
 """
 OTHERS = {"summary.json": """Figures of the run as it ends, in SI units; a scene has only some of these keys. `wheel_2_` stands for any further wheel of `Further wheels/Distances (mm)`, while plain names are those of the first one, `cell_1_` for any of `Output/Cells`,
 `max_pressure_Pa` in `..._half_space_uncertainty` and under `reference` for any figure that is compared, and Hertz there for any source. Keys of sections and lists have `/` in their names, as `contrib/compare-runs.py` prints them: `patches/1/x_m` is `x_m` of the first of `patches`.
-Means over the end of the path are those over the part of it that was rolled where a run ends before, or of its last step. With `--reference-only` all figures are those of the half-space solution, at one instant.""",
+Means over the end of the path are those over the part of it that was rolled where a run ends before, or of its last step. With `tread reference` all figures are those of the half-space solution, at one instant.""",
           "patch.csv": "Likewise `patch_averaged.csv`, `reference_patch.csv` and those of further wheels, `patch_wheel_2.csv`.",
           "peak_stress.csv": "Likewise `peak_stress_wheel.csv`.",
           "wheel_profile.csv": "The wheel where it stands in the middle of the track.",
@@ -35,7 +35,7 @@ def unit_as_read(unit):
 
 
 def page(tables):
-    """@param tables as `tread --print-columns` prints them"""
+    """@param tables as `tread columns` prints them"""
     text = HEAD
     for table in tables:
         text += f"\n## {table['file']}\n\n"
@@ -48,4 +48,4 @@ def page(tables):
 
 
 if __name__ == "__main__":
-    run_command(lambda: page_command(__doc__, "columns.md", lambda program: page(json.loads(must_end_well(execute(["--print-columns"], program=program)).stdout))))
+    run_command(lambda: page_command(__doc__, "columns.md", lambda program: page(json.loads(must_end_well(execute(["columns"], program=program)).stdout))))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""doc/parameters.md: every parameter with its default and meaning, as `tread --print-parameters` says them.
+"""doc/parameters.md: every parameter with its default and meaning, as `tread parameters` says them.
 
 With --check the page is only compared; the exit code is 1 if it is not current.
 """

@@ -29,7 +29,7 @@ HEAD = """# Scenes
 
 What is shipped in `prm/`: each file begins with what this page says of it, and states only what differs from the defaults ([parameters](parameters.md)) and from
 the file it is built on. Commands are written for an installed program; in the source tree it is `build/source/tread`.
-`tread SCENE.prm --dry-run` says how large a scene is and how long it will take here, `--reference-only` what half-space theory says of it, `-s "Section/Name=value"` changes it, and
+`tread SCENE.prm --dry-run` says how large a scene is and how long it will take here, `tread reference` what half-space theory says of it, `-s "Section/Name=value"` changes it, and
 `contrib/plot/plot-run.py FOLDER` draws what came. The tables have the half-space's figures: what a run should come near to where the bodies act as
 half-spaces, steel does not yield and the rail is smooth. How near is on the page that is named. Creepage is that of the patch with the largest force where there
 are several; of two wheels on one rail the figures are the first one's, of a wheelset with both wheels force and area are those of both. Times are the recorded ones.
@@ -148,11 +148,11 @@ def input_of(name):
 def figures(name, program):
     """{name of FIGURES: cell} of a scene, by the program."""
     size = ["-", "-"]
-    if "--reference-only" not in command_of(os.path.join(PRM, name), name):
+    if "tread reference" not in command_of(os.path.join(PRM, name), name):
         whole = must_end_well(execute([*arguments_of(os.path.join(PRM, name)), "--dry-run"], program=program)).stdout
         size = [re.search(rf"^{what} +(\d+)", whole, re.MULTILINE)[1] for what in ("cells", "steps")]
     with tempfile.TemporaryDirectory() as folder:
-        must_end_well(execute([*arguments_of(os.path.join(PRM, name), output=folder), "--reference-only"], program=program))
+        must_end_well(execute(["reference", *arguments_of(os.path.join(PRM, name), output=folder)], program=program))
         summary = read_summary(folder)
     load = summary["normal_force_N"]
     patch = max(summary.get("patches", [summary]), key=lambda patch: patch["normal_force_N"])

@@ -1,26 +1,37 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Completion of the program's command line in bash: options, parameter files, and parameters behind -s.
+# Completion of the program's command line in bash: commands, options, parameter files, and parameters behind -s.
 #
 #     source contrib/completion/tread.bash        # in ~/.bashrc; an installed program needs no such line
 #
 # Options and parameters are asked of the program itself, once in a shell for each program.
 
 # Global: bash-completion reads this file inside a function.
-declare -gA _tread_options _tread_parameters
+declare -gA _tread_helps _tread_parameters
 
-# The program's long options, one a line.
+# The program's commands, one a line.
+_tread_list_commands()
+{
+  _tread_help "$1" | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'
+}
+
+# What it says of itself, or of a command ($2).
+_tread_help()
+{
+  [[ -n ${_tread_helps[$*]-} ]] || _tread_helps[$*]=$("$@" --help 2>/dev/null)
+  printf '%s\n' "${_tread_helps[$*]}"
+}
+
+# The long options of the program, or of a command, one a line.
 _tread_list_options()
 {
-  [[ -n ${_tread_options[$1]-} ]] ||
-    _tread_options[$1]=$("$1" --help 2>/dev/null | grep -oE '^ +(-[a-z],)?--?[a-z][a-z-]*' | grep -oE -- '--[a-z-]+|-s')
-  printf '%s\n' "${_tread_options[$1]}"
+  _tread_help "$@" | grep -oE '^ +(-[a-z],)?--?[a-z][a-z-]*' | grep -oE -- '--[a-z-]+|-s'
 }
 
 # The program's parameters as Section/Name=, one a line.
 _tread_list_parameters()
 {
   [[ -n ${_tread_parameters[$1]-} ]] ||
-    _tread_parameters[$1]=$("$1" --print-parameters 2>/dev/null |
+    _tread_parameters[$1]=$("$1" parameters 2>/dev/null |
       sed -nE 's/^subsection (.*)/\1/; tsection; s/^ +set ([^=]*[^= ]) *=.*/\1/; tname; d; :section; h; d; :name; G; s/(.*)\n(.*)/\2\/\1=/p')
   printf '%s\n' "${_tread_parameters[$1]}"
 }
@@ -50,22 +61,28 @@ _tread_setting()
 
 _tread()
 {
-  local program=${COMP_WORDS[0]/#\~/$HOME} typed=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+  local program=${COMP_WORDS[0]/#\~/$HOME} typed=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=''
   COMPREPLY=()
+  ((COMP_CWORD > 1)) && command=$(_tread_list_commands "$program" | grep -Fx -- "${COMP_WORDS[1]}")
   case $before in
     -s) _tread_setting "$program" "$typed" ;;
-    --output | --dynamic-force | --smooth-twin | --sleeper-stress) _tread_paths '' folders "$typed" ;;
-    --batch | --positions | --wear) _tread_paths .csv files "$typed" ;;
+    --output | --smooth-twin) _tread_paths '' folders "$typed" ;;
     --other-side) _tread_paths .prm files "$typed" ;;
     --window) mapfile -t COMPREPLY < <(compgen -W 'rectangular Hann' -- "$typed") ;;
     --bottom) mapfile -t COMPREPLY < <(compgen -W 'fixed ballast' -- "$typed") ;;
     --up-to | --shift-to | --shift-step | --from | --to | --support | --cell-size) ;;
     *)
       if [[ $typed == -* ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "$(_tread_list_options "$program")" -- "$typed")
-      else
-        _tread_paths .prm files "$typed"
+        mapfile -t COMPREPLY < <(compgen -W "$(_tread_list_options "$program" $command)" -- "$typed")
+        return
       fi
+      ((COMP_CWORD == 1)) && mapfile -t COMPREPLY < <(compgen -W "$(_tread_list_commands "$program")" -- "$typed")
+      case $command in
+        batch | positions) _tread_paths .csv files "$typed" ;;
+        dynamic-force | sleeper-stress) _tread_paths '' folders "$typed" ;;
+        wear) _tread_paths .csv files "$typed" && _tread_paths .prm files "$typed" ;;
+        *) _tread_paths .prm files "$typed" ;;
+      esac
       ;;
   esac
 }

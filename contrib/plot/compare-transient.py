@@ -3,7 +3,7 @@
 """Traction against rolled distance: a run that starts without tractions beside the half-space's transient answer.
 
     tread SCENE.prm --output RUN
-    tread --reference-only SCENE.prm --output REFERENCE
+    tread reference SCENE.prm --output REFERENCE
     contrib/plot/compare-transient.py RUN REFERENCE [--within PERCENT] [--from MM]
 
 Reads RUN/history.csv and REFERENCE/transient.csv and prints the traction coefficients side by side. With --within it

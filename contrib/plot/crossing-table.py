@@ -12,7 +12,7 @@ of the track, normal_force_N, max_pressure_Pa and part, the body of the rail; a 
 Without --positions: the table of doc/crossing.md, given positions of a British crossing beside CONTACT's figures, and the picture.
 With --cells: wheel at rest in three of them by finite elements of these sizes in mm (prm/crossing/uk-56E1-nose.prm), likewise.
 
-The program does the work (tread --positions); elements of 0.2 mm are those of the figures compared with, 0 takes its own, which are finer.
+The program does the work (tread positions); elements of 0.2 mm are those of the figures compared with, 0 takes its own, which are finer.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ and max_pressure_Pa. Without --pitches: the tables of doc/wheel-flat.md, given t
 scanned flat by finite elements of these sizes in mm, beside the half-space.
 
 Two flats are there: "scanned", a worn S1002 of 490 mm with a measured flat on a rail of arcs, and "rounded", a cylinder of 450 mm with a flat of
-100 mm by a formula on a crown of 300 mm. --deviation FILE puts another one on the wheel of the first. The program does the work (tread --positions);
+100 mm by a formula on a crown of 300 mm. --deviation FILE puts another one on the wheel of the first. The program does the work (tread positions);
 elements of 0.4 and 0.2 mm are those of the figures compared with, 0 takes its own.
 """
 

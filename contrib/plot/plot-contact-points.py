@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What `tread --contact-points` left: where both wheels of a wheelset touch, contact angle, rolling radii and equivalent conicity over the shift;
+"""What `tread contact-points` left: where both wheels of a wheelset touch, contact angle, rolling radii and equivalent conicity over the shift;
 and both profiles as they were read, in the track. Over a rail of slices: where the wheel touches along the way, which part carries, and the path of the axle.
 
     plot-contact-points.py FOLDER [--picture contact-points.png] [--profiles profiles.png]

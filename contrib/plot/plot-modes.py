@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What `tread --modes` left: receptances of wheel and rail, and how their contact answers a roughness; the strongest modes as a table.
+"""What `tread modes` left: receptances of wheel and rail, and how their contact answers a roughness; the strongest modes as a table.
 
     plot-modes.py FOLDER [--picture modes.png] [--rows 12] [--mark "270=f1" ...]
 
@@ -41,7 +41,7 @@ def main() -> None:
     arguments = parser.parse_args()
     path = os.path.join(arguments.folder, "modes.csv")
     if not os.path.exists(path):
-        raise DataError(f"no '{path}': is '{arguments.folder}' a folder of tread --modes?")
+        raise DataError(f"no '{path}': is '{arguments.folder}' a folder of tread modes?")
     with open(path, encoding="utf-8") as stream:
         modes = list(csv.DictReader(stream))
     print("| body | number | Hz | where it shows | vertical, lateral, longitudinal | contact at 1 J, um | damping share |\n"

@@ -4,14 +4,14 @@
 
   axis, map, vectors    the patch at the end: pressure, shear stress and micro-slip along its axis; adhesion and slip; arrows
   patches               instead of these where the wheelset has a position: each patch in its contact axes
-  depth                 stress below the surface (tread --reference-only)
+  depth                 stress below the surface (tread reference)
   forces, energies      over the position of the wheel, and over time
   contact-force, ...    of a scene with a defect or a track: those of plot-impact.py
   crossing-...          of a wheel that crosses a defect, with patches.csv: those of plot-crossing.py
   peaks                 with 'Peak stress/Region': that of plot-peaks.py
   section, path         the mesh, with 'Output/Write volume': those of plot-mesh.py
-  contact-points        tread --contact-points
-  wear, wear-steps      tread --wear: both profiles, depths, pressure and work
+  contact-points        tread contact-points
+  wear, wear-steps      tread wear: both profiles, depths, pressure and work
 
 Lines and borders of reference_patch.csv, the half-space answer at the same forces, are drawn beside. Shaded is the extent of the
 defects. Over a defect the approach is cut to a fifth of the picture; history.csv has all of it.

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Von Mises stress in half a sleeper, as `tread --sleeper-stress` left it in each folder, with one scale of colours.
+"""Von Mises stress in half a sleeper, as `tread sleeper-stress` left it in each folder, with one scale of colours.
 
     plot-sleeper.py FOLDER [FOLDER ...] [--names "with the defect" "smooth rail"] [--output sleeper.png]
 
@@ -25,7 +25,7 @@ def section(path: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     from vtk.util.numpy_support import vtk_to_numpy
 
     if not os.path.exists(path):
-        raise DataError(f"no '{path}': write it with tread --sleeper-stress")
+        raise DataError(f"no '{path}': write it with tread sleeper-stress")
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     plane = vtk.vtkPlane()

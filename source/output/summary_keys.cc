@@ -29,7 +29,7 @@ namespace tread
     /// What was solved, and where a wheelset stands in its track.
     const Keys scene{
       {"title", "'Scene/Title'"},
-      {"method", "How it was solved: explicit finite elements, or half-space solver (--reference-only)"},
+      {"method", "How it was solved: explicit finite elements, or half-space solver (tread reference)"},
       {"completed",
        "Whether the end was reached: false after an interruption, and where contact was about to leave the "
        "faces meshed for it"},
@@ -88,9 +88,9 @@ namespace tread
       {"wear_volume_m3", "Volume that the rail has lost by 'Damage/Wear law', in all passages; in each the "
                          "wheels together lose as much"}};
 
-    /// Of profiles that wear (--wear).
+    /// Of profiles that wear (tread wear).
     const Keys of_profile_wear{
-      {"contacts", "Contacts of a block of passages, rows of the table of --wear"},
+      {"contacts", "Contacts of a block of passages, rows of the table of tread wear"},
       {"wear_steps", "Steps in which the profiles wore"},
       {"wear_steps_refused", "Those that changed the pressure too much and were taken again, shorter"},
       {"rail_passages", "'Profile wear/Passages' of wheels over the rail"},

@@ -224,7 +224,7 @@ namespace tread
               best  = entry.path;
             }
         }
-      return "did you mean '" + best + "'? (tread --print-parameters lists all)";
+      return "did you mean '" + best + "'? (tread parameters lists all)";
     }
 
     std::string nearest_section(const std::vector<Entry> &entries, const std::string &name)
@@ -393,7 +393,7 @@ namespace tread
             "'" + shortened(file) +
               "' sets no parameter: it is empty, or has comments alone; scenes to start from are in prm/, "
               "and tread "
-              "--print-parameters writes all parameters with their defaults");
+              "tread parameters writes all parameters with their defaults");
     for (const std::string &setting : settings)
       set(setting);
     require(!vehicle.wheel_load || !vehicle.axle_load,

@@ -131,10 +131,9 @@ namespace tread
       wheel.lateral_position == 0.,
       "'Wheel/Lateral position (mm)' is for an upright wheel; in a track 'Wheelset/Lateral shift (mm)' takes "
       "its place");
-    require(
-      wheel.deviation.empty(),
-      "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread --positions solves wheels "
-      "that are not round, and an upright wheel may have one");
+    require(wheel.deviation.empty(),
+            "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread positions solves wheels "
+            "that are not round, and an upright wheel may have one");
     require(defect.shape == "none", "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
     require(further_wheels.distances.empty(),
             "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position");
@@ -154,7 +153,8 @@ namespace tread
       (rolling.is_coulomb() && !contact.varies_across()) ||
         reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
       "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)', 'Friction temperatures (C)', "
-      "'Friction across (mm)' and 'Friction inclinations (deg)' empty where 'Wheelset' has a position and wheel and rail are of "
+      "'Friction across (mm)' and 'Friction inclinations (deg)' empty where 'Wheelset' has a position and "
+      "wheel and rail are of "
       "unlike materials: half-space theory has no answer");
     require(
       !rolling.slip_friction || (!rolling.pressure_factor && !contact.varies_across()),

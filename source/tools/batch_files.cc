@@ -56,7 +56,7 @@ namespace tread
             not_read += (not_read.empty() ? "" : ", ") + name;
           return known;
         },
-        "--batch: cannot read '" + file + "'");
+        "tread batch: cannot read '" + file + "'");
       if (table.n_rows() == 0)
         throw InputError("'" + file + "' has no rows");
       grammar = table.grammar();
@@ -127,10 +127,10 @@ namespace tread
 
   void write_batch(const std::string &cases, const std::string &output, const MPI_Comm comm)
   {
-    check_answer_table("--batch", cases, output, comm);
+    check_answer_table("tread batch", cases, output, comm);
     if (std::filesystem::exists(cases) && !std::filesystem::is_directory(cases) &&
         !std::filesystem::is_regular_file(cases))
-      throw InputError("--batch reads its table twice; '" + cases + "' is no file");
+      throw InputError("tread batch reads its table twice; '" + cases + "' is no file");
     Progress                                 progress(true);
     std::string                              not_read;
     TableGrammar                             grammar;

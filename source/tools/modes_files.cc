@@ -188,7 +188,7 @@ namespace tread
       for (const auto &[node, value] : share)
         place.emplace_back(node, value / area);
       if (!(area > 0.))
-        throw InputError(format("--modes: the contact surface of the %s ends before x = %g mm, where its "
+        throw InputError(format("tread modes: the contact surface of the %s ends before x = %g mm, where its "
                                 "receptance is wanted",
                                 mesh.body_names[body].c_str(), 1e3 * x));
       return place;
@@ -549,7 +549,7 @@ namespace tread
                               request.up_to, lowest_allowed, highest_allowed));
     if (scene.track_beyond())
       throw InputError(
-        "--modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "
+        "tread modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "
         "rail of the cells has");
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const Mesh mesh(comm, make_bodies(scene));

@@ -95,7 +95,7 @@ namespace tread
             not_read += (not_read.empty() ? "" : ", ") + name;
           return known;
         },
-        "--positions: cannot read '" + file + "'", is_word);
+        "tread positions: cannot read '" + file + "'", is_word);
       if (table.n_rows() == 0)
         throw InputError("'" + file + "' has no rows");
       if (table.has("load_N") == table.has("height_mm"))
@@ -217,7 +217,7 @@ namespace tread
 
   void write_positions(const std::string &positions, const std::string &output, const MPI_Comm comm)
   {
-    check_answer_table("--positions", positions, output, comm);
+    check_answer_table("tread positions", positions, output, comm);
     Progress                       progress(true);
     std::string                    not_read;
     const std::vector<PositionRow> rows = read_positions(positions, not_read);

@@ -250,7 +250,7 @@ namespace tread
     for (const std::vector<std::string> &more : {scene.implausible_values(), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
     if (!scene.is_round())
-      warnings.push_back("the wheel is taken as round: tread --positions solves wheels that are not");
+      warnings.push_back("the wheel is taken as round: tread positions solves wheels that are not");
     profiles.summarise(summary);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));

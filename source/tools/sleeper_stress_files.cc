@@ -61,7 +61,7 @@ namespace tread
       const std::string name = folder + "/" + table_name;
       const CsvTable    table(
            name, [](const std::string &) { return true; },
-           "--sleeper-stress: '" + folder + "' has no " + table_name +
+           "tread sleeper-stress: '" + folder + "' has no " + table_name +
              ", which a run on discrete supports writes for those in 'Output/Supports'");
       const std::vector<double> &support = table.column("support"), &time = table.column("time_s"),
                                 &wheel_x = table.column("wheel_x_mm"), &x = table.column("x_mm"),

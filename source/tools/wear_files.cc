@@ -84,7 +84,7 @@ namespace tread
                     "', which means nothing here; allowed: " + known);
           return true;
         },
-        "--wear: cannot read '" + file + "'");
+        "tread wear: cannot read '" + file + "'");
       require(table.n_rows() > 0, "'" + file + "' has no rows");
       WearContact usual;
       usual.position           = scene.wheelset.position();
@@ -117,17 +117,17 @@ namespace tread
     void check_scene(const Scene &scene, const MPI_Comm comm)
     {
       require(dealii::Utilities::MPI::n_mpi_processes(comm) == 1,
-              "--wear uses all cores by itself: start it on one rank");
+              "tread wear uses all cores by itself: start it on one rank");
       require(scene.is_positioned(),
-              "--wear needs a wheelset in its track: give 'Wheelset/Lateral shift (mm)' a number, 0 too");
+              "tread wear needs a wheelset in its track: give 'Wheelset/Lateral shift (mm)' a number, 0 too");
       require(!scene.rail.is_sliced(),
-              "--wear needs a rail that is the same everywhere: 'Rail/Shape' cannot be slices");
-      require(scene.wear_law() != nullptr, "--wear needs a law: 'Damage/Wear law' must not be none");
-      require(
-        scene.guidance.kind != Guidance::file && scene.contact.friction_places.empty() &&
-          !scene.contact.varies_across(),
-        "--wear has no use for 'Guidance/Kind' file, 'Contact/Friction places (mm)' and friction across: its "
-        "table has the positions, and friction is the same on all of the rail");
+              "tread wear needs a rail that is the same everywhere: 'Rail/Shape' cannot be slices");
+      require(scene.wear_law() != nullptr, "tread wear needs a law: 'Damage/Wear law' must not be none");
+      require(scene.guidance.kind != Guidance::file && scene.contact.friction_places.empty() &&
+                !scene.contact.varies_across(),
+              "tread wear has no use for 'Guidance/Kind' file, 'Contact/Friction places (mm)' and friction "
+              "across: its "
+              "table has the positions, and friction is the same on all of the rail");
       scene.profile_wear.check();
     }
 
@@ -428,7 +428,7 @@ namespace tread
     std::vector<FileRead> files_of(const Scene &scene, const std::string &contacts)
     {
       std::vector<FileRead> files = scene.files_read();
-      files.push_back(file_read("--wear", contacts));
+      files.push_back(file_read("tread wear", contacts));
       return files;
     }
 

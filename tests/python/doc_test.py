@@ -127,12 +127,12 @@ class Pages(unittest.TestCase):
             scenes = {}
             for command in re.findall(r"(?m)^    (.*)$", text_of(page).replace("\\\n", " ")):
                 command = command.partition(" #")[0]
-                scene = re.match(r"(?:mpirun -np \d+ )?(?:build/source/)?tread (?:--reference-only )?(\S+\.prm)\b", command)
+                scene = re.match(r"(?:mpirun -np \d+ )?(?:build/source/)?tread (?:(run|reference|modes|contact-points|wear) )?(\S+\.prm)\b", command)
                 if not scene or "--dry-run" in command:
                     continue
                 named = re.search(r"--output (\S+)", command)
-                folder = named[1] if named else "results" + ("-reference" if "--reference-only" in command else "")
-                self.assertEqual(scenes.setdefault(folder, scene[1]), scene[1], f"{os.path.basename(page)}: two scenes write to {folder}")
+                folder = named[1] if named else "results" + (f"-{scene[1]}" if scene[1] not in (None, "run") else "")
+                self.assertEqual(scenes.setdefault(folder, scene[2]), scene[2], f"{os.path.basename(page)}: two scenes write to {folder}")
                 seen += 1
         self.assertGreater(seen, 60)
 

@@ -42,7 +42,7 @@ import json, os, sys
 if "Motion/Creepage=0.9" in sys.argv:
     print("a warning", file=sys.stderr)
     sys.exit("tread: 'Motion/Creepage' cannot be '0.9'")
-if "--print-parameters" in sys.argv:
+if sys.argv[1] == "parameters":
     print("subsection Output\\n  set Directory = somewhere  # a folder\\nend")
     sys.exit()
 folder = sys.argv[sys.argv.index("--output") + 1]
@@ -557,7 +557,7 @@ class Studies(InFolder):
                                      (1, "", f"study.py: {study}: '{entry}': no parameter '{wrong}'; did you mean '{meant}'?\n"))
         self.assertFalse(os.path.exists("results"))
         # A newer program knows more than this package.
-        newer = write(self.path("newer"), f"#!/bin/sh\n[ $1 = --print-parameters ] && printf 'subsection Motion\\n  set Crepage = 1\\nend\\n' && exit\n"
+        newer = write(self.path("newer"), f"#!/bin/sh\n[ $1 = parameters ] && printf 'subsection Motion\\n  set Crepage = 1\\nend\\n' && exit\n"
                       f"exec {self.program} \"$@\"\n", 0o755)
         self.assertEqual(self.perform(write(self.path("new.study"), text.format(*[name.replace("Creepage", "Crepage") for name in right])), "--dry-run",
                                       "--program", newer).returncode, 0)
@@ -854,7 +854,7 @@ class StudiesFromPython(InFolder):
         self.assertFalse(os.path.exists("out"))
 
     def test_ctrl_c_ends_the_runs_with_a_checkpoint(self):
-        program = write(self.path("slow"), "#!/usr/bin/python3\nimport sys, time\nif '--print-columns' in sys.argv:\n  sys.exit(1)\nopen('begun', 'w').close()\ntry:\n  time.sleep(60)\n"
+        program = write(self.path("slow"), "#!/usr/bin/python3\nimport sys, time\nif sys.argv[1] == 'columns':\n  sys.exit(1)\nopen('begun', 'w').close()\ntry:\n  time.sleep(60)\n"
                         "except KeyboardInterrupt:\n  sys.exit(130)\n", 0o755)
         call = f"import tread\ntry:\n  tread.study('smooth-rolling.prm', {{'Motion/Passages': [1]}}, output='out', program={program!r})\nexcept KeyboardInterrupt:\n  print('stopped')"
         with subprocess.Popen([sys.executable, "-c", call], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "contrib/python")},

@@ -145,16 +145,16 @@ class TheProgram(unittest.TestCase):
                             ("Contact/Friction factors", "1,-1")):
             entry = schema.parameters()[name]
             self.assertFalse(schema.fits(schema.value_of(value, entry), entry), name)
-            self.assertIn(f"'{name}' cannot be '{value}'", execute_often(["-s", f"{name}={value}", "--print-parameters"], PROGRAM).stderr)
+            self.assertIn(f"'{name}' cannot be '{value}'", execute_often(["parameters", "-s", f"{name}={value}"], PROGRAM).stderr)
 
     def test_the_program_means_the_same(self):
         for name in ("Motion/Sped", "Motion/Crepage", "Motion/Length (mm)", "Contact/Finest cell (mm)", "Defect/Shap", "Creepage", "wheel/mass (kg)", "Foo/Bar",
                      "Mesh/Finest cell", "Motion/Speed (m/s)", "Track/Pad damping (kN)"):
-            said = execute_often(["-s", f"{name}=1", "--print-parameters"], PROGRAM).stderr
+            said = execute_often(["parameters", "-s", f"{name}=1"], PROGRAM).stderr
             self.assertIn(schema.not_among(name, schema.parameters()), said, name)
 
     def test_a_scene_as_the_program_prints_it_is_accepted(self):
-        printed = execute_often(["--print-parameters"], PROGRAM).stdout
+        printed = execute_often(["parameters"], PROGRAM).stdout
         for name, text in parameters_in(printed.splitlines()).items():
             entry = schema.parameters()[name]
             self.assertTrue(schema.fits(schema.value_of(text, entry), entry), name)
@@ -169,15 +169,26 @@ class Completion(unittest.TestCase):
         return result.stdout.split("\n")[:-1]
 
     def test_options(self):
-        self.assertEqual(self.complete("--s"), ["--shift-to", "--shift-step", "--smooth-twin", "--sleeper-stress", "--support"])
+        self.assertEqual(self.complete("contact-points", "--s"), ["--shift-to", "--shift-step"])
+        self.assertEqual(self.complete("sleeper-stress", "--s"), ["--support"])
+        self.assertEqual(self.complete("--r"), ["--resume"])
         self.assertIn("-s", self.complete("-"))
-        self.assertEqual(self.complete("--window", ""), ["rectangular", "Hann"])
+        self.assertNotIn("-s", self.complete("batch", "-"))
+        self.assertEqual(self.complete("dynamic-force", "results", "--window", ""), ["rectangular", "Hann"])
+
+    def test_commands(self):
+        self.assertEqual(self.complete("ref"), ["reference"])
+        self.assertEqual(self.complete("p"), ["positions", "parameters", "prm"])
+        self.assertEqual(self.complete("modes", "ref"), [""])
 
     def test_paths(self):
         self.assertEqual(self.complete("prm/smooth"), ["prm/smooth-rolling.prm"])
         self.assertEqual(self.complete("prm/cu"), ["prm/curves"])
         self.assertEqual(self.complete("scene.prm", "--output", "contrib/stu"), [""])
-        self.assertEqual(self.complete("--batch", "contrib/contact-data/creep"), ["contrib/contact-data/creep_table.csv"])
+        self.assertEqual(self.complete("batch", "contrib/contact-data/creep"), ["contrib/contact-data/creep_table.csv"])
+        self.assertEqual(self.complete("reference", "prm/smooth"), ["prm/smooth-rolling.prm"])
+        self.assertEqual(self.complete("sleeper-stress", "contrib/stu"), [""])
+        self.assertEqual(self.complete("wear", "prm/damage/cont"), ["prm/damage/contacts.csv"])
 
     def test_parameters(self):
         self.assertEqual(self.complete("-s", "Contact/Friction co"), [r"Contact/Friction\ coefficient="])

@@ -280,7 +280,7 @@ with tempfile.TemporaryDirectory() as folder:
                                ["line 3", "'Motion/Speed (km per h)' is set in line 2 already"]),
                               ("a parameter twice, in two parts of a section", "subsection Motion\n  set Speed (km per h) = 80\nend\n\nsubsection Motion\n  set Speed (km per h) = 100\nend\n",
                                ["line 6", "'Motion/Speed (km per h)' is set in line 2 already"]),
-                              ("nothing", "", ["bad.prm' sets no parameter", "prm/", "--print-parameters"]),
+                              ("nothing", "", ["bad.prm' sets no parameter", "prm/", "tread parameters"]),
                               ("comments alone", "# a scene\n\n  # to be written\n", ["bad.prm' sets no parameter"]),
                               ("a section without entries", "subsection Motion\nend\n", ["bad.prm' sets no parameter"]),
                               ("includes a file that sets nothing", "include empty.prm\n", ["bad.prm' sets no parameter"]),
@@ -331,7 +331,7 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write("x_mm,y_mm,z_mm\n" + "".join(f"{i},{i},0.1\n" for i in range(60000)))
     must_fail("a map of a diagonal, whose grid would take gigabytes", base + ["-s", "Defect/Shape=map", "-s", "Defect/Profile file=" + steps],
               ["Defect/Profile file", "60000 x 60000", "x 1 mm, y 0 mm", "is missing"])
-    must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["--batch", "twice"])
+    must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["tread batch", "twice"])
 
     for what in ([], ["--reference-only"]):
         must_fail("the root of a flange that an upright wheel does not have", [*base, *what, "-s", "Wheel/Tread profile=S1002", "-s",

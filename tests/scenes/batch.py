@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The half-space solver as a library: tread --batch and tread.half_space beside CONTACT's creep-force table, finer elements, a gap
+"""The half-space solver as a library: tread batch and tread.half_space beside CONTACT's creep-force table, finer elements, a gap
 given by points, and what is wrong on purpose."""
 
 import csv

@@ -129,11 +129,11 @@ def shortened(arguments, program):
     wheelset is in a position: a patch at the corner of a rail is 1.5 mm wide), evenly along the path and of two layers; it rolls at most 4 mm once, or where there is a defect and a start is given, from 15 mm
     before its leading edge to 30 mm behind it; a wheel that is not round begins on its flat, at -33 degrees; modes end at 300 Hz; profiles
     wear by 2000 passages."""
-    scenes = [argument for before, argument in zip(["", *arguments], arguments) if argument.endswith(".prm") and before in ("", "--quiet", "--overwrite", "--modes", "--resume") or
+    scenes = [argument for before, argument in zip(["", *arguments], arguments) if argument.endswith(".prm") and before in ("", "--quiet", "--overwrite", "--resume") or
               argument.endswith(".prm") and not before.startswith("-")]
-    if not scenes or {"--dry-run", "--reference-only", "--contact-points", "--print-parameters"} & set(arguments):
+    if not scenes or "--dry-run" in arguments or arguments[0] in ("reference", "contact-points", "parameters"):
         return list(arguments)
-    if "--wear" in arguments:
+    if arguments[0] == "wear":
         return [*arguments, "-s", "Profile wear/Passages=2000"]
     settings = [after for before, after in zip(arguments, arguments[1:]) if before == "-s"]
     # Ranks of mpirun ask a program that is none of them.
@@ -164,7 +164,7 @@ def shortened(arguments, program):
     # The program takes each name once.
     replaced = {i for i, word in enumerate(arguments[:-1]) if word == "-s" and arguments[i + 1].partition("=")[0].strip() in changes}
     arguments = [word for i, word in enumerate(arguments) if i not in replaced and i - 1 not in replaced]
-    if "--modes" not in arguments:
+    if arguments[0] != "modes":
         return [*arguments, *added]
     limit = arguments.index("--up-to") + 1 if "--up-to" in arguments else None
     return [*(["300" if limit == i else argument for i, argument in enumerate(arguments)]), *added, *([] if limit is not None else ["--up-to", "300"])]
@@ -200,7 +200,7 @@ def with_given(command, given):
 
 def dry(command, page):
     """A run on a page of DRY: its size and cost; a study: the list of its runs. Others, which draw, are themselves."""
-    run = page in DRY and re.match(r"(?:mpirun -np 2 )?tread ", command) and "--reference-only" not in command
+    run = page in DRY and re.match(r"(?:mpirun -np 2 )?tread (?:(?:run|wear) )?\S+\.prm", command)
     study = "contrib/study.py " in command and "--dry-run" not in command and not any(name in command for name in WHOLE)
     return re.sub(r"(\s*#.*)?$", " --dry-run", command, count=1) if run or study else command
 

@@ -66,7 +66,10 @@ with tempfile.TemporaryDirectory() as folder:
     said(f"{shared}/contrib/plot/plot-run.py", "--help")
 
     manual = re.sub(r"\\", "", open(os.path.join(prefix, "share/man/man1/tread.1"), encoding="utf-8").read())
-    options = set(re.findall(r"^\s+(?:-h,)?(--[a-z-]+)", said("tread", "--help"), re.MULTILINE))
+    commands = re.findall(r"^  ([a-z-]+) ", said("tread", "--help").partition("Commands:")[2], re.MULTILINE)
+    helps = "".join(said("tread", *command, "--help") for command in [(), *((command,) for command in commands)])
+    options = set(re.findall(r"^\s+(?:-h,)?(--[a-z-]+)", helps, re.MULTILINE))
+    check.that("the manual page has all commands", len(commands) > 10 and all(f'"tread {command}' in manual for command in commands))
     check.that("the manual page has all options", len(options) > 15 and not [option for option in options if not re.search(rf"{option}\b(?!-)", manual)])
     # As bash-completion reads it, inside a function.
     completion = os.path.join(prefix, "share/bash-completion/completions/tread")

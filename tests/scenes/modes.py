@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""tread --modes: files and columns for a wheel on a track, the same on one rank and on three, and bad input."""
+"""tread modes: files and columns for a wheel on a track, the same on one rank and on three, and bad input."""
 
 import cmath
 import csv

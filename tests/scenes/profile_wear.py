@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Profiles that wear: areas against the law, states against --reference-only on them, weights, resuming, input that is wrong, pictures."""
+"""Profiles that wear: areas against the law, states against tread reference on them, weights, resuming, input that is wrong, pictures."""
 
 import os
 import signal
@@ -164,7 +164,7 @@ with tempfile.TemporaryDirectory() as folder:
             ("nothing that wears", usual, ["-s", "Profile wear/Passages=0", "-s", "Profile wear/Wheel turns=0"], "neither the rail nor the wheel"),
             ("no work", usual, ["-s", "Contact/Friction coefficient=0", "-s", "Damage/Wear law=friction work"], "nothing wears"),
             ("smoothing between the points", usual, ["-s", "Profile wear/Smoothing length (mm)=0.3"], "too short for"),
-            ("an upright wheel", usual, ["-s", "Wheelset/Lateral shift (mm)=none"], "--wear"),
+            ("an upright wheel", usual, ["-s", "Wheelset/Lateral shift (mm)=none"], "tread wear"),
             ("two things at once", usual, ["--reference-only"], "--wear excludes"),
             ("a wheel that derails", contacts("7.csv", ["90\n"], "shift_mm\n"), [], "the wheelset's other wheel"),
             ("a map with a gap", usual, ["-s", "Damage/Wear law=Archard map", "-s", "Damage/Map slip speeds (m per s)=0.2", "-s", "Damage/Map wear coefficients=1e-4"], "has 1 numbers; 2 ranges")):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""tread --reference-only: against CONTACT, for every kind of scene, in the files of a run, and bad input."""
+"""tread reference: against CONTACT, for every kind of scene, in the files of a run, and bad input."""
 
 import csv
 import json

@@ -20,7 +20,7 @@ from loaded_once import execute_often
 @functools.lru_cache(maxsize=None)
 def explained_keys(program):
     """The keys of summary.json whose meanings the program knows."""
-    tables = {table["file"]: table["columns"] for table in json.loads(must_end_well(execute(["--print-columns"], program=program)).stdout)}
+    tables = {table["file"]: table["columns"] for table in json.loads(must_end_well(execute(["columns"], program=program)).stdout)}
     return frozenset(key["name"] for key in tables["summary.json"] if key["meaning"])
 
 
@@ -47,7 +47,7 @@ def run(program, scene, output, settings=(), ranks=1, more=()):
     except tread.Error as error:
         sys.exit(f"{scene} on {ranks} rank(s): {error}")
     if unexplained:
-        sys.exit(f"{scene} on {ranks} rank(s): --print-columns does not say what {', '.join(unexplained)} of summary.json means")
+        sys.exit(f"{scene} on {ranks} rank(s): tread columns does not say what {', '.join(unexplained)} of summary.json means")
     return summary
 
 

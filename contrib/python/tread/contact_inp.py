@@ -6,7 +6,7 @@
 or python3 -m tread.contact_inp, or tread-contact-inp. In the folder are summary.csv with a row for each case, and case-1.csv,
 case-2.csv, ... with the elements in contact, which the commands that read patch.csv read too. Cases of module 3: the normal problem
 alone (T = 0) or steady rolling (T = 3), at given creepages or forces. A case of module 1, a wheel on a rail by their profiles, becomes
-a scene, case-1.prm, with the results of tread --reference-only in the folder case-1; its patches are rows of patches.csv, in CONTACT's axes
+a scene, case-1.prm, with the results of tread reference in the folder case-1; its patches are rows of patches.csv, in CONTACT's axes
 and signs. What else a file asks for is refused in one line with its place; the cases before it are solved.
 
 --finite-elements rolls each case besides, by the scene case-1-finite-elements.prm: both tables have its answers in rows of their own, whose

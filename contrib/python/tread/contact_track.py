@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Module 1 of CONTACT's input files, a wheel on a rail by their profiles: cases become scenes for tread --reference-only.
+"""Module 1 of CONTACT's input files, a wheel on a rail by their profiles: cases become scenes for tread reference.
 
 CONTACT's axes belong to the right side: x forward, y to the right, z down, and forces act on the rail. A wheel of tread has axes of its own,
 y to its side and z up, and forces act on the wheel: the right one is mirrored at the track's plane, the left one turned about x.

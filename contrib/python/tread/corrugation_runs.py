@@ -17,8 +17,8 @@ from .measured_runs import run_scene
 from .runs import Run, arguments_of, execute, must_end_well, parameters_of, scene_path
 
 BEFORE, BEHIND = 20e-3, 50e-3  # the waves begin behind the wheel's start, and end behind the end of its way
-DISC = 15e-3  # radius of the disc in which `tread --modes` measures
-OF_MODES = 0.6  # m of absorbing ends for `tread --modes` of scenes with endless ones
+DISC = 15e-3  # radius of the disc in which `tread modes` measures
+OF_MODES = 0.6  # m of absorbing ends for `tread modes` of scenes with endless ones
 PATCH = 10e-3  # what a place needs before and behind it to be passed by all of the patch
 
 
@@ -84,7 +84,7 @@ class Scene:
         return gain_of_runs(way, self.over_waves("waves", way), self.smooth(), self.half_width)
 
     def receptances(self, places: Sequence[float], highest: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(frequencies, (places, n) complex of the rail, (n,) of the wheel less that of its mass) in m/N, by `tread --modes` under a wheel at each place; the
+        """(frequencies, (places, n) complex of the rail, (n,) of the wheel less that of its mass) in m/N, by `tread modes` under a wheel at each place; the
         indentation of half-spaces by its disc is taken off."""
         known = self.parameters
         by_disc = {body: indentation(1e9 * float(known[f"{body}/Young's modulus (GPa)"]), float(known[f"{body}/Poisson's ratio"])) for body in ("Rail", "Wheel")}
@@ -136,7 +136,7 @@ class Scene:
         frequency, rail, wheel = self.receptances((middle - 0.5 * spacing, middle), highest)
         looked_at = (frequency > 0.7 * speed / waves.wavelengths.max()) & (frequency < 1.1 * highest)
         if not looked_at.any():
-            raise DataError(f"{self.path}: `tread --modes` has no frequencies of these waves")
+            raise DataError(f"{self.path}: `tread modes` has no frequencies of these waves")
         some = np.flatnonzero(looked_at)[::max(1, looked_at.sum() // 30)]
         track, compliance, left = fitted(track, (-0.5 * spacing, 0.), frequency[some], rail[:, some])
         if known["Rail/Ends"] == "endless":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Positions of a wheel over a rail whose surfaces change along the way, solved by the program (tread --positions)."""
+"""Positions of a wheel over a rail whose surfaces change along the way, solved by the program (tread positions)."""
 
 from __future__ import annotations
 

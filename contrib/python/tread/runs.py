@@ -251,5 +251,5 @@ class Run:
 
 def parameters_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequence[str] = (), program: str = PROGRAM) -> dict[str, str]:
     """{"Section/Name": text} of all parameters of a scene, as the program understands it."""
-    asked = must_end_well(execute([*arguments_of(scene, settings), "--print-parameters"], program=program))
+    asked = must_end_well(execute(["parameters", *arguments_of(scene, settings)], program=program))
     return parameters_in(asked.stdout.splitlines())

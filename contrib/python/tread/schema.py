@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A JSON schema of all parameters of a scene, and parameter files checked against it.
 
-The program lists names, defaults and meanings (--print-parameters); what it allows it says when it refuses a value. The schema describes
+The program lists names, defaults and meanings (tread parameters); what it allows it says when it refuses a value. The schema describes
 a scene as {"Section": {"Name": value}}: numbers in the units that the names state, lists as arrays. It lies beside this file and needs
 no program.
 """
@@ -30,7 +30,7 @@ IMPOSSIBLE = "@"  # a value that only parameters with any text take
 
 
 def sections(listing: str) -> list[tuple[str, list[tuple[str, str, str]]]]:
-    """[(section, [(name, default, meaning)])] of what --print-parameters prints."""
+    """[(section, [(name, default, meaning)])] of what `tread parameters` prints."""
     found, meaning = [], []
     for line in listing.splitlines():
         line = line.strip()
@@ -47,13 +47,13 @@ def sections(listing: str) -> list[tuple[str, list[tuple[str, str, str]]]]:
 
 def listing(program: str = PROGRAM) -> list[tuple[str, list[tuple[str, str, str]]]]:
     """sections() of a program."""
-    return sections(must_end_well(execute(["--print-parameters"], program=program)).stdout)
+    return sections(must_end_well(execute(["parameters"], program=program)).stdout)
 
 
 def refusal(path: str, value: str, program: str) -> str | None:
     """What the program says is allowed in place of a value of the parameter "Section/Name"; None if it takes the value, or refuses it only
     together with other parameters."""
-    result = execute(["-s", f"{path}={value}", "--print-parameters"], program=program)
+    result = execute(["parameters", "-s", f"{path}={value}"], program=program)
     said = own_line(result.stderr)
     if result.returncode and not said:
         must_end_well(result)

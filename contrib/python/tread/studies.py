@@ -217,7 +217,7 @@ class Study:
         program does not list what it writes."""
         known: dict[str, dict[str, str]] = {}
         with contextlib.suppress(Error, OSError, ValueError, KeyError, TypeError, subprocess.TimeoutExpired):
-            listed = json.loads(must_end_well(execute(["--print-columns"], program=program, timeout=30)).stdout)
+            listed = json.loads(must_end_well(execute(["columns"], program=program, timeout=30)).stdout)
             known = {table["file"]: {any_number(column["name"]): column["name"] for column in table["columns"]} for table in listed}
         for figure in self.figures:
             kind = re.fullmatch(r"(\w+)\((.+)\)", figure)

@@ -135,7 +135,7 @@ namespace tread
   /// several wheels, and one cell stand for others.
   std::vector<TableDescription> tables_of_a_run();
 
-  /// Have a further table known as one of a run, to --print-columns, run.h5 and the folder of the results:
+  /// Have a further table known as one of a run, to tread columns, run.h5 and the folder of the results:
   /// for a constant beside its columns, before main() begins. @returns true
   bool know_table(const TableDescription &table);
 

@@ -8,7 +8,7 @@
 
 namespace tread
 {
-  /// Solves many cases of rolling half-spaces on all cores (`--batch`, see half_space.h).
+  /// Solves many cases of rolling half-spaces on all cores (`tread batch`, see half_space.h).
   ///
   /// @param cases  a table, one case a row: A_per_m, B_per_m, normal_force_N, friction, young_Pa, poisson,
   ///               creepage, lateral_creepage, spin_per_m; may have element_x_m, element_y_m (0 or none:

@@ -12,10 +12,9 @@
 
 namespace tread
 {
-  /// What the user asks `--contact-points` for.
+  /// What the user asks `tread contact-points` for.
   struct ContactPointsRequest
   {
-    bool   wanted        = false;
     double to_mm         = 10.;   ///< largest lateral shift to both sides
     double step_mm       = 0.25;  ///< between shifts
     bool   is_over_shift = false; ///< one of these, or the other side, is asked for

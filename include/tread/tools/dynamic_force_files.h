@@ -8,7 +8,7 @@
 
 namespace tread
 {
-  /// Options of `tread --dynamic-force RUN --smooth-twin TWIN`.
+  /// Options of `tread dynamic-force RUN --smooth-twin TWIN`.
   struct DynamicForceRequest
   {
     std::string run, smooth_twin;       ///< folders

@@ -15,8 +15,7 @@ namespace tread
   /// What a user asks of the modes of a scene.
   struct ModesRequest
   {
-    bool   wanted = false;
-    double up_to  = 2000.; ///< Hz
+    double up_to = 2000.; ///< Hz
   };
 
   /// Those that write_modes() leaves.

@@ -8,7 +8,7 @@
 
 namespace tread
 {
-  /// Options of `tread --sleeper-stress RUN`.
+  /// Options of `tread sleeper-stress RUN`.
   struct SleeperStressRequest
   {
     std::string run;              ///< folder

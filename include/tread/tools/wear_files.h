@@ -15,7 +15,7 @@ namespace tread
   /// Those that write_profile_wear() leaves.
   std::vector<TableDescription> tables_of_profile_wear();
 
-  /// Wear the profiles of a wheelset's wheel and rail by half-space theory (`--wear`, @see ProfileWear):
+  /// Wear the profiles of a wheelset's wheel and rail by half-space theory (`tread wear`, @see ProfileWear):
   /// writes summary.json, parameters.prm, wear_steps.csv, rail_wear.csv, wheel_wear.csv, wear_patches.csv,
   /// and after the last passage the profiles worn_rail.csv and worn_wheel.csv with the scene worn.prm that
   /// has them.

@@ -9,11 +9,11 @@ namespace tread
     Section section(handler, "Profile wear");
 
     section.add("Passages", passages,
-                "Of 'tread --wear': wheels that pass the rail. 0: the rail keeps its profile.",
+                "Of 'tread wear': wheels that pass the rail. 0: the rail keeps its profile.",
                 Double(0., 1e12));
     section.add(
       "Wheel turns", turns,
-      "Of 'tread --wear': turns of the wheel meanwhile. 0: the wheel keeps its profile, as if each that "
+      "Of 'tread wear': turns of the wheel meanwhile. 0: the wheel keeps its profile, as if each that "
       "passes were new.",
       Double(0., 1e12));
     section.add(

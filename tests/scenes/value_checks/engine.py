@@ -36,7 +36,7 @@ TABLES = (("^(reference_patch|patch_averaged|patch)(_wheel_[0-9]+)?[.]", "patch.
 
 
 def generic(file: str, name: str) -> tuple[str, str]:
-    """A file and a key or column as `--print-columns` has them: whatever numbers are in their names."""
+    """A file and a key or column as `tread columns` has them: whatever numbers are in their names."""
     for pattern, instead in TABLES:
         file = re.sub(pattern, instead, file)
     for pattern, instead in NUMBERED:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Half-space answers: `--reference-only`, and the C library."""
+"""Half-space answers: `tread reference`, and the C library."""
 
 from __future__ import annotations
 

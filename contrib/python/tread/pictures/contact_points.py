@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What `tread --contact-points` left: where both wheels of a wheelset touch over the lateral shift."""
+"""What `tread contact-points` left: where both wheels of a wheelset touch over the lateral shift."""
 
 from __future__ import annotations
 

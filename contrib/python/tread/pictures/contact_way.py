@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What `tread --contact-points` left of a rail of slices: where the wheel touches along the way, who carries the load, and how the axle rises and sinks."""
+"""What `tread contact-points` left of a rail of slices: where the wheel touches along the way, who carries the load, and how the axle rises and sinks."""
 
 from __future__ import annotations
 

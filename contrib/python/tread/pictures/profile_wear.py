@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What `tread --wear` left: both profiles before and after, how deep they wore, and how pressure and work changed meanwhile."""
+"""What `tread wear` left: both profiles before and after, how deep they wore, and how pressure and work changed meanwhile."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@
 
 namespace tread
 {
-  /// Section `Profile wear`: passages that change the profiles (`--wear`). SI units.
+  /// Section `Profile wear`: passages that change the profiles (`tread wear`). SI units.
   struct ProfileWearSection
   {
     double       passages   = 1e5; ///< of wheels over the rail
