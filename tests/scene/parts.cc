@@ -6,6 +6,7 @@
 #include <tread/geometry/rail_profile.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/islands.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
@@ -1013,6 +1014,93 @@ namespace
   }
 
 
+  /// Parts of a patch hang together over edges and corners of elements, and each has its own force.
+  void check_islands(tests::Check &check)
+  {
+    reference::Grid grid;
+    grid.n_x              = 5;
+    grid.n_y              = 4;
+    grid.dx               = 2e-3;
+    grid.dy               = 1e-3;
+    const std::size_t row = grid.n_x;
+    check.that("islands of no pressure: none",
+               islands_of(grid, std::vector<double>(row * grid.n_y, 0.)).empty());
+    // Three elements, of which two touch at a corner, and one in the last row.
+    std::vector<double> pressure(row * grid.n_y, 0.);
+    pressure[0]                       = 1e6;
+    pressure[1]                       = 2e6;
+    pressure[row + 2]                 = 3e6;
+    pressure[3 * row + 4]             = 5e6;
+    const std::vector<Island> islands = islands_of(grid, pressure);
+    if (!check.absolute("islands", islands.size(), 2., 0.))
+      return;
+    const double x = 1e3 * (grid.x(0) - 0.5 * grid.dx), y = 1e3 * (grid.y(0) - 0.5 * grid.dy);
+    const double expected[2][5] = {{x, x + 6., y, y + 2., 12.}, {x + 8., x + 10., y + 3., y + 4., 10.}};
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        const Island     &island = islands[i];
+        const std::string name   = i == 0 ? "first island: " : "second island: ";
+        check.absolute(name + "it begins at x, mm", 1e3 * island.x_begin, expected[i][0], round_off);
+        check.absolute(name + "it ends at x, mm", 1e3 * island.x_end, expected[i][1], round_off);
+        check.absolute(name + "it begins at y, mm", 1e3 * island.y_begin, expected[i][2], round_off);
+        check.absolute(name + "it ends at y, mm", 1e3 * island.y_end, expected[i][3], round_off);
+        check.relative(name + "normal force, N", island.force, expected[i][4], round_off);
+      }
+  }
+
+
+  /// The difference from a micro-slip of the half-space that is as good as nothing is not given as a share.
+  void check_negligible_slip(tests::Check &check)
+  {
+    reference::RollingEstimate half_space;
+    for (const double slip : {0.5e-3, 2e-3})
+      {
+        half_space.max_slip.value = slip;
+        ContactAnswer answer;
+        answer.patch.max_slip = 1.25 * slip;
+        Summary summary;
+        compare(summary, answer, half_space, false);
+        const auto  figures = nlohmann::json::parse(summary.text());
+        const auto &difference =
+          figures["reference"]["max_slip_m_per_s"]["half-space"]["relative_difference"];
+        if (slip < 1e-3)
+          check.that("half a millimetre a second of micro-slip: no difference is given",
+                     difference.is_null());
+        else
+          check.relative("two millimetres a second of micro-slip: the difference",
+                         difference.is_number() ? difference.get<double>() : 0., 0.25, 1e-9);
+      }
+  }
+
+
+  /// Beside a half-space that rolls at the same creepage stands the traction, as a share of the own normal
+  /// force.
+  void check_compared_traction(tests::Check &check)
+  {
+    reference::RollingEstimate half_space;
+    half_space.longitudinal_force.value   = 20e3;
+    half_space.lateral_force.value        = -8e3;
+    half_space.traction_coefficient.value = 0.2;
+    half_space.fields.normal_force        = 100e3;
+    ContactAnswer answer;
+    answer.force               = Vector3{27.5e3, -11e3, 110e3, 0.};
+    answer.patch.normal_force  = 110e3;
+    answer.patch.lateral_force = -11e3;
+    Summary summary;
+    compare(summary, answer, half_space, false);
+    const auto        figures   = nlohmann::json::parse(summary.text());
+    const std::string given[2]  = {"traction_coefficient", "lateral_coefficient"};
+    const double      values[2] = {0.25, -0.1}, shares[2] = {0.25, 0.25};
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        check.relative("compared: " + given[i], figures[given[i]].get<double>(), values[i], round_off);
+        check.relative("compared: its difference from the half-space's",
+                       figures["reference"][given[i]]["half-space"]["relative_difference"].get<double>(),
+                       shares[i], round_off);
+      }
+  }
+
+
   /// Both wheels of a wheelset.
   void check_wheelset(tests::Check &check)
   {
@@ -1046,6 +1134,47 @@ namespace
     // Elastic wheels touch on an area over which the slopes change.
     check.relative("both wheels: roll rate, mrad/s", 1e3 * wheel.rise().roll_rate,
                    1e3 * speed * (behind.roll - before.roll) / (2. * step), 0.01);
+  }
+
+
+  /// Finest cells that reach beyond the profile are refused, with how far they and it reach.
+  void check_beyond_profile(tests::Check &check)
+  {
+    const auto scene =
+      scene_of({"Rail/Inclination=1:40", "Wheel/Tread profile=S1002", "Wheelset/Lateral shift (mm)=2",
+                "Contact/Friction coefficient=0", "Motion/Creepage=0", "Mesh/Finest cell (mm)=2",
+                "Mesh/Fine half width (mm)=40"});
+    const std::string said = tests::complaint<InputError>([&] { make_bodies(*scene); });
+    const std::string from = "its finest cells reach from ", to = " to ";
+    const std::size_t at = said.find(from), behind = said.find(to, at);
+    if (check.that("finest cells beyond the profile are refused: " + said,
+                   at != said.npos && behind != said.npos))
+      check.absolute("finest cells beyond the profile: their whole width, mm",
+                     std::stod(said.substr(behind + to.size())) - std::stod(said.substr(at + from.size())),
+                     80., 0.02);
+  }
+
+
+  /// A piece of a rail reaches as far as the patches on it, which lie in its inclined surface.
+  void check_touched_piece(tests::Check &check)
+  {
+    TouchedPiece piece{"nose", {}, 1e-3};
+    for (const double along : {0., 1.})
+      {
+        TouchedPiece::Touch touch{0.1 * along, {}};
+        touch.patch.region.reference = {{0., 0.74 + 2e-3 * along, 0.}};
+        touch.patch.region.angle     = 0.1 + 0.2 * along;
+        touch.patch.solution.y_begin = -5e-3;
+        touch.patch.solution.y_end   = 4e-3;
+        piece.touches.push_back(touch);
+      }
+    check.relative("piece of a rail: lowest y of its patches, mm", 1e3 * piece.y_low(),
+                   740. - 5. * std::cos(0.1), round_off);
+    check.relative("piece of a rail: highest y of its patches, mm", 1e3 * piece.y_high(),
+                   742. + 4. * std::cos(0.3), round_off);
+    check.relative("piece of a rail: y of the wheel's line in their middle, mm", 1e3 * piece.y(0.05), 741.,
+                   round_off);
+    check.relative("piece of a rail: mean inclination, rad", piece.inclination(), 0.2, round_off);
   }
 
 
@@ -1094,6 +1223,11 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_surfaces(check, folder);
   check_mesh(check);
   check_half_space(check);
+  check_islands(check);
+  check_negligible_slip(check);
+  check_compared_traction(check);
   check_wheelset(check);
+  check_beyond_profile(check);
+  check_touched_piece(check);
   check_figures_of_patches(check);
 }
