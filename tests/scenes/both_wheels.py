@@ -5,13 +5,15 @@ resuming, and what is refused."""
 
 import importlib.util
 import os
+import re
 import sys
 import tempfile
 
 import numpy as np
 
 from tread.files import read_summary
-from tread.runs import ROOT
+from tread.runs import ROOT, arguments_of, must_end_well
+from loaded_once import execute_often
 from tread_runner import Check, run, run_stopped, table
 
 program = sys.argv[1]
@@ -131,8 +133,14 @@ with tempfile.TemporaryDirectory() as folder:
                                                     "Wheel/Sector margin (mm)": 30, "Wheelset/Axle bending stiffness (MN m2)": 2})
     check.energy("soft axle of a yawed wheelset: ", leaning, 4e-3)
     # Pushed to where its flange stands beside the rail's profile.
-    pushed = run(program, SCENE, path("pushed"), {**free, "Motion/Rolled distance (mm)": 40, "Guidance/Lateral force (kN)": 800, "Mesh/Fine half width (mm)": 17,
-                                                  "Wheel/Sector width (mm)": 44})
+    shown = must_end_well(execute_often(arguments_of(SCENE, {**free, "Motion/Rolled distance (mm)": 40, "Guidance/Lateral force (kN)": 800,
+                                                             "Mesh/Fine half width (mm)": 17, "Wheel/Sector width (mm)": 44}, path("pushed")), program)).stdout
+    pushed = read_summary(path("pushed"))
+    for words, name, scale in (("vertical force, kN", "normal_force_N", 1e-3), ("longitudinal force, kN", "longitudinal_force_N", 1e-3),
+                               ("lateral force in the track, kN", "lateral_force_N", 1e-3), ("frictional power, W", "frictional_power_W", 1.)):
+        # The last line with these words: the others are those of patches.
+        figure = float(re.findall(rf"^{words} +(\S+)", shown, re.MULTILINE)[-1])
+        check.relative(f"no half-space answer beside a run: {words} on the screen", figure, scale * pushed[name], 1e-3)
     check.that("no half-space answer beside a run: it ends, and says so",
                pushed["completed"] and "half_space_patches" not in pushed and any("no half-space answer" in warning for warning in pushed["warnings"]))
     for name in ("lateral_shift_m", "yaw_rad", "other_normal_force_N", "other_longitudinal_force_N"):
