@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A wheelset on a flexible axle without cells: moments on its wheels, which begin to act at one instant, make
-// it swing about the deflection of an Euler-Bernoulli beam, with the frequencies of two discs on a shaft.
+// it swing about the deflection of an Euler-Bernoulli beam, with the frequencies of two discs on a shaft. A
+// light hub that is carried along the height of its rail.
 #include <tread/track/wheel_hub.h>
 
 #include "check.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 using namespace tread;
 
@@ -163,6 +165,34 @@ namespace
                 std::abs(hub.kinetic_energy(0.) - start - done - hub.external_work()) / greatest, 2e-3);
     check.below("velocity beside how far a place of a wheel moves in a step, m/s", worst_velocity, 1e-3);
   }
+
+  /// A light hub rises with the cells that it moves as the height of its rail does, which bends more and more
+  /// along the way.
+  void carried(tests::Check &check)
+  {
+    constexpr double speed = 20., bend = 0.02, place = 0.3, cells = 7.; // m/s; 1/m for each metre; m; kg
+    constexpr double acceleration = bend * place * speed * speed;
+    for (const bool rides : {false, true})
+      {
+        WheelHubParameters p;
+        p.mass     = 1200.;
+        p.gravity  = 0.;
+        p.settling = SettlingOfHub{1e9, 1e-3, half_length, 5., cells};
+        WheelHub hub(p);
+        hub.place(Vector3{place, 0., 0., 0.});
+        if (rides)
+          hub.ride([](const double x) { return bend * x; });
+        hub.motion.x          = place;
+        hub.motion.velocity_x = speed;
+        hub.advance(Vector3{}, Vector3{}, step);
+        const double      up   = rides ? step * acceleration : 0.;
+        const std::string name = rides ? "hub that rides: " : "hub on a level way: ";
+        check.absolute(name + "it rises with what carries its cells, mm/s", 1e3 * hub.motion.velocity_z,
+                       1e3 * up * (1. + cells / p.settling->mass()), 1e-12);
+        check.absolute(name + "the sprung mass with it, mm/s", 1e3 * hub.motion.sprung_velocity, 1e3 * up,
+                       1e-12);
+      }
+  }
 } // namespace
 
 
@@ -171,4 +201,5 @@ void run_test(tests::Check &check, const tests::Arguments &)
   frequencies(check);
   statics(check);
   energy_and_motion(check);
+  carried(check);
 }
