@@ -20,7 +20,8 @@ change are drawn again, and so are changes that do not compile. The changes:
 
 All of them are in one copy of the project, as those of contrib/mutate.py are; the environment variable TREAD_FAULT chooses the one that acts. Each test
 runs once without any and notes which faults it reaches; then the tests that reach a fault run with it, shortest first, until one fails. A fault that
-no test reaches survives. What is known of survivors is in tests/mutations/drawn/.
+no test reaches survives. What is known of survivors is in tests/mutations/drawn/: the test written since (`noticed`), why there is none (`survives`), or why
+the change can alter no answer (`equivalent`).
 """
 
 from __future__ import annotations
@@ -467,6 +468,17 @@ def folder_of(file: str) -> str:
     return "contrib/python/tread" if file.endswith(".py") else os.path.join(*file.split(os.sep)[:2]) if file.count(os.sep) > 1 else "source"
 
 
+def without_equivalent(tried: list[int], attempts: Attempts, known: dict[int, dict]) -> str:
+    """A sentence on those that can alter no answer, and the share of the others that is noticed."""
+    equivalent = [number for number in tried if "equivalent" in known.get(number, {}) and not attempts.of(number)["noticed"]]
+    others = [number for number in tried if number not in equivalent]
+    noticed = [number for number in others if attempts.of(number)["noticed"] or "noticed" in known.get(number, {})]
+    if not equivalent:
+        return ""
+    return (f"{len(equivalent)} of those tried alter no answer by more than the tolerance of an iteration ({', '.join(map(str, equivalent))}); "
+            f"with the tests written since {len(noticed)} of the {len(others)} others are noticed, {100 * len(noticed) / len(others):.0f} %. ")
+
+
 def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], attempts: Attempts, not_compiled: int) -> None:
     """The tables of doc/mutations.md on drawn faults. @param inside numbers of those that were tried"""
     path = os.path.join(ROOT, f"tests/mutations/drawn/{seed}.toml")
@@ -491,13 +503,14 @@ def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], at
         elif fault["number"] in inside:
             unknown = "a test is missing" if fault["number"] in reached else "no test that ran reaches it"
             survivors.append([str(fault["number"]), place, text(fault["old"]), text(fault["new"]),
-                              f"`{why['noticed']}` does since" if "noticed" in why else why.get("survives", unknown)])
+                              f"`{why['noticed']}` does since" if "noticed" in why else why.get("equivalent", why.get("survives", unknown))])
     names = [f"`{name}`" for name, test in sorted(attempts.tests.items()) if test["passes"]]
     missing = "" if not not_compiled else f" ({not_compiled} more did not)"
     fill("mutations.md", f"drawn {seed}", markdown(["folder", "drawn", "tried", "noticed", "share", "with the tests written since", "share"], rows)
          + f"\n\nThe first {len(faults)} faults of seed {seed} that compile{missing}, drawn from the sources of {commit}. What ran: {', '.join(names)}; "
          + f"{sum(attempts.of(fault['number'])['seconds'] for fault in faults):.0f} s with a fault on a machine that was busy otherwise. "
          + ("Tried are those with which one of these tests ran; nothing is known of the others. " if any(f["number"] not in inside for f in faults) else "")
+         + without_equivalent([fault["number"] for fault in faults if fault["number"] in inside], attempts, known)
          + f"{machine()}; `contrib/draw-faults.py --seed {seed} --number {len(faults)} --try`.")
     fill("mutations.md", f"drawn survivors {seed}", markdown(["number", "line", "it was", "with the fault", "why no test noticed it"], survivors or [["-"] * 5]))
     fill("mutations.md", f"drawn noticed {seed}", markdown(["number", "line", "change", "noticed by"], noticed_by or [["-"] * 4]))
