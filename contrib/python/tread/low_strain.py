@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,7 @@ SUMMARY_MEASURES = (("largest pressure", "max_pressure_Pa", "Hertz"),
 LOW_STRAIN = (1.3, 1.0, 0.63, 0.5, 0.4, 0.33, 0.2)
 LOW_STRAIN_SHIPPED = (1.3, 0.63, 0.33, 0.2)  # the others are that of 0.63 mm with other cells
 LOW_STRAIN_LOAD = 29232. / 127100.  # over that of CONTACT's solution: radii are as many times larger
-LOW_STRAIN_CASE = {"curvature_x": 0.25, "curvature_y": 0.5 / 1.304348, "friction": 0.5, "young": 210e9, "poisson": 0.3}  # of half_space.solve
+LOW_STRAIN_CASE: dict[str, Any] = {"curvature_x": 0.25, "curvature_y": 0.5 / 1.304348, "friction": 0.5, "young": 210e9, "poisson": 0.3}  # of half_space.solve
 LOW_STRAIN_SPEED = 140 / 3.6  # m/s
 # Low strain, spin alone (1/m) with this coefficient of friction; elements across the patch of the half-space beside.
 LOW_STRAIN_SPIN = {"Motion/Creepage": 0, "Motion/Spin (1 per m)": 0.115, "Contact/Friction coefficient": 0.3}
