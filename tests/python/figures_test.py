@@ -454,6 +454,9 @@ class Patches(InFolder):
                            ("max_slip_m_per_s", 0.05), ("pressure_rms_over_max", rms), ("shear_rms_over_max", rms),
                            ("adhesion_share", np.sum(own["x_mm"] >= 0) / (np.sum(own["x_mm"] >= 0) + 1.5 * np.sum(own["x_mm"] < 0)))):
             self.close(found[key], value, 1e-6)
+        # Beside a patch that slips everywhere all that adheres is the difference.
+        write_table(self.path("run", "reference_patch.csv"), {**other, "state": np.full(len(p), "slip")})
+        self.close(comparison.compare(self.path("run"))["adhesion_share_difference_points"], 100. * found["adhesion_share"], 1e-6)
 
     def test_slip_beside_contact(self):
         """A third more slip, everywhere behind the middle."""
