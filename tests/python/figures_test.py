@@ -489,24 +489,26 @@ class Patches(InFolder):
             self.assertLess(np.sqrt(np.mean(off ** 2)) / abs(known).max(), most, field)
 
     def test_beside_half_space_theory(self):
-        """Nodes whose tractions are the means of fine elements over 0.6 mm are nothing off; with 5 % more pressure they are by 5 % of it."""
-        fine = low_strain.half_space_patch(29232., 0.3)
-        x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-9., 9.1, 0.6), np.arange(-7.2, 7.3, 0.6)))
-        places = (np.arange(6) - 2.5) * 0.1
+        """Nodes whose tractions are the means of fine elements over 0.8 mm are nothing off; with 5 % more pressure they are by 5 % of it."""
+        fine = low_strain.half_space_patch(29232., 0.3, element=0.2)
+        x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-8.8, 8.9, 0.8), np.arange(-7.2, 7.3, 0.8)))
+        places = (np.arange(4) - 1.5) * 0.2
         means = {field: np.mean([fine.sampled(field, x + along, y + across) for along in places for across in places], axis=0) for field in fine.fields}
         inside = means["pressure"] > 0
+        adhesion = np.hypot(means["slip_x"], means["slip_y"])[inside] == 0
         own = np.sqrt(np.mean(means["pressure"][inside] ** 2)) / fine.pressure.max()
         os.makedirs(self.path("run"))
         with open(self.path("run", "summary.json"), "w", encoding="utf-8") as stream:
             stream.write('{"normal_force_N": 29232.0, "traction_coefficient": 0.3}')
         for more in (1., 1.05):
-            table = {"x_mm": x, "y_mm": y, **{name: more ** (name == FIELDS[0]) * means[field] for name, field in zip(FIELDS, fine.fields)},
-                     "state": np.where(np.hypot(means["slip_x"], means["slip_y"]) > 0, "slip", "adhesion")}
-            write_table(self.path("run", "patch.csv"), {name: values[inside] for name, values in table.items()})
-            found = low_strain.compare_with_half_space(self.path("run"))
+            table = {"x_mm": x, "y_mm": y, **{name: more ** (name == FIELDS[0]) * means[field] for name, field in zip(FIELDS, fine.fields)}}
+            write_table(self.path("run", "patch.csv"), {**{name: values[inside] for name, values in table.items()}, "state": np.where(adhesion, "adhesion", "slip")})
+            found = low_strain.compare_with_half_space(self.path("run"), element=0.2)
+            self.assertEqual(found, comparison.compare_fields(self.path("run"), fine))
             self.assertLess(abs(found["pressure_rms_over_max"] - (more - 1) * own), 0.0015)
             self.assertLess(found["shear_rms_over_max"], 0.002)
-            self.assertLess(found["micro_slip_rms_over_max"], 0.01)  # at the nodes, not over their areas
+            self.assertLess(found["micro_slip_rms_over_max"], 0.018)  # at the nodes, not over their areas
+            self.close(found["adhesion_share_difference_points"], 100 * (adhesion.mean() - fine.adhesion_share), 1e-9)
 
     def test_neighbours(self):
         """Of 3 x 2 nodes the one in the middle of a long side has all others, a corner three; a node that alone adheres is isolated."""

@@ -158,7 +158,7 @@ with tempfile.TemporaryDirectory() as folder:
             ("friction beside a law of it", contacts("8.csv", ["0.2\n"], "friction\n"), ["-s", "Contact/Friction law=linear"], "has the column friction"),
             ("a roll that is found", contacts("9.csv", ["1\n"], "roll_mrad\n"), ["-s", "Wheelset/Both wheels=true"], "has the column roll_mrad"),
             ("no rows", contacts("5.csv", []), [], "has no rows"),
-            ("no such table", path("none.csv"), [], "--wear: cannot read"),
+            ("no such table", path("none.csv"), [], "tread wear: cannot read"),
             ("no law", usual, ["-s", "Damage/Wear law=none"], "'Damage/Wear law' must not be none"),
             ("a hardness below 0", usual, ["-s", "Damage/Hardness (MPa)=-1"], "Hardness"),
             ("nothing that wears", usual, ["-s", "Profile wear/Passages=0", "-s", "Profile wear/Wheel turns=0"], "neither the rail nor the wheel"),

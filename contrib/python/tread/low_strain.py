@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -25,7 +24,7 @@ SUMMARY_MEASURES = (("largest pressure", "max_pressure_Pa", "Hertz"),
 LOW_STRAIN = (1.3, 1.0, 0.63, 0.5, 0.4, 0.33, 0.2)
 LOW_STRAIN_SHIPPED = (1.3, 0.63, 0.33, 0.2)  # the others are that of 0.63 mm with other cells
 LOW_STRAIN_LOAD = 29232. / 127100.  # over that of CONTACT's solution: radii are as many times larger
-LOW_STRAIN_CASE: dict[str, Any] = {"curvature_x": 0.25, "curvature_y": 0.5 / 1.304348, "friction": 0.5, "young": 210e9, "poisson": 0.3}  # of half_space.solve
+LOW_STRAIN_RADII = (2., 1.304348)  # m, of the wheel and of the rail's crown
 LOW_STRAIN_SPEED = 140 / 3.6  # m/s
 # Low strain, spin alone (1/m) with this coefficient of friction; elements across the patch of the half-space beside.
 LOW_STRAIN_SPIN = {"Motion/Creepage": 0, "Motion/Spin (1 per m)": 0.115, "Contact/Friction coefficient": 0.3}
@@ -58,7 +57,8 @@ def half_space_patch(normal_force: float, traction_coefficient: float, element: 
     0.1 mm, whose slip is that of half an element ahead, differ by 0.7 and 0.9 %."""
 
     def answer(creepage: float, size: float) -> dict:
-        return half_space.solve_patch(creepage=creepage, normal_force=normal_force, element_x=1e-3 * size, element_y=1e-3 * size, **LOW_STRAIN_CASE)
+        return half_space.solve_patch(curvature_x=0.5 / LOW_STRAIN_RADII[0], curvature_y=0.5 / LOW_STRAIN_RADII[1], young=210e9, poisson=0.3, friction=0.5,
+                                      creepage=creepage, normal_force=normal_force, element_x=1e-3 * size, element_y=1e-3 * size)
 
     # Secants, from creepages on both sides of what 0.3 needs here, with elements of twice the size: the creepage is the same within 1e-4.
     before, now = -6.4e-4, -6.9e-4
@@ -73,7 +73,7 @@ def half_space_patch(normal_force: float, traction_coefficient: float, element: 
                                        **fields}, Patch.fields)
 
 
-def compare_with_half_space(run: str) -> dict:
-    """The measures of comparison.py of the scenes that roll with traction, against half-space theory on elements of 0.1 mm."""
+def compare_with_half_space(run: str, element: float = 0.1) -> dict:
+    """The measures of comparison.py of the scenes that roll with traction, against half-space theory on elements of so many mm."""
     summary = read_summary(run)
-    return compare_fields(run, half_space_patch(summary["normal_force_N"], summary["traction_coefficient"]))
+    return compare_fields(run, half_space_patch(summary["normal_force_N"], summary["traction_coefficient"], element))
