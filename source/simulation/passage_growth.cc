@@ -152,11 +152,11 @@ namespace tread
   double PassageGrowth::norm(const Residue &residue) const
   {
     const std::vector<double> strains = solid.plastic().net_plastic_strain(residue.steel);
-    ReproducibleSum<double>   squares;
-    for (unsigned int c = 0; c < judged.size(); ++c)
-      if (judged[c])
-        squares.add(strains[c] * strains[c]);
-    return std::sqrt(squares.value(mesh.comm));
+    const auto                square  = [&](const std::size_t c) {
+      return judged[c] ? strains[c] * strains[c] : 0.;
+    };
+    // Of whatever size: those of steel that shakes down are below what a sum of numbers near 1 resolves.
+    return std::sqrt(reproducible_sum(judged.size(), square, mesh.comm));
   }
 
 
@@ -299,18 +299,16 @@ namespace tread
   {
     if (!section.jumps || rolled < section.rolled_between || remaining <= section.rolled_between)
       return 0;
-    // Steel that has shaken down changes by no more than the noise of its passages.
-    constexpr double noise     = 1e-8;
-    const double     rate      = norm(change);
-    const bool       is_noise  = largest_rate < noise;
-    const double     variation = norm(change - change_before);
-    if (!is_noise && variation > section.irregularity * rate)
-      return 0;
     double n = std::min<double>(section.longest_jump, remaining - section.rolled_between);
-    if (!is_noise)
+    if (!has_shaken_down())
       {
-        n                     = std::min(n, section.strain_of_a_jump / largest_rate);
-        const double in_a_one = jumps > 0 ? norm(slope()) : variation;
+        const double rate      = norm(change);
+        const double variation = norm(change - change_before);
+        if (variation > section.irregularity * rate)
+          return 0;
+        n = std::min(n, section.strain_of_a_jump / largest_rate);
+        // What a jump disturbs fades in the passages behind it: extrapolated it would grow from jump to jump.
+        const double in_a_one = std::max(variation, jumps > 0 ? norm(slope()) : 0.);
         if (in_a_one > 0.)
           n = std::min(n, section.change_in_a_jump * rate / in_a_one);
         if (section.strain_at_failure > 0.)
@@ -322,10 +320,15 @@ namespace tread
 
   void PassageGrowth::skip(const unsigned int n)
   {
-    if (jumps > 0)
-      expected = slope();
-    last.add(n, change);
-    last.add(0.5 * n * (n + 1.), expected);
+    if (has_shaken_down())
+      expected.scale(0.);
+    else
+      {
+        if (jumps > 0)
+          expected = slope();
+        last.add(n, change);
+        last.add(0.5 * n * (n + 1.), expected);
+      }
     change_at_jump = change;
     number_at_jump = number;
     number += n;

@@ -50,7 +50,6 @@ LEFT_OUT = (
     "package_test.Wavelets.test_power_of_a_sine_and_of_white_noise",
     "figures_test.Corrugation.test_full_slip_over_long_waves",
     "figures_test.Corrugation.test_gain_on_a_rail_that_does_not_move",
-    "figures_test.Patches.test_beside_half_space_theory",
     "pictures_test.Pictures.test_one_call_draws_what_is_there",
 )
 MUCH = 1.  # s of a processor: tests that take more are told, for LEFT_OUT
@@ -262,7 +261,6 @@ KNOWN: list[tuple[str, str]] = [
     (r"corrugation\.(Contact|Model|gain_at_rest|gain_of_model|responses).*", "compared in figures_test.py in tests that take too long to be watched"),
     (r"corrugation\.fitted\[\].*", "what the track that is fitted has unchanged; the rest is compared"),
     (r"corrugation_runs\..*", "runs of scenes: compared by tests/scenes/corrugation.py"),
-    (r"low_strain\.compare_with_half_space", "measures of comparison.py, which are compared: figures_test.py calls it in a test that takes too long to be watched"),
     (r"crossing_force\.AtRest\.height", "what a force at rest must have: those that have it are compared"),
 ]
 

@@ -44,7 +44,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("along each line all cells have the same, share of the largest", max(np.ptp(values) for values in lines.values()) / before[1], 5e-3)
 
     # Passages that are rolled beside those that are left out.
-    n = 60
+    n = 45
     rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={n}"])
     jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
     all_of, some = columns(path("rolled")), columns(path("jumped"))
@@ -67,6 +67,15 @@ with tempfile.TemporaryDirectory() as folder:
     # In the uppermost layer of cells, of 2.6 mm, one of the two beside the middle.
     check.absolute("depth, mm", 1e3 * jumped["net_plastic_strain_depth_m"], 1.3, 0.02)
     check.absolute("y, to one side or the other, mm", abs(1e3 * jumped["net_plastic_strain_y_m"]), 1.3, 0.02)
+
+    # Steel that shakes down changes less in each passage until nothing is seen of it. What is left out then leaves it as it is.
+    down = run(program, SCENE, path("down"), COARSE + ["Motion/Passages=300", "Rail/Yield stress (MPa)=900"])
+    still = columns(path("down"))
+    last = np.nonzero(still["skipped"])[0][-1]
+    check.that("it shakes down within a hundred passages", down["passages_rolled"] < 100 and still["skipped"][last] > 150)
+    check.that("each passage changes it less", np.all(np.diff(still["net_plastic_strain_of_passage_percent"][8:last]) < 0))
+    check.relative("behind those left out: net strain, %", still["net_plastic_strain_percent"][-1], still["net_plastic_strain_percent"][last - 1], 1e-3)
+    check.below("change in a passage behind them, %", still["net_plastic_strain_of_passage_percent"][last:].max(), 1e-6)
 
     # Other ranks; Ctrl-C behind a jump, and on to the end.
     two = run(program, SCENE, path("two"), SHORT, ranks=2)
