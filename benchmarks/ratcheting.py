@@ -19,7 +19,8 @@ from tread.tables import fill, markdown, number, provenance
 SCENE = "damage/ratcheting.prm"
 PASSAGES = 200
 JUMPS = {"all rolled": {"Ratcheting/Jumps": "false"},
-         **{f"strain of a jump {strain} %": {"Ratcheting/Strain of a jump (%)": strain} for strain in (1, 2)}}
+         **{f"strain of a jump {strain} %": {"Ratcheting/Strain of a jump (%)": strain} for strain in (1, 2)},
+         "3 rolled between, 1.5 %": {"Ratcheting/Rolled between jumps": 3, "Ratcheting/Strain of a jump (%)": 1.5}}
 LONG, STRONGER = 10000, 600  # passages over steel with a yield stress, MPa, that ratchets slowly
 # Pressure of Hertz over the yield stress in shear, and the traction coefficient. Shakedown limits of a point contact: 4.7 without
 # traction, and at the surface the inverse of the traction coefficient (Ponter, Hearle & Johnson 1985; Johnson 1989).

@@ -44,7 +44,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("along each line all cells have the same, share of the largest", max(np.ptp(values) for values in lines.values()) / before[1], 5e-3)
 
     # Passages that are rolled beside those that are left out.
-    n = 45
+    n = 60
     rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={n}"])
     jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
     all_of, some = columns(path("rolled")), columns(path("jumped"))
