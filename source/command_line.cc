@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 
 namespace tread
@@ -29,10 +30,16 @@ namespace tread
       }
     };
 
-    /// Options of more than one command.
-    void add_output(CLI::App &app, CommandLine &line, const std::string &what)
+    /// A variable of a shell that is not set would become the default.
+    std::string is_given(const std::string &word)
     {
-      app.add_option("--output", line.output, what);
+      return word.empty() ? "it is empty" : "";
+    }
+
+    /// Options of more than one command.
+    CLI::Option *add_output(CLI::App &app, CommandLine &line, const std::string &what)
+    {
+      return app.add_option("--output", line.output, what)->check(is_given);
     }
 
     void add_settings(CLI::App &app, CommandLine &line)
@@ -76,9 +83,10 @@ namespace tread
       const std::vector<CLI::Option *> options{
         app.add_option("--shift-to", line.points.to_mm, "largest lateral shift, mm (10)"),
         app.add_option("--shift-step", line.points.step_mm, "between lateral shifts, mm (0.25)"),
-        app.add_option(
-          "--other-side", line.points.other_side,
-          "scene whose wheel and rail stand on the other side of the track (the same, mirrored)")};
+        app
+          .add_option("--other-side", line.points.other_side,
+                      "scene whose wheel and rail stand on the other side of the track (the same, mirrored)")
+          ->check(is_given)};
       for (CLI::Option *option : options)
         option->each([&line](const std::string &) { line.points.is_over_shift = true; });
       return options;
@@ -142,7 +150,7 @@ namespace tread
       const auto of_table = [&](const Command which, const std::string &name, const std::string &does) {
         CLI::App *own = command(which, name, does);
         own->add_option("TABLE.csv", line.table, "table")->required();
-        add_output(*own, line, "table of the answers");
+        add_output(*own, line, "table of the answers")->required();
         add_quiet(*own, line);
       };
       of_table(Command::batch, "batch", "a table of half-space cases, on all cores");
@@ -304,6 +312,15 @@ namespace tread
       "still understood in this version.");
     OlderForms older(app, line);
     add_commands(app, line);
+    // What is no option, no command and no path was meant for one of the commands.
+    const std::string first = argc > 1 ? argv[1] : "";
+    std::string       behind;
+    for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
+      if (command->get_name() == first)
+        behind = first + " ";
+    require(first.empty() || first[0] == '-' || !behind.empty() ||
+              first.find_first_of("./") != std::string::npos || std::filesystem::exists(first),
+            "there is no command and no file '" + first + "'; tread --help lists the commands");
     try
       {
         app.parse(argc, argv);
@@ -316,10 +333,6 @@ namespace tread
       }
     catch (const CLI::ParseError &error)
       {
-        std::string behind;
-        for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
-          if (argc > 1 && command->get_name() == argv[1])
-            behind = command->get_name() + " ";
         throw InputError(std::string(error.what()) + "; tread " + behind + "--help lists all options");
       }
     const std::vector<CLI::App *> commands = app.get_subcommands();

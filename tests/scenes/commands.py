@@ -88,7 +88,9 @@ with tempfile.TemporaryDirectory() as folder:
     refused("no run", ["sleeper-stress", path("nothing")], "no folder", "nothing")
     refused("a run without its twin", ["dynamic-force", path("nothing")], "--smooth-twin", "tread dynamic-force --help")
     refused("no table", ["wear", SCENE], "CONTACTS.csv", "tread wear --help")
-    refused("a command that there is not", ["roll"], "cannot read parameter file 'roll'")
+    refused("a command that there is not", ["roll", SCENE], "no command and no file 'roll'", "tread --help")
+    refused("a folder without a name", ["run", SCENE, "--output", ""], "--output", "empty")
+    refused("a table of answers without a name", ["batch", path("cases.csv")], "--output is required")
 
     commands = re.findall(r"(?m)^  ([a-z-]+) ", execute_often(["--help"], program).stdout.partition("Commands:")[2])
     check.that("eleven commands", len(commands) == 11)

@@ -55,6 +55,13 @@ namespace tread
       return section.strain_at_failure > 0. && strain >= section.strain_at_failure;
     }
 
+    /// Steel that has shaken down changes by no more than the noise of its passages, which is not
+    /// extrapolated.
+    bool has_shaken_down() const
+    {
+      return largest_rate < 1e-8;
+    }
+
     /// How many passages may be left out now. @param remaining those that are still to come. Collective.
     unsigned int passages_to_skip(const unsigned int remaining) const;
 
@@ -94,12 +101,6 @@ namespace tread
     Residue now() const;
     void    make_uniform(Residue &residue) const;
     void    skip(const unsigned int n);
-    /// Steel that has shaken down changes by no more than the noise of its passages, which is not
-    /// extrapolated.
-    bool has_shaken_down() const
-    {
-      return largest_rate < 1e-8;
-    }
     /// Root of the sum of squares, and the largest, of the net plastic strain over the judged cells.
     double norm(const Residue &residue) const;
     double largest(const Residue &residue) const;

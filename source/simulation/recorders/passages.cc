@@ -131,8 +131,10 @@ namespace tread
                                       static_cast<unsigned int>(passages.back().number));
     if (skipped > 0)
       progress.say(
-        format("%u passages are left out, in each of which the net plastic strain grows by %.3g %%", skipped,
-               100. * growth.rate()));
+        growth.has_shaken_down()
+          ? format("%u passages are left out: the rail has shaken down and stays as it is", skipped)
+          : format("%u passages are left out, in each of which the net plastic strain grows by %.3g %%",
+                   skipped, 100. * growth.rate()));
     growth.begin_next(skipped);
   }
 
