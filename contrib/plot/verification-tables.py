@@ -26,11 +26,11 @@ from tread.tables import fill, markdown, number
 
 # Errors allowed by cell size: (key of compare-contact.py, row, factor, unit, 0.63 mm, 0.33 mm).
 MEASURES = (("max_pressure_relative_difference", "largest pressure", 100, "%", 1.2, 0.8),
-            ("pressure_rms_over_max", "pressure, RMS", 100, "%", 2.5, 1.0),
-            ("shear_rms_over_max", "shear stress, RMS", 100, "%", 2.5, 1.1),
+            ("pressure_rms_over_max", "pressure, RMS", 100, "%", 1.1, 0.8),
+            ("shear_rms_over_max", "shear stress, RMS", 100, "%", 1.8, 1.2),
             ("adhesion_share_difference_points", "adhesion share", 1, "points", 1.0, 0.6),
             ("creepage_at_this_traction_relative_difference", "creepage at this traction", 100, "%", 2.0, 1.0),
-            ("micro_slip_rms_over_max", "micro-slip, RMS", 100, "%", 4.0, 2.0),
+            ("micro_slip_rms_over_max", "micro-slip, RMS", 100, "%", 2.2, 1.7),
             ("max_slip_in_adhesion_m_per_s", "largest slip in adhesion", 1, "m/s", 1e-6, 1e-6),
             ("normal_force_ripple_last_10_mm", "normal force, ripple over 10 mm", 100, "%", 0.3, 0.3),
             ("isolated_adhesion_nodes", "isolated adhesion nodes", 1, "", 0, 0))
