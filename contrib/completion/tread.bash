@@ -11,20 +11,19 @@ declare -gA _tread_helps _tread_parameters
 # The program's commands, one a line.
 _tread_list_commands()
 {
-  _tread_help "$1" | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'
+  sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p' <<< "${_tread_helps[$1]}"
 }
 
-# What it says of itself, or of a command ($2).
-_tread_help()
+# Ask it once what it says of itself, or of a command ($2). In this shell: what a subshell keeps is lost.
+_tread_ask()
 {
   [[ -n ${_tread_helps[$*]-} ]] || _tread_helps[$*]=$("$@" --help 2>/dev/null)
-  printf '%s\n' "${_tread_helps[$*]}"
 }
 
 # The long options of the program, or of a command, one a line.
 _tread_list_options()
 {
-  _tread_help "$@" | grep -oE '^ +(-[a-z],)?--?[a-z][a-z-]*' | grep -oE -- '--[a-z-]+|-s'
+  grep -oE '^ +(-[a-z],)?--?[a-z][a-z-]*' <<< "${_tread_helps[$*]}" | grep -oE -- '--[a-z-]+|-s'
 }
 
 # The program's parameters as Section/Name=, one a line.
@@ -63,6 +62,7 @@ _tread()
 {
   local program=${COMP_WORDS[0]/#\~/$HOME} typed=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=''
   COMPREPLY=()
+  _tread_ask "$program"
   ((COMP_CWORD > 1)) && command=$(_tread_list_commands "$program" | grep -Fx -- "${COMP_WORDS[1]}")
   case $before in
     -s) _tread_setting "$program" "$typed" ;;
@@ -73,6 +73,7 @@ _tread()
     --up-to | --shift-to | --shift-step | --from | --to | --support | --cell-size) ;;
     *)
       if [[ $typed == -* ]]; then
+        _tread_ask "$program" $command
         mapfile -t COMPREPLY < <(compgen -W "$(_tread_list_options "$program" $command)" -- "$typed")
         return
       fi

@@ -355,7 +355,6 @@ namespace tread
 
   namespace
   {
-    /// Bodies whose surface cannot be matched, not even that of cubes. @see SurfaceWeights
     /// Cells are cubes to within some per cent, and at the border of what has weights cubes may have some
     /// alone.
     bool has_weights_near_cubes(SurfaceWeights weights)
@@ -371,6 +370,7 @@ namespace tread
       return true;
     }
 
+    /// Bodies whose surface cannot be matched. @see SurfaceWeights
     std::string unmatched_surface(const Scene &scene)
     {
       if (!scene.solid.matched_surface || !element_named(scene.solid.element).has_hourglass_modes)
