@@ -4,7 +4,8 @@
 
 Runs the ratcheting scene over 200 passages, all rolled and with jumps of several sizes, and over 10 000 with --long; then a dozen
 passages of steels of other strengths with and without traction. Fills the tables of doc/ratcheting.md. Runs that have complete results
-are not repeated; remove RESULTS to measure anew. Each run has one rank, and there are as many at a time as processors.
+are not repeated; remove RESULTS to measure anew. Each run has one rank, and there are as many at a time as processors; that of --long has
+all ranks to itself.
 """
 
 import concurrent.futures
@@ -19,9 +20,10 @@ from tread.tables import fill, markdown, number, provenance
 SCENE = "damage/ratcheting.prm"
 PASSAGES = 200
 JUMPS = {"all rolled": {"Ratcheting/Jumps": "false"},
-         **{f"strain of a jump {strain} %": {"Ratcheting/Strain of a jump (%)": strain} for strain in (1, 2)},
-         "3 rolled between, 1.5 %": {"Ratcheting/Rolled between jumps": 3, "Ratcheting/Strain of a jump (%)": 1.5}}
-LONG, STRONGER = 10000, 600  # passages over steel with a yield stress, MPa, that ratchets slowly
+         "as by default": {},
+         "strain of a jump 1 %": {"Ratcheting/Strain of a jump (%)": 1},
+         "4 rolled between": {"Ratcheting/Rolled between jumps": 4}}
+LONG, STRONGER = 10000, 600  # passages over steel with a yield stress, MPa, that ratchets slowly; on all ranks
 # Pressure of Hertz over the yield stress in shear, and the traction coefficient. Shakedown limits of a point contact: 4.7 without
 # traction, and at the surface the inverse of the traction coefficient (Ponter, Hearle & Johnson 1985; Johnson 1989).
 STRENGTHS, TRACTIONS, SHAKEDOWN = (3.5, 4.5, 6.), (0., 0.3), 12
@@ -37,21 +39,24 @@ def main():
     script = "benchmarks/ratcheting.py" + (" --long" if arguments.long else "")
     workers = concurrent.futures.ThreadPoolExecutor(available_ranks())
 
-    def begin(name, settings):
+    def begin(name, settings, ranks=1):
         """What will be a run's summary and its passages."""
         folder = os.path.join(arguments.results, name.replace(" ", "-").replace("%", "percent"))
-        return workers.submit(lambda: (run_scene(SCENE, folder, settings, ranks=1), Run(folder).table("passages.csv")))
+        return workers.submit(lambda: (run_scene(SCENE, folder, settings, ranks=ranks), Run(folder).table("passages.csv")))
 
     def note(runs):
         return f"\n\nOne rank each, {available_ranks()} runs at a time. " + provenance(script, [run.result()[0] for run in runs])
 
-    longer = [(f"yield stress {STRONGER} MPa", LONG, {"Rail/Yield stress (MPa)": STRONGER})] if arguments.long else []
-    jumps = {(name, n): begin(f"{n}-{name}", {"Motion/Passages": n, **settings})
-             for name, n, settings in [(name, PASSAGES, settings) for name, settings in JUMPS.items()] + longer}
+    jumps = {(name, PASSAGES): begin(f"{PASSAGES}-{name}", {"Motion/Passages": PASSAGES, **settings}) for name, settings in JUMPS.items()}
     steels = {(traction, strength, hardening): begin(f"{hardening} {strength} {traction}", {
         "Ratcheting/Jumps": "false", "Motion/Passages": SHAKEDOWN, "Motion/Traction coefficient": traction,
         "Rail/Hardening": hardening, "Rail/Yield stress (MPa)": f"{1e-6 * math.sqrt(3) * HERTZ / strength:.2f}"})
         for traction in TRACTIONS for strength in STRENGTHS for hardening in ("isotropic", "kinematic")}
+
+    if arguments.long:
+        concurrent.futures.wait([*jumps.values(), *steels.values()])
+        name = f"yield stress {STRONGER} MPa, {available_ranks()} ranks"
+        jumps[name, LONG] = begin(f"{LONG}-{name}", {"Motion/Passages": LONG, "Rail/Yield stress (MPa)": STRONGER}, available_ranks())
 
     rows, base = [], None
     for (name, n), run in jumps.items():

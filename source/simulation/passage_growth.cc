@@ -122,21 +122,31 @@ namespace tread
     , uniform(uniform)
     , last{solid.plastic().with_logarithms(state.history), state.positions()}
     , change(last - last)
-    , change_before(change)
-    , change_at_jump(change)
-    , expected(change)
+    , variation(change)
+    , variation_before(change)
+    , steady_at_jump(change)
+    , slope_at_jump(change)
+    , deviation(change)
   {
     keep_places();
   }
 
 
-  std::array<std::pair<const char *, PassageGrowth::Residue *>, 5> PassageGrowth::residues()
+  std::array<std::pair<const char *, PassageGrowth::Residue *>, 7> PassageGrowth::residues()
   {
     return {{{"passage", &last},
              {"passage_change", &change},
-             {"passage_change_before", &change_before},
-             {"passage_change_at_jump", &change_at_jump},
-             {"passage_slope", &expected}}};
+             {"passage_variation", &variation},
+             {"passage_variation_before", &variation_before},
+             {"passage_steady_at_jump", &steady_at_jump},
+             {"passage_slope_at_jump", &slope_at_jump},
+             {"passage_deviation", &deviation}}};
+  }
+
+
+  double PassageGrowth::error_of_strain() const
+  {
+    return largest(deviation);
   }
 
 
@@ -171,16 +181,36 @@ namespace tread
   }
 
 
-  PassageGrowth::Residue PassageGrowth::slope() const
+  double PassageGrowth::product(const Residue &a, const Residue &b) const
   {
-    Residue slope = change - change_at_jump;
-    slope.scale(1. / (number - number_at_jump));
-    if (jumps > 1) // else what one jump has too much of the next has too little
+    Residue sum = a;
+    sum.add(1., b);
+    const double of_sum = norm(sum), of_difference = norm(a - b);
+    return 0.25 * (of_sum + of_difference) * (of_sum - of_difference);
+  }
+
+
+  PassageGrowth::Course PassageGrowth::course() const
+  {
+    // What fades is what the variation has beside the slope of the jump before.
+    const Residue now = variation - slope_at_jump, before = variation_before - slope_at_jump;
+    const double  square = product(before, before);
+    Course        course{change, slope_at_jump, now, 0.};
+    if (square > 0.)
+      course.factor = std::clamp(product(now, before) / square, 0., slowest_fading);
+    course.fading.scale(-course.factor / (1. - course.factor));
+    course.steady.add(-1., course.fading);
+    if (jumps > 0)
       {
-        slope.add(1., expected);
-        slope.scale(0.5);
+        course.slope = course.steady - steady_at_jump;
+        course.slope.scale(1. / (number - number_at_jump));
+        if (jumps > 1) // else what one jump has too much of the next has too little
+          {
+            course.slope.add(1., slope_at_jump);
+            course.slope.scale(0.5);
+          }
       }
-    return slope;
+    return course;
   }
 
 
@@ -258,7 +288,8 @@ namespace tread
   {
     number             = number_of_passage;
     const Residue here = now();
-    change_before      = change;
+    variation_before   = variation;
+    variation          = here - last - change;
     change             = here - last;
     last               = here;
     ++rolled;
@@ -287,9 +318,9 @@ namespace tread
 
     if (jumps > 0 && rolled == section.rolled_between)
       {
-        Residue difference = change - change_at_jump;
-        difference.add(-(number - number_at_jump), expected);
-        error += 0.5 * last_jump * largest(difference);
+        Residue off = course().steady - steady_at_jump;
+        off.add(-(number - number_at_jump), slope_at_jump);
+        deviation.add(0.5 * last_jump, off);
       }
     keep_places();
   }
@@ -302,15 +333,23 @@ namespace tread
     double n = std::min<double>(section.longest_jump, remaining - section.rolled_between);
     if (!has_shaken_down())
       {
-        const double rate      = norm(change);
-        const double variation = norm(change - change_before);
-        if (variation > section.irregularity * rate)
+        const double rate = norm(change), irregular = norm(variation);
+        if (irregular > section.irregularity * rate)
           return 0;
+        if (jumps > 0)
+          n = std::min(n, 2. * last_jump); // a slope is as sure as the way is long over which it is known
+        else if (irregular > 0.)           // nobody knows yet what will fade
+          n = std::min(n, section.change_in_a_jump * rate / irregular);
         n = std::min(n, section.strain_of_a_jump / largest_rate);
-        // What a jump disturbs fades in the passages behind it: extrapolated it would grow from jump to jump.
-        const double in_a_one = std::max(variation, jumps > 0 ? norm(slope()) : 0.);
-        if (in_a_one > 0.)
-          n = std::min(n, section.change_in_a_jump * rate / in_a_one);
+        // The rate n passages on is another one by n slope - (1 - factor^n) fading.
+        const Course course = this->course();
+        const double slope  = product(course.slope, course.slope),
+                     fading = product(course.fading, course.fading),
+                     both = product(course.slope, course.fading), most = section.change_in_a_jump * rate;
+        for (n = std::floor(n); n >= 2.; n -= 1.)
+          if (const double faded = 1. - std::pow(course.factor, n);
+              n * n * slope - 2. * n * faded * both + faded * faded * fading <= most * most)
+            break;
         if (section.strain_at_failure > 0.)
           n = std::min(n, (section.strain_at_failure - strain) / largest_rate);
       }
@@ -320,22 +359,75 @@ namespace tread
 
   void PassageGrowth::skip(const unsigned int n)
   {
+    const Course course = this->course();
     if (has_shaken_down())
-      expected.scale(0.);
+      slope_at_jump.scale(0.);
     else
       {
-        if (jumps > 0)
-          expected = slope();
-        last.add(n, change);
-        last.add(0.5 * n * (n + 1.), expected);
+        const Residue  before      = last - change;
+        const Residue  before_that = before - (change - variation);
+        PlasticHistory stresses =
+          stresses_in(n, stresses_of(last), stresses_of(before), stresses_of(before_that));
+        last.add(n, course.steady);
+        last.add(0.5 * n * (n + 1.), course.slope);
+        last.add(course.factor * (1. - std::pow(course.factor, n)) / (1. - course.factor), course.fading);
+        // The equivalent plastic strain is what it has become by its own rate.
+        solid.plastic().copy(stresses, last.steel, PlasticCells::strain_at, PlasticCells::hourglass_at);
+        last.steel = solid.plastic().where_flowing(
+          change.steel,
+          solid.plastic().with_logarithms(solid.plastic().from_stresses(last.places.data(), stresses)),
+          last.steel);
+        slope_at_jump = course.slope;
       }
-    change_at_jump = change;
+    steady_at_jump = course.steady;
     number_at_jump = number;
     number += n;
     last_jump = n;
     rolled    = 0;
     skipped += n;
     ++jumps;
+  }
+
+
+  PlasticHistory PassageGrowth::stresses_of(const Residue &residue) const
+  {
+    return solid.plastic().with_stresses(residue.places.data(),
+                                         solid.plastic().from_logarithms(residue.steel));
+  }
+
+
+  PlasticHistory PassageGrowth::stresses_in(const unsigned int    n,
+                                            const PlasticHistory &now,
+                                            const PlasticHistory &before,
+                                            const PlasticHistory &before_that) const
+  {
+    const PlasticCells &cells = solid.plastic();
+    PlasticHistory      in_n = now, change_now = now, change_before = before;
+    for (std::size_t k = 0; k < now.values.size(); ++k)
+      {
+        change_now.values[k] -= before.values[k];
+        change_before.values[k] -= before_that.values[k];
+      }
+    for (const auto &[begin, end] :
+         {std::pair(0U, PlasticCells::strain_at),
+          std::pair(PlasticCells::backstress_at,
+                    PlasticCells::backstress_at + 6 * PlasticMaterial::max_backstresses)})
+      {
+        const auto product = [&](const PlasticHistory &a, const PlasticHistory &b) {
+          const std::vector<double> by_cell = cells.products(a, b, begin, end);
+          return reproducible_sum(
+            judged.size(), [&](const std::size_t c) { return judged[c] ? by_cell[c] : 0.; }, mesh.comm);
+        };
+        // Near 1 where they go on changing as they did; what comes and goes, and noise, has less.
+        const double square =
+          std::max(product(change_now, change_now), product(change_before, change_before));
+        const double share = square > 0. ? std::max(product(change_now, change_before) / square, 0.) : 0.;
+        double       sum   = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          sum = share * (1. + sum);
+        cells.add(in_n, sum, change_now, begin, end);
+      }
+    return in_n;
   }
 
 
@@ -370,8 +462,8 @@ namespace tread
 
   void PassageGrowth::serialize(Archive &archive)
   {
-    archive.same(number, number_at_jump, strain, largest_rate, error, place_of_strain, rolled, last_jump,
-                 jumps, skipped);
+    archive.same(number, number_at_jump, strain, largest_rate, place_of_strain, rolled, last_jump, jumps,
+                 skipped);
     for (const auto &[name, residue] : residues())
       {
         solid.plastic().serialize(archive, residue->steel);

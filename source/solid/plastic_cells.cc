@@ -119,22 +119,6 @@ namespace tread
   }
 
 
-  template <typename Work>
-  void PlasticCells::for_cells(const Work &work) const
-  {
-    std::size_t number = 0;
-    for (const Range &range : ranges)
-      for (std::size_t b = range.begin; b < range.end; ++b)
-        for (unsigned int l = 0; l < n_lanes; ++l)
-          if (cell_of_lane[b][l] >= 0)
-            {
-              // Lanes of the batch's history start here.
-              const std::size_t first = range.history + (b - range.begin) * range.stride();
-              work(range, first, l, cell_of_lane[b][l], number++);
-            }
-  }
-
-
   PlasticHistory PlasticCells::virgin_history() const
   {
     PlasticHistory history;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How the history of plastic cells is compared and extrapolated from passage to passage.
+#include <tread/base/matrix3.h>
 #include <tread/solid/plastic_cells.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -73,6 +74,120 @@ namespace tread
             }
         }
     return history;
+  }
+
+
+  PlasticHistory PlasticCells::with_stresses(const Vector3 *x, const PlasticHistory &history) const
+  {
+    PlasticHistory stressed = history;
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          Lanes *const values = &stressed.values[range.history + (b - range.begin) * range.stride()];
+          Lanes        F[3][3], amplitude[4][3], G[n_components], elastic[n_components];
+          deform(batches[b], x, F, amplitude);
+          std::copy_n(values, n_components, G);
+          congruence(F, G, elastic);
+          std::copy_n(elastic, n_components, values);
+          for (unsigned int m = 0; m < 4; ++m)
+            {
+              Lanes *const flowed = values + hourglass_at + 3 * m;
+              for (unsigned int i = 0; i < 3; ++i)
+                amplitude[m][i] -= F[i][0] * flowed[0] + F[i][1] * flowed[1] + F[i][2] * flowed[2];
+              std::copy_n(amplitude[m], 3, flowed);
+            }
+        }
+    return of_eigenvalues(stressed, [](const double value) { return 0.5 * std::log(value); });
+  }
+
+
+  PlasticHistory PlasticCells::from_stresses(const Vector3 *x, const PlasticHistory &stressed) const
+  {
+    PlasticHistory history =
+      of_eigenvalues(stressed, [](const double value) { return std::exp(2. * value); });
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          Lanes *const values = &history.values[range.history + (b - range.begin) * range.stride()];
+          Lanes        F[3][3], inverse[3][3], amplitude[4][3], elastic[n_components], G[n_components];
+          deform(batches[b], x, F, amplitude);
+          invert(F, inverse);
+          std::copy_n(values, n_components, elastic);
+          congruence(inverse, elastic, G);
+          std::copy_n(G, n_components, values);
+          for (unsigned int m = 0; m < 4; ++m)
+            {
+              Lanes *const flowed = values + hourglass_at + 3 * m;
+              for (unsigned int i = 0; i < 3; ++i)
+                amplitude[m][i] -= flowed[i];
+              for (unsigned int i = 0; i < 3; ++i)
+                flowed[i] = inverse[i][0] * amplitude[m][0] + inverse[i][1] * amplitude[m][1] +
+                            inverse[i][2] * amplitude[m][2];
+            }
+        }
+    return history;
+  }
+
+
+  void PlasticCells::add(PlasticHistory       &history,
+                         const double          factor,
+                         const PlasticHistory &other,
+                         const unsigned int    begin,
+                         const unsigned int    end) const
+  {
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          const std::size_t first = range.history + (b - range.begin) * range.stride();
+          for (std::size_t k = begin; k < std::min<std::size_t>(end, range.stride()); ++k)
+            history.values[first + k] += factor * other.values[first + k];
+        }
+  }
+
+
+  void PlasticCells::copy(PlasticHistory       &history,
+                          const PlasticHistory &other,
+                          const unsigned int    begin,
+                          const unsigned int    end) const
+  {
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          const std::size_t first = range.history + (b - range.begin) * range.stride();
+          std::copy_n(other.values.begin() + first + begin, end - begin,
+                      history.values.begin() + first + begin);
+        }
+  }
+
+
+  PlasticHistory PlasticCells::where_flowing(const PlasticHistory &flow,
+                                             const PlasticHistory &there,
+                                             const PlasticHistory &elsewhere) const
+  {
+    PlasticHistory result = elsewhere;
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        {
+          const std::size_t first = range.history + (b - range.begin) * range.stride();
+          for (std::size_t k = first; k < first + range.stride(); ++k)
+            result.values[k] = flow.values[first + strain_at] > 0. ? there.values[k] : result.values[k];
+        }
+    return result;
+  }
+
+
+  std::vector<double> PlasticCells::products(const PlasticHistory &a,
+                                             const PlasticHistory &b,
+                                             const unsigned int    begin,
+                                             const unsigned int    end) const
+  {
+    std::vector<double> product(zone_of_cell.size(), 0.);
+    for_cells([&](const Range &range, const std::size_t first, const unsigned int lane, const int cell,
+                  const std::size_t) {
+      for (std::size_t k = begin; k < std::min<std::size_t>(end, range.stride()); ++k)
+        product[cell] += a.values[first + k][lane] * b.values[first + k][lane];
+    });
+    return product;
   }
 
 

@@ -108,6 +108,38 @@ namespace tread
     /// Back from that form. Backstresses stay within what they saturate at.
     PlasticHistory from_logarithms(const PlasticHistory &logarithmic) const;
 
+    /// The history with the elastic strain (Hencky; in space) of cells whose nodes are at x in the place of
+    /// G, and the elastic part of the hourglass amplitudes (m) in the place of the plastic one: in this form
+    /// it says what stresses there are, whatever the shape.
+    PlasticHistory with_stresses(const Vector3 *x, const PlasticHistory &history) const;
+
+    /// Back from that form, of cells whose nodes are at x.
+    PlasticHistory from_stresses(const Vector3 *x, const PlasticHistory &stressed) const;
+
+    /// Add a multiple of the values begin to end (not included) of each cell's history.
+    void add(PlasticHistory       &history,
+             const double          factor,
+             const PlasticHistory &other,
+             const unsigned int    begin,
+             const unsigned int    end) const;
+
+    /// Set those values to the other history's.
+    void copy(PlasticHistory       &history,
+              const PlasticHistory &other,
+              const unsigned int    begin,
+              const unsigned int    end) const;
+
+    /// Histories of cells whose equivalent plastic strain grows in `flow`, and of all others.
+    PlasticHistory where_flowing(const PlasticHistory &flow,
+                                 const PlasticHistory &there,
+                                 const PlasticHistory &elsewhere) const;
+
+    /// Sum of the products of the values begin to end (not included) of two histories, by cell of the mesh.
+    std::vector<double> products(const PlasticHistory &a,
+                                 const PlasticHistory &b,
+                                 const unsigned int    begin,
+                                 const unsigned int    end) const;
+
     /// Equivalent sqrt(2/3 e:e) of the net plastic strain by cell of the mesh, 0 outside the zones.
     /// @param logarithmic history with_logarithms(), or a sum of such
     std::vector<double> net_plastic_strain(const PlasticHistory &logarithmic) const;
@@ -189,6 +221,22 @@ namespace tread
     std::vector<Range>                    ranges;
     Quantum                               force_quantum;
   };
+
+
+  template <typename Work>
+  void PlasticCells::for_cells(const Work &work) const
+  {
+    std::size_t number = 0;
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          if (cell_of_lane[b][l] >= 0)
+            {
+              // Lanes of the batch's history start here.
+              const std::size_t first = range.history + (b - range.begin) * range.stride();
+              work(range, first, l, cell_of_lane[b][l], number++);
+            }
+  }
 } // namespace tread
 
 #endif

@@ -13,10 +13,10 @@ namespace tread
     double       strain_at_failure = 0.; ///< net plastic strain, equivalent; 0: none
     bool         uniform           = false;
     bool         jumps             = false;
-    unsigned int rolled_between    = 4;    ///< passages
+    unsigned int rolled_between    = 3;    ///< passages
     double       irregularity      = 0.05; ///< largest from one passage to the next, of the rate
     double       change_in_a_jump  = 0.2;  ///< largest, of the rate
-    double       strain_of_a_jump  = 1e-2; ///< largest change of the net plastic strain
+    double       strain_of_a_jump  = 3e-2; ///< largest change of the net plastic strain
     unsigned int longest_jump      = 1000; ///< passages
 
     void declare(dealii::ParameterHandler &handler);
