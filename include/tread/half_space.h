@@ -145,6 +145,25 @@ extern "C"
                                                          unsigned int                 n_threads,
                                                          tread_half_space_answer     *answers);
 
+  /* What the patch of a case that was solved does to the surfaces. */
+  typedef struct
+  {
+    double friction_used;         /* tangential over normal force [-] */
+    double shakedown_load_factor; /* largest pressure over the yield stress in shear, p0/k [-] */
+    double surface_fatigue_index; /* friction used less 2 pi a b k / (3 Fn) [-]; > 0: the surface ratchets */
+    double t_gamma_per_area;      /* frictional work over the area in contact [Pa] */
+    double regime_wear_rate; /* for each metre rolled and square metre in contact [kg/m^3], by the regimes
+                              * of a wheel of R8T on a rail of 900A */
+  } tread_half_space_damage;
+
+  /* Indices of n solved cases. shear_strength: k of each [Pa]; 0 there, or no list: load factor and index are
+   * NaN. All indices of a case that was not solved are NaN. */
+  TREAD_HALF_SPACE_API void tread_half_space_damage_of(const tread_half_space_case   *problems,
+                                                       const tread_half_space_answer *answers,
+                                                       size_t                         n,
+                                                       const double                  *shear_strength,
+                                                       tread_half_space_damage       *damages);
+
 #ifdef __cplusplus
 }
 #endif

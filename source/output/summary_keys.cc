@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/damage_index.h>
 #include <tread/output/quality.h>
 #include <tread/output/summary_keys.h>
 
@@ -78,11 +79,6 @@ namespace tread
     /// What rolling does to the steel.
     const Keys of_damage{
       {"t_gamma_N", "Frictional power over the rolling speed: T-gamma, spin included"},
-      {"surface_fatigue_index",
-       "Friction used less what the shakedown map allows, 2 pi a b k / (3 N), with Hertz's semi-axes under "
-       "the "
-       "normal force (of a wheelset in a position the extents of the patch that is worst) and 'Damage/Shear "
-       "strength (MPa)'"},
       {"max_flash_temperature_K",
        "Largest rise of temperature by the heat of friction, of rail and wheels, in all steps"},
       {"wear_volume_m3", "Volume that the rail has lost by 'Damage/Wear law', in all passages; in each the "
@@ -326,7 +322,7 @@ namespace tread
 
     Keys all_keys()
     {
-      Keys wheel, further_wheels, quality;
+      Keys wheel, further_wheels, quality, indices;
       for (const WheelKey &key : of_wheel)
         {
           wheel.emplace_back(key.name, key.about + key.of_first);
@@ -334,9 +330,12 @@ namespace tread
         }
       for (const Column<Quality> &column : quality_columns())
         quality.emplace_back(heading(column), column.about);
+      for (const DamageIndexEntry &index : damage_indices())
+        indices.emplace_back(index.key, index.about);
       Keys all;
-      for (const Keys &keys : {scene, wheel, first_wheel, comparison, quality, impacts, cost, further_wheels,
-                               recorded, of_damage, of_profile_wear, peaks(), half_space, further_keys()})
+      for (const Keys &keys :
+           {scene, wheel, first_wheel, comparison, quality, impacts, cost, further_wheels, recorded,
+            of_damage, indices, of_profile_wear, peaks(), half_space, further_keys()})
         all.insert(all.end(), keys.begin(), keys.end());
       return all;
     }

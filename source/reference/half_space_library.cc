@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/half_space.h>
 #include <tread/reference/all_cores.h>
+#include <tread/reference/fatigue.h>
 #include <tread/reference/hertz.h>
 #include <tread/reference/planar_contact.h>
+#include <tread/reference/t_gamma.h>
 #include <tread/reference/uneven_way.h>
 
 #include "require.h"
@@ -377,6 +379,23 @@ namespace
       if (to)
         std::copy(from->begin(), from->end(), to);
   }
+
+  tread_half_space_damage damage_of(const tread_half_space_case   &problem,
+                                    const tread_half_space_answer &answer,
+                                    const double                   shear_strength)
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (answer.status != TREAD_HALF_SPACE_SOLVED)
+      return {nan, nan, nan, nan, nan};
+    const double friction_used =
+      std::hypot(answer.longitudinal_force, answer.lateral_force) / problem.normal_force;
+    const double t_gamma_per_area = answer.frictional_work / answer.area;
+    const bool   is_known         = shear_strength > 0.;
+    return {friction_used, is_known ? answer.max_pressure / shear_strength : nan,
+            is_known ? surface_fatigue_index(friction_used, answer.area, shear_strength, problem.normal_force)
+                     : nan,
+            t_gamma_per_area, regimes_of_r8t_on_900a.rate(t_gamma_per_area)};
+  }
 } // namespace
 
 
@@ -453,5 +472,15 @@ extern "C"
       };
     });
     return failed;
+  }
+
+  void tread_half_space_damage_of(const tread_half_space_case   *problems,
+                                  const tread_half_space_answer *answers,
+                                  const size_t                   n,
+                                  const double                  *shear_strength,
+                                  tread_half_space_damage       *damages)
+  {
+    for (size_t k = 0; k < n; ++k)
+      damages[k] = damage_of(problems[k], answers[k], shear_strength ? shear_strength[k] : 0.);
   }
 }

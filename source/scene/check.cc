@@ -32,6 +32,7 @@ namespace tread
   void Scene::check(const SceneUse use) const
   {
     wear_law(); // which says what is wrong with its numbers
+    indices_of_damage();
     if (is_positioned())
       return check_wheelset();
     require(guidance.kind == Guidance::rigid,
@@ -660,6 +661,16 @@ namespace tread
       {
         throw InputError(error.what());
       }
+  }
+
+
+  std::vector<std::shared_ptr<const DamageIndex>> Scene::indices_of_damage() const
+  {
+    const Section                                   section(handler, "Damage");
+    std::vector<std::shared_ptr<const DamageIndex>> indices;
+    for (const DamageIndexEntry &entry : damage_indices())
+      indices.push_back(entry.make(handler));
+    return indices;
   }
 
 

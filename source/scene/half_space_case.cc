@@ -244,6 +244,22 @@ namespace tread
   }
 
 
+  void summarise_damage(Summary &summary, const Scene &scene, const std::vector<DamageIndex::Load> &loads)
+  {
+    const auto indices = scene.indices_of_damage();
+    for (std::size_t k = 0; k < indices.size(); ++k)
+      {
+        std::optional<double> worst;
+        for (const DamageIndex::Load &load : loads)
+          if (indices[k] && load.normal_force > 0.)
+            if (const std::optional<double> value = indices[k]->value(load))
+              worst = std::max(worst.value_or(*value), *value);
+        if (worst)
+          summary.set(damage_indices()[k].key, *worst);
+      }
+  }
+
+
   void summarise(Summary             &summary,
                  const Scene         &scene,
                  const std::string   &method,
@@ -287,10 +303,10 @@ namespace tread
     summary.show("max_slip_m_per_s", "maximum micro-slip, m/s", 1., patch.max_slip);
     summary.show("frictional_power_W", "frictional power, W", 1., patch.frictional_power);
     summary.set("t_gamma_N", patch.frictional_power / scene.motion.speed);
-    if (const double strength = scene.shear_strength(); strength > 0. && normal > 0.)
-      summary.set("surface_fatigue_index", reference::surface_fatigue_index(
-                                             std::hypot(answer.force[0], answer.force[1]) / normal,
-                                             ellipse.semi_axis_x, ellipse.semi_axis_y, strength, normal));
+    summarise_damage(
+      summary, scene,
+      {{normal, std::hypot(answer.force[0], answer.force[1]), ellipse.area, patch.area, patch.max_pressure,
+        patch.frictional_power / scene.motion.speed, scene.shear_strength()}});
   }
 
 

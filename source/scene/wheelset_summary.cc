@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
-#include <tread/reference/fatigue.h>
+#include <tread/scene/half_space_case.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 
@@ -165,6 +165,22 @@ namespace tread
   } // namespace
 
 
+  namespace
+  {
+    DamageIndex::Load load_of(const WheelPatch &patch, const Scene &scene)
+    {
+      const reference::PlanarResult &s = patch.solution;
+      return {s.normal_force,
+              std::hypot(s.longitudinal_force, s.lateral_force),
+              0.25 * dealii::numbers::PI * (s.x_end - s.x_begin) * (s.y_end - s.y_begin),
+              s.area,
+              s.max_pressure,
+              s.frictional_power / scene.motion.speed,
+              scene.shear_strength()};
+    }
+  } // namespace
+
+
   std::string table_of_patches(const std::vector<WheelPatch> &patches,
                                const double                   rail_y,
                                const std::vector<WheelPatch> &references)
@@ -198,15 +214,24 @@ namespace tread
   }
 
 
-  nlohmann::ordered_json patches_as_json(const std::vector<WheelPatch> &patches, const double rail_y)
+  nlohmann::ordered_json patches_as_json(const std::vector<WheelPatch> &patches,
+                                         const double                   rail_y,
+                                         const Scene                   &scene)
   {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const auto             indices = scene.indices_of_damage();
+    nlohmann::ordered_json list    = nlohmann::ordered_json::array();
     for (const WheelPatch &patch : patches)
       {
         nlohmann::ordered_json entry;
         entry["wheel"] = patch.is_of_other_wheel ? "other" : "own";
         for (const Figure &figure : figures_of_patch(rail_y))
           entry[figure.key] = figure.value(patch);
+        const DamageIndex::Load load = load_of(patch, scene);
+        entry["t_gamma_N"]           = load.t_gamma;
+        for (std::size_t k = 0; k < indices.size(); ++k)
+          if (indices[k] && load.normal_force > 0.)
+            if (const std::optional<double> value = indices[k]->value(load))
+              entry[damage_indices()[k].key] = *value;
         list.push_back(entry);
       }
     return list;
@@ -218,6 +243,9 @@ namespace tread
     std::vector<TableDescription::Line> keys{{"wheel", "", "own or other"}};
     for (const Figure &figure : figures_of_patch(0.))
       keys.push_back({figure.key, unit_of_heading(figure.key), figure.about});
+    keys.push_back({"t_gamma_N", "N", "Frictional power of the patch over the rolling speed"});
+    for (const DamageIndexEntry &index : damage_indices())
+      keys.push_back({index.key, unit_of_heading(index.key), index.about});
     return keys;
   }
 
@@ -291,17 +319,9 @@ namespace tread
     summary.set("max_shear_Pa", shear);
     summary.set("max_slip_m_per_s", slip);
     summary.set("t_gamma_N", frictional_power(contact) / scene.motion.speed);
-    const double strength = scene.shear_strength();
-    if (!(strength > 0.))
-      return;
-    double index = -1e300;
+    std::vector<DamageIndex::Load> loads;
     for (const WheelPatch &patch : contact.patches)
-      if (const reference::PlanarResult &s = patch.solution; s.normal_force > 0.)
-        index = std::max(index, reference::surface_fatigue_index(
-                                  std::hypot(s.longitudinal_force, s.lateral_force) / s.normal_force,
-                                  0.5 * (s.x_end - s.x_begin), 0.5 * (s.y_end - s.y_begin), strength,
-                                  s.normal_force));
-    if (index > -1e300)
-      summary.set("surface_fatigue_index", index);
+      loads.push_back(load_of(patch, scene));
+    summarise_damage(summary, scene, loads);
   }
 } // namespace tread

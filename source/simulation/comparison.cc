@@ -149,7 +149,7 @@ namespace tread
                          run.completed);
       summary.set("free_rolling_creepage", wheel.free_creepage);
       const double rail_y = half_space_wheel.surfaces.rail_origin_y();
-      summary.set("patches", patches_as_json(computed.patches, rail_y));
+      summary.set("patches", patches_as_json(computed.patches, rail_y, scene));
       if (!model.wheelset.problem().empty())
         {
           summary.show("normal_force_N", "vertical force, kN", 1e-3, force[2]);
@@ -168,7 +168,7 @@ namespace tread
                       half_space[1], negligible);
       summary.compare("frictional_power_W", "frictional power, W", 1., frictional_power(computed),
                       "half-space", frictional_power(half_space_wheel.contact));
-      summary.set("half_space_patches", patches_as_json(half_space_wheel.patches(), rail_y));
+      summary.set("half_space_patches", patches_as_json(half_space_wheel.patches(), rail_y, scene));
       std::string text = table_of_patches(computed.patches, rail_y, half_space_wheel.patches()) + "\n";
       for (const std::string &limit : limits_of_half_space(half_space_wheel.patches()))
         text += "half-space: " + limit + "\n";

@@ -8,7 +8,6 @@
 #include <tread/tools/batch_files.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -35,22 +34,26 @@ namespace tread
                                             {"spin_per_m", &tread_half_space_case::spin, true},
                                             {"element_x_m", &tread_half_space_case::element_x, false},
                                             {"element_y_m", &tread_half_space_case::element_y, false}};
-    constexpr const char *order_column   = "slip_order";
+    constexpr const char *order_column = "slip_order", *strength_column = "shear_strength_Pa";
     const std::string answer_columns = ",longitudinal_force_N,lateral_force_N,spin_moment_Nm,max_pressure_Pa,"
                                        "adhesion_share,iterations,area_m2,"
-                                       "approach_m,frictional_work_J_per_m,status,";
+                                       "approach_m,frictional_work_J_per_m,status,friction_used,"
+                                       "t_gamma_per_area_Pa,regime_wear_rate_kg_per_m3,";
+    /// Those that need the yield stress in shear.
+    const std::string strength_columns = "shakedown_load_factor,surface_fatigue_index,";
 
-    std::vector<tread_half_space_case> read_cases(const std::string &file,
-                                                  std::string       &not_read,
-                                                  TableGrammar      &grammar)
+    std::vector<tread_half_space_case> read_cases(const std::string   &file,
+                                                  std::string         &not_read,
+                                                  TableGrammar        &grammar,
+                                                  std::vector<double> &strengths)
     {
       const CsvTable table(
         file,
         [&](const std::string &name) {
-          const bool known =
-            name == order_column || std::any_of(std::begin(case_columns), std::end(case_columns),
-                                                [&](const CaseColumn &c) { return c.name == name; });
-          if (answer_columns.find("," + name + ",") != std::string::npos)
+          const bool known = name == order_column || name == strength_column ||
+                             std::any_of(std::begin(case_columns), std::end(case_columns),
+                                         [&](const CaseColumn &c) { return c.name == name; });
+          if ((answer_columns + strength_columns).find("," + name + ",") != std::string::npos)
             throw InputError("'" + file + "' has a column '" + name + "', which is one of the answers");
           if (!known)
             not_read += (not_read.empty() ? "" : ", ") + name;
@@ -65,6 +68,12 @@ namespace tread
         if (c.required || table.has(c.name))
           for (std::size_t row = 0; row < cases.size(); ++row)
             cases[row].*c.value = table.column_as_it_is(c.name)[row]; // nan is refused with its row alone
+      if (table.has(strength_column))
+        strengths = table.column(strength_column);
+      for (std::size_t row = 0; row < strengths.size(); ++row)
+        if (!(strengths[row] > 0.))
+          throw InputError("'" + file + "', row " + std::to_string(row + 1) + ": '" + strength_column +
+                           "' must be above 0");
       for (std::size_t row = 0; row < cases.size(); ++row)
         {
           const double order = table.has(order_column)     ? table.column(order_column)[row]
@@ -82,7 +91,9 @@ namespace tread
     void write_answers(const std::string                          &cases,
                        std::ostream                               &file,
                        const TableGrammar                         &grammar,
-                       const std::vector<tread_half_space_answer> &answers)
+                       const std::vector<tread_half_space_answer> &answers,
+                       const std::vector<tread_half_space_damage> &damages,
+                       const bool                                  has_strengths)
     {
       const std::vector<NumberedLine> lines = csv_lines(cases);
       // Our own columns have commas and points.
@@ -103,22 +114,26 @@ namespace tread
           line.pop_back();
         return line;
       };
-      file << row_of(lines.front().text) << in_grammar(answer_columns.substr(0, answer_columns.size() - 1))
-           << '\n';
+      const std::string headings = answer_columns + (has_strengths ? strength_columns : "");
+      file << row_of(lines.front().text) << in_grammar(headings.substr(0, headings.size() - 1)) << '\n';
       std::size_t at = 0;
-      for (const tread_half_space_answer &a : answers)
+      for (std::size_t k = 0; k < answers.size(); ++k)
         {
-          std::string line;
+          const tread_half_space_answer &a = answers[k];
+          const tread_half_space_damage &d = damages[k];
+          std::string                    line;
           do
             {
               ++at;
               line = row_of(lines[at].text.substr(0, lines[at].text.find('#')));
             }
           while (line.empty());
-          char text[300];
-          std::snprintf(text, sizeof(text), ",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d",
-                        a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure,
-                        a.adhesion_share, a.iterations, a.area, a.approach, a.frictional_work, a.status);
+          std::string text = format(",%.9g,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g",
+                                    a.longitudinal_force, a.lateral_force, a.spin_moment, a.max_pressure,
+                                    a.adhesion_share, a.iterations, a.area, a.approach, a.frictional_work,
+                                    a.status, d.friction_used, d.t_gamma_per_area, d.regime_wear_rate);
+          if (has_strengths)
+            text += format(",%.9g,%.9g", d.shakedown_load_factor, d.surface_fatigue_index);
           file << line << in_grammar(text) << '\n';
         }
     }
@@ -134,13 +149,19 @@ namespace tread
     Progress                                 progress(true);
     std::string                              not_read;
     TableGrammar                             grammar;
-    const std::vector<tread_half_space_case> problems = read_cases(cases, not_read, grammar);
+    std::vector<double>                      strengths; // none, or one for each case
+    const std::vector<tread_half_space_case> problems = read_cases(cases, not_read, grammar, strengths);
     if (!not_read.empty())
       progress.say("note: columns that mean nothing here, kept: " + not_read);
     std::vector<tread_half_space_answer> answers(problems.size());
     const std::size_t                    failed =
       tread_half_space_solve_all(problems.data(), problems.size(), 0, answers.data());
-    write_answer_table(output, [&](std::ostream &file) { write_answers(cases, file, grammar, answers); });
+    std::vector<tread_half_space_damage> damages(problems.size());
+    tread_half_space_damage_of(problems.data(), answers.data(), problems.size(),
+                               strengths.empty() ? nullptr : strengths.data(), damages.data());
+    write_answer_table(output, [&](std::ostream &file) {
+      write_answers(cases, file, grammar, answers, damages, !strengths.empty());
+    });
     progress.say(
       format("%zu cases in %.2f s. Results in %s", problems.size(), progress.seconds(), output.c_str()));
     if (failed > 0)

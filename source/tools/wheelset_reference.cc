@@ -40,7 +40,7 @@ namespace tread
     summary.show("lateral_force_N", "lateral force in the track, kN", 1e-3, contact.force[1]);
     summary.show("frictional_power_W", "frictional power, W", 1., frictional_power(contact));
     summary.set("solutions", contact.turns);
-    summary.set("patches", patches_as_json(contact.patches, rail_y));
+    summary.set("patches", patches_as_json(contact.patches, rail_y, scene));
     profiles.summarise(summary);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));

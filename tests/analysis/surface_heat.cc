@@ -2,6 +2,9 @@
 // Heat that flows into a half-space, and the laws of wear, against closed forms.
 #include <tread/analysis/archard_map_wear.h>
 #include <tread/analysis/archard_wear.h>
+#include <tread/analysis/damage_index.h>
+#include <tread/analysis/regime_wear_rate.h>
+#include <tread/analysis/t_gamma_damage.h>
 #include <tread/analysis/work_wear.h>
 #include <tread/reference/fatigue.h>
 #include <tread/reference/surface_heat.h>
@@ -121,14 +124,70 @@ namespace
   void fatigue(tests::Check &check)
   {
     // 0.3 - 2 pi 6 8 200 / (3 100000) of N and mm
-    check.relative("surface fatigue index", reference::surface_fatigue_index(0.3, 6e-3, 8e-3, 200e6, 1e5),
+    check.relative("surface fatigue index",
+                   reference::surface_fatigue_index(0.3, pi * 6e-3 * 8e-3, 200e6, 1e5),
                    0.3 - 2. * pi * 6. * 8. * 200. / 3e5, 1e-12);
     // It is 0 where the mean shear stress of sliding at full friction, 1.5 times it in the middle, is the
     // strength.
     const double a = 5e-3, b = 7e-3, strength = 300e6, force = 9e4;
     const double friction = strength / (1.5 * force / (pi * a * b));
     check.absolute("nought where friction reaches the strength in the middle of a sliding patch",
-                   reference::surface_fatigue_index(friction, a, b, strength, force), 0., 1e-12);
+                   reference::surface_fatigue_index(friction, pi * a * b, strength, force), 0., 1e-12);
+  }
+
+  void indices(tests::Check &check)
+  {
+    // N and mm: 100 kN, 25 kN, an ellipse of 150 mm2, 140 mm2 in contact, 1000 MPa, T-gamma 700 N, k 250 MPa.
+    const DamageIndex::Load load{100e3, 25e3, 150e-6, 140e-6, 1000e6, 700., 250e6};
+    DamageIndex::Load       unknown = load;
+    unknown.shear_strength          = 0.;
+    dealii::ParameterHandler section;
+    declare_damage_indices(section);
+    section.set("Function T-gammas (N)", "15, 65, 175");
+    section.set("Function damages", "0, 10, 0");
+    const double wanted[] = {0.25, 4., 0.25 - 2. * 150. * 250. / (3. * 100e3), 5e6, 26.5e-3, 0.};
+    unsigned int k        = 0;
+    for (const DamageIndexEntry &entry : damage_indices())
+      {
+        const auto index = entry.make(section);
+        check.absolute(entry.key, index->value(load).value() / std::max(wanted[k], 1e-3),
+                       wanted[k] / std::max(wanted[k], 1e-3), 1e-12);
+        check.that(entry.key + " is there without a yield stress if it does not need it",
+                   index->value(unknown).has_value() == (k != 1 && k != 2));
+        ++k;
+      }
+    // Each regime goes on from where the one before ends.
+    const auto rate = [](const double t_gamma_per_area) {
+      return reference::regimes_of_r8t_on_900a.rate(1e6 * t_gamma_per_area) * 1e3; // of ug/(m mm2)
+    };
+    check.relative("mild wear, ug per m and mm2", rate(2.), 10.6, 1e-12);
+    check.relative("up to the border", rate(10.4 - 1e-9), 55.12, 1e-9);
+    check.relative("severe wear stays", rate(50.), 55.12, 1e-12);
+    check.relative("catastrophic wear", rate(80.), 55.12 + 61.9 * 2.8, 1e-12);
+    check.relative("goes on from the border", rate(77.2 + 1e-9), 55.12, 1e-8);
+
+    const TGammaDamage damage({15., 65., 175.}, {0., 10., -5.});
+    const auto         of = [&](const double t_gamma) {
+      DamageIndex::Load with = load;
+      with.t_gamma           = t_gamma;
+      return damage.value(with).value();
+    };
+    check.absolute("below the first point", of(3.), 0., 1e-12);
+    check.absolute("between points", of(40.), 5., 1e-12);
+    check.absolute("at a point", of(65.), 10., 1e-12);
+    check.absolute("where it falls", of(120.), 2.5, 1e-12);
+    check.absolute("behind the last point", of(500.), -5., 1e-12);
+    check.that("points that fall are refused", tests::complaint<InputError>([] {
+                                                 TGammaDamage({15., 15.}, {0., 1.});
+                                               }).find("must rise") != std::string::npos);
+    check.that("numbers that do not match are refused",
+               tests::complaint<InputError>([] {
+                 TGammaDamage({15., 65.}, {0.});
+               }) == "'Damage/Function T-gammas (N)' has 2 numbers, 'Function damages' has 1");
+    section.set("Regime borders (N per mm2)", "77, 10");
+    check.that("borders of regimes that fall are refused", tests::complaint<InputError>([&] {
+                                                             RegimeWearRate::make(section);
+                                                           }).find("must rise") != std::string::npos);
   }
 } // namespace
 
@@ -140,4 +199,5 @@ void run_test(tests::Check &check, const tests::Arguments &)
   ellipse(check);
   wear(check);
   fatigue(check);
+  indices(check);
 }

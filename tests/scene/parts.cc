@@ -1192,7 +1192,7 @@ namespace
     patches[0].region.reference  = {{1e-3, 746e-3, -0.2e-3}};
     patches[1].region.reference  = {{2e-3, -746e-3, -0.3e-3}};
     patches[1].is_of_other_wheel = true;
-    const auto figures           = patches_as_json(patches, 750e-3);
+    const auto figures           = patches_as_json(patches, 750e-3, *scene_of(block));
     for (unsigned int i = 0; i < 2; ++i)
       {
         const std::string name = i == 0 ? "patch of the own wheel: " : "patch of the other wheel: ";

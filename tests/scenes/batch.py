@@ -57,6 +57,16 @@ with tempfile.TemporaryDirectory() as folder:
         ("adhesion_share", "adhesion_share"), ("iterations", "iterations"), ("area_m2", "area"), ("approach_m", "approach"),
         ("frictional_work_J_per_m", "frictional_work"), ("status", "status"))))
 
+    # Indices of damage, from the answers in their own row and from the library.
+    load = FORCE if np.isscalar(FORCE) else cases["normal_force"]
+    used = np.hypot(out["longitudinal_force_N"], out["lateral_force_N"]) / load
+    check.below("friction used", np.abs(out["friction_used"] - used).max(), 1e-8)
+    check.below("T-gamma over area, Pa", np.abs(out["t_gamma_per_area_Pa"] / np.maximum(out["frictional_work_J_per_m"] / out["area_m2"], 1.) - 1.)[out["frictional_work_J_per_m"] > 1e-3].max(), 1e-7)
+    indices = half_space.damage(answers, normal_force=load, shear_strength=300e6)
+    check.that("those that need a yield stress are not there without it", "surface_fatigue_index" not in out)
+    check.that("the library's are those of the batch", np.allclose(out["friction_used"], indices["friction_used"], rtol=1e-7, atol=1e-9)
+               and np.allclose(out["regime_wear_rate_kg_per_m3"], indices["regime_wear_rate"], rtol=1e-7, atol=1e-12))
+
     def refused(name, result, code, words):
         said = result.stderr.strip().splitlines()
         check.that(f"{name}: one line", result.returncode == code and len(said) == 1 and all(word in said[0] for word in words))
@@ -67,6 +77,12 @@ with tempfile.TemporaryDirectory() as folder:
     out = read_table(path("out.csv"), text=("name",))
     check.that("its row has nan and a status", np.isnan(out["lateral_force_N"][1]) and list(out["status"]) == [0, 1, 0])
     # Elements of their own size: the patch grows with softness.
+    strong = batch({**one, "shear_strength_Pa": np.array([250e6, 300e6, 350e6])}, "strong.csv")
+    out = read_table(path("strong.csv"), text=("name",))
+    check.that("p0/k and the surface fatigue index of each row", strong.returncode == 0
+               and np.allclose(out["shakedown_load_factor"], out["max_pressure_Pa"] / out["shear_strength_Pa"], rtol=1e-7)
+               and np.allclose(out["surface_fatigue_index"], out["friction_used"] - 2. * out["area_m2"] * out["shear_strength_Pa"] / (3. * out["normal_force_N"]), atol=1e-8))
+    refused("a strength of nought", batch({**one, "shear_strength_Pa": np.array([250e6, 0., 350e6])}), 1, ["row 2", "'shear_strength_Pa'"])
     refused("Young's modulus in another unit", batch({**{name: values for name, values in one.items() if not name.startswith("element")},
                                                       "young_Pa": one["young_Pa"] * [1., 1e-9, 1.]}), 2, ["1 of 3 cases", "row 2", "young", "the gap rises by"])
     refused("a missing column", batch({name: values for name, values in one.items() if name != "friction"}), 1, ["'friction'"])

@@ -45,6 +45,13 @@ with tempfile.TemporaryDirectory() as folder:
                    summary["traction_coefficient"] - 2 * math.pi * summary["reference"]["semi_axis_x_m"]["Hertz"]["value"]
                    * summary["reference"]["semi_axis_y_m"]["Hertz"]["value"] * 300e6 / (3 * summary["normal_force_N"]), 1e-4)
 
+    check.relative("friction used", summary["friction_used"], math.hypot(summary["longitudinal_force_N"], summary["lateral_force_N"]) / summary["normal_force_N"], 1e-6)
+    check.relative("p0/k", summary["shakedown_load_factor"], summary["max_pressure_Pa"] / 300e6, 1e-6)
+    check.relative("T-gamma over area, Pa", summary["t_gamma_per_area_Pa"], summary["t_gamma_N"] / summary["patch_area_m2"], 1e-6)
+    # Severe wear of a wheel of R8T on a rail of 900A, 55.12 ug per m and mm2, where T-gamma over area is between 10.4 and 77.2 N/mm2.
+    check.relative("wear rate, kg/m3", summary["regime_wear_rate_kg_per_m3"], min(5.3e-9 * summary["t_gamma_per_area_Pa"], 55.12e-3), 1e-6)
+    check.that("no function of damage was given", "t_gamma_damage" not in summary)
+
     # Rows across the path where rolling is steady, beside the half-space's: its element rows over the speed.
     at = np.unique(rail["x_mm"])
     middle = at[np.argmin(np.abs(at + 13.))]
@@ -135,7 +142,18 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("flash temperature of the rail, K", columns(path("hot line"), RAIL)["max_flash_temperature_K"].max(), 152.47, 4e-3)
     check.relative("and of the wheel, K", columns(path("hot line"), WHEEL)["max_flash_temperature_K"].max(), 149.99, 4e-3)
     check.relative("work on a metre of way, J", integral(line, "friction_work_J_per_m2"), read_summary(path("line"))["t_gamma_N"], 5e-3) # which is extrapolated to small elements
-    wheelset = run(program, "curves/two-patches.prm", path("wheelset"), ["Damage/Record=true"], more=["--reference-only"])
+    wheelset = run(program, "curves/two-patches.prm", path("wheelset"), ["Damage/Record=true", "Damage/Shear strength (MPa)=300", "Damage/Function T-gammas (N)=0, 10000", "Damage/Function damages=0, 1"],
+                   more=["--reference-only"])
+    patches = wheelset["patches"]
+    check.relative("T-gamma is the sum over the patches, N", wheelset["t_gamma_N"], sum(patch["t_gamma_N"] for patch in patches), 1e-9)
+    for patch in patches:
+        used, area = math.hypot(patch["longitudinal_force_N"], patch["lateral_force_N"]) / patch["normal_force_N"], math.pi / 4 * patch["length_m"] * patch["width_m"]
+        for key, wanted in (("t_gamma_N", patch["frictional_power_W"] / (wheelset["frictional_power_W"] / wheelset["t_gamma_N"])), ("friction_used", used), ("shakedown_load_factor", patch["max_pressure_Pa"] / 300e6),
+                            ("surface_fatigue_index", used - 2 * area * 300e6 / (3 * patch["normal_force_N"])), ("t_gamma_per_area_Pa", patch["t_gamma_N"] / patch["area_m2"]),
+                            ("t_gamma_damage", patch["t_gamma_N"] / 10000)):
+            check.relative(f"patch at y = {1e3 * patch['y_rail_m']:.1f} mm: {key}", patch[key], wanted, 1e-6)
+    for key in ("friction_used", "shakedown_load_factor", "surface_fatigue_index", "t_gamma_per_area_Pa", "regime_wear_rate_kg_per_m3", "t_gamma_damage"):
+        check.relative(f"of the worst patch: {key}", wheelset[key], max(patch[key] for patch in patches), 1e-12)
     for name in (RAIL, WHEEL):
         passed = columns(path("wheelset"), name)
         # A place of the wheel is passed as often as its surface is faster: more by the creepage of its patch.

@@ -39,6 +39,8 @@ _CASE = np.dtype([(name, float) for name in _NUMBERS] + [
 _ANSWER = np.dtype([("status", np.intc), ("iterations", np.intc)] + [(name, float) for name in (
     "longitudinal_force", "lateral_force", "spin_moment", "max_pressure", "adhesion_share", "area", "approach", "frictional_work")],
     align=True)
+_DAMAGE = np.dtype([(name, float) for name in ("friction_used", "shakedown_load_factor", "surface_fatigue_index", "t_gamma_per_area",
+                                               "regime_wear_rate")], align=True)
 _WAY = np.dtype([("n", np.uintp), ("heights", np.uintp), ("normal_force", np.uintp), ("creepage", np.uintp)], align=True)
 _GRID = np.dtype([("n_x", np.uintc), ("n_y", np.uintc)] + [(name, float) for name in ("element_x", "element_y", "x_first", "y_first")],
                  align=True)
@@ -72,6 +74,8 @@ def _library() -> ctypes.CDLL:
     library.tread_half_space_destroy.argtypes = [pointer]
     library.tread_half_space_solve.argtypes = [pointer] * 3
     library.tread_half_space_roll.argtypes = [pointer] * 6
+    library.tread_half_space_damage_of.argtypes = [pointer, pointer, ctypes.c_size_t, pointer, pointer]
+    library.tread_half_space_damage_of.restype = None
     library.tread_half_space_message.argtypes = [pointer]
     library.tread_half_space_message.restype = ctypes.c_char_p
     library.tread_half_space_get_grid.argtypes = [pointer] * 2
@@ -133,6 +137,29 @@ def solve(*, slip_order: ArrayLike = 2, contact_sixth: bool = False, threads: in
         with _Solver() as solver:
             solver.solve(cases[first:first + 1], f"{failed} of {len(cases)} cases were not solved; the first is number {first}: ")
     return {name: answers[name].reshape(shape) for name in _ANSWER.names}
+
+
+def damage(answers: Mapping[str, ArrayLike], *, normal_force: ArrayLike, shear_strength: ArrayLike = 0.) -> dict[str, np.ndarray]:
+    """What the patches of solved cases do to the surfaces: indices of doc/damage.md.
+
+    answers         of solve(), for these cases
+    normal_force    theirs, N
+    shear_strength  yield stress in shear k, Pa; 0: not known, the two indices that need it are nan
+
+    Returns {name: array}: friction_used (tangential over normal force), shakedown_load_factor (p0/k), surface_fatigue_index,
+    t_gamma_per_area (Pa), regime_wear_rate (kg/m^3, of a wheel of R8T on a rail of 900A). Cases that were not solved have nan.
+    """
+    forces, strengths, *_ = np.broadcast_arrays(np.asarray(normal_force, dtype=float), np.asarray(shear_strength, dtype=float),
+                                                np.asarray(answers["status"]))
+    if not (forces > 0.).all() or not (strengths >= 0.).all():
+        raise TypeError("normal_force must be above 0, shear_strength no less than 0")
+    solved, cases, damages = np.zeros(forces.shape, _ANSWER), np.zeros(forces.shape, _CASE), np.zeros(forces.shape, _DAMAGE)
+    for name in _ANSWER.names:
+        solved[name] = answers[name]
+    cases["normal_force"] = forces
+    strengths = np.ascontiguousarray(strengths)
+    _library().tread_half_space_damage_of(cases.ctypes.data, solved.ctypes.data, cases.size, strengths.ctypes.data, damages.ctypes.data)
+    return {name: damages[name] for name in _DAMAGE.names}
 
 
 class _Solver:

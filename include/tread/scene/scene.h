@@ -196,6 +196,9 @@ namespace tread
     {
       return damage.shear_strength > 0. ? damage.shear_strength : rail.material.yield_stress / std::sqrt(3.);
     }
+    /// Indices of damage with their parameters, in the order of damage_indices(); null: not asked for.
+    /// @throws InputError
+    std::vector<std::shared_ptr<const DamageIndex>> indices_of_damage() const;
     /// What surfaces lose, with its parameters; null: nothing.
     std::shared_ptr<const WearLaw> wear_law() const;
 

@@ -21,8 +21,10 @@ namespace tread
                                const double                   rail_y,
                                const std::vector<WheelPatch> &references = {});
 
-  /// The figures of each patch by their names in summary.json.
-  nlohmann::ordered_json patches_as_json(const std::vector<WheelPatch> &patches, const double rail_y);
+  /// The figures of each patch by their names in summary.json, indices of damage among them.
+  nlohmann::ordered_json patches_as_json(const std::vector<WheelPatch> &patches,
+                                         const double                   rail_y,
+                                         const Scene                   &scene);
 
   /// These names with units and meanings.
   std::vector<TableDescription::Line> keys_of_patch();

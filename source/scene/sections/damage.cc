@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/damage_index.h>
 #include <tread/analysis/wear_law.h>
 #include <tread/scene/sections/damage.h>
 
@@ -35,9 +36,9 @@ namespace tread
       "Surfaces of unlike temperature take one between in the patch at once, by their effusivities.",
       Double(-100., 1000.));
     section.add("Shear strength (MPa)", shear_strength,
-                "Yield stress in shear of the rail, for the surface fatigue index. 0: 'Rail/Yield stress "
-                "(MPa)' over the "
-                "root of 3 where that is given, else there is no index.",
+                "Yield stress in shear of the rail, for the surface fatigue index and the shakedown map. 0: "
+                "'Rail/Yield stress (MPa)' over the root of 3 where that is given, else there are none.",
                 Double(0., 1e5));
+    declare_damage_indices(handler);
   }
 } // namespace tread

@@ -37,7 +37,7 @@ KNOWN: list[tuple[str, str, str]] = [
     ("contact_points.csv", "height_mm|o(wn|ther)_x_mm", "hardly changes from row to row: one that lies a row late is not noticed"),
     ("contact_way.csv", ".*", "compared by tests/scenes/slices.py"),
     ("(rail|wheel)_surface_damage.csv", ".*", "compared by tests/scenes/damage.py"),
-    ("summary.json", "max_flash_temperature_K|wear_volume_m3|surface_fatigue_index|t_gamma_N", "compared by tests/scenes/damage.py"),
+    ("summary.json", "max_flash_temperature_K|wear_volume_m3|surface_fatigue_index|t_gamma_.*|friction_used|shakedown_load_factor|regime_wear_rate_kg_per_m3", "compared by tests/scenes/damage.py"),
     ("wear_(steps|patches).csv|(rail|wheel)_wear.csv", ".*", "compared by tests/scenes/profile_wear.py"),
     ("summary.json", "(rail|wheel)_(wear_.*|friction_work_J_per_m)|contacts|wear_steps.*|rail_passages|wheel_turns|max_pressure_at_start_Pa", "compared by tests/scenes/profile_wear.py"),
     ("summary.json", "passages_left_out|jumps|net_plastic_strain_error_estimate|passages_to_failure|net_plastic_strain_(y|depth)_m", "compared by tests/scenes/ratcheting.py"),

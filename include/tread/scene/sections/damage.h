@@ -2,6 +2,7 @@
 #ifndef tread_scene_sections_damage_h
 #define tread_scene_sections_damage_h
 
+#include <tread/analysis/damage_index.h>
 #include <tread/analysis/wear_law.h>
 #include <tread/scene/section.h>
 
