@@ -56,7 +56,7 @@ def main() -> None:
         except ProgramError as error:
             rows.append(row + [str(error)] + [""] * 4)
             continue
-        half_space = run_scene(SCENE, of_case("half-space"), settings, ranks=1, more=["--reference-only"])
+        half_space = run_scene(SCENE, of_case("half-space"), settings, ranks=1, command="reference")
         traction, wanted = (summary["longitudinal_force_N"] / summary["normal_force_N"] for summary in (own, half_space))
         summaries.append(own)
         rows.append(row + [f"{traction:.4f}", f"{wanted:.4f}", f"{100 * (traction / wanted - 1):+.2f}", f"{100 * own['slip_chatter_share']:.1f}",

@@ -57,7 +57,7 @@ def main() -> None:
     parser.add_argument("--contacts", default="8,16,24", help="rows of the table of contacts")
     arguments = parser.parse_args()
     worn = os.path.join(arguments.folder, "wear")
-    must_end_well(execute([os.path.join(ROOT, SCENE), "--wear", os.path.join(ROOT, CONTACTS), "-s", "Profile wear/States=2", "--output", worn], program=arguments.program))
+    must_end_well(execute(["wear", os.path.join(ROOT, SCENE), os.path.join(ROOT, CONTACTS), "-s", "Profile wear/States=2", "--output", worn], program=arguments.program))
     with open(os.path.join(ROOT, CONTACTS), encoding="utf-8") as stream:
         contacts = list(csv.DictReader(line for line in stream if not line.startswith("#")))
     patches = Run(worn).table("wear_patches.csv", ("state_number", "contact", "normal_force_N", "angular_velocity_rad_per_s", "patch_length_mm"))
@@ -74,7 +74,7 @@ def main() -> None:
                         "Scene/Density scale=25", "Solid/Mass damping (1 per s)=3000", "Time stepping/Levels=3", "Output/Write volume=false"]
             words = [word for setting in settings for word in ("-s", setting)]
             folder = os.path.join(arguments.folder, f"state-{state}-contact-{number}")
-            must_end_well(execute([scene, *words, "--reference-only", "--output", folder + "-half-space"], program=arguments.program))
+            must_end_well(execute(["reference", scene, *words, "--output", folder + "-half-space"], program=arguments.program))
             must_end_well(execute([scene, *words, "--output", folder], ranks=arguments.ranks, program=arguments.program))
             run = Run(folder)
             places = np.linspace(-45.0, 45.0, 3601)

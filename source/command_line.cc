@@ -293,6 +293,22 @@ namespace tread
       std::string  print_parameters; ///< how; empty: not
       std::string  wear, batch, positions;
     };
+
+    /// Words before a command belong to none. @throws InputError
+    void refuse_before_command(const CLI::App &app)
+    {
+      const std::vector<const CLI::App *> commands =
+        app.get_subcommands([](const CLI::App *command) { return command->parsed(); });
+      if (commands.empty())
+        return;
+      const std::string name = commands.front()->get_name();
+      for (const CLI::Option *option : app.get_options())
+        if (option->count() > 0 && option->get_positional())
+          throw InputError("'" + option->results().front() + "' stands before the command '" + name +
+                           "': a command comes first, tread " + name + " ...");
+        else if (option->count() > 0)
+          throw InputError(option->get_name() + " stands before the command '" + name + "': put it behind");
+    }
   } // namespace
 
 
@@ -306,12 +322,13 @@ namespace tread
     const auto help = std::make_shared<Help>();
     help->label("SUBCOMMAND", "COMMAND");
     app.formatter(help);
+    OlderForms older(app, line);
+    add_commands(app, line);
+    // The commands would take over a footer that there is before them.
     app.footer(
       "Options that did what the commands do (--reference-only, --modes, --contact-points, --wear, --batch, "
       "--positions,\n--dynamic-force, --sleeper-stress, --print-parameters, --print-columns) are "
       "still understood in this version.");
-    OlderForms older(app, line);
-    add_commands(app, line);
     // What is no option, no command and no path was meant for one of the commands.
     const std::string first = argc > 1 ? argv[1] : "";
     std::string       behind;
@@ -333,15 +350,13 @@ namespace tread
       }
     catch (const CLI::ParseError &error)
       {
+        refuse_before_command(app);
         throw InputError(std::string(error.what()) + "; tread " + behind + "--help lists all options");
       }
-    const std::vector<CLI::App *> commands = app.get_subcommands();
-    if (commands.empty())
+    if (app.get_subcommands().empty())
       older.resolve();
     else
-      for (const CLI::Option *option : app.get_options())
-        require(option->count() == 0, option->get_name() + " stands before the command '" +
-                                        commands.front()->get_name() + "': put it behind");
+      refuse_before_command(app);
     Scene::refuse_repeated(line.settings);
     return line;
   }

@@ -6,7 +6,7 @@
 
 Each RUN is a folder with the results of that scene at some speed. Simple model: the wheel is a mass under its load, the rail one that moves up and down on the
 springs and dampers of the co-running track, and between them acts the force that half-space theory gives at rest at the same place and height (tread
---positions). It knows neither the inertia of the steel nor how the rails give way below the contact. The table has the largest force of both, and how long the wheel
+positions). It knows neither the inertia of the steel nor how the rails give way below the contact. The table has the largest force of both, and how long the wheel
 is off the rail.
 """
 

@@ -72,14 +72,14 @@ def write_profiles() -> None:
             file.writelines(f"{y:.7f} {z:.7f}\n" for y, z in points)
 
 
-def free_rolling(radius: float, creepages: Sequence[float], settings: Mapping[str, object], options: Sequence[str] = (),
+def free_rolling(radius: float, creepages: Sequence[float], settings: Mapping[str, object], command: str = "run",
                  ranks: int = 2) -> tuple[float, dict]:
     """(creepage, run's summary) without longitudinal force: the secant through two runs, then a third one there, under the load that
     makes the vertical force LOAD: tractions of conformal contact carry some of it, which the start does not know."""
     def at(creepage: float, load: float = LOAD) -> dict:
         with tempfile.TemporaryDirectory() as folder:
             return run(SCENE, {**settings, "Rail/Measured head": os.path.join(ROOT, f"prm/curves/profiles/groove-{radius}.txt"), "Motion/Creepage": creepage,
-                               "Vehicle/Sprung mass (kg)": load / 9.81 - 900., "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), options=options).summary
+                               "Vehicle/Sprung mass (kg)": load / 9.81 - 900., "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), command=command).summary
     runs = [at(creepage) for creepage in creepages]
     forces = [summary["longitudinal_force_N"] for summary in runs]
     free = creepages[0] - forces[0] * (creepages[1] - creepages[0]) / (forces[1] - forces[0])
@@ -104,7 +104,7 @@ def main() -> None:
               + ("" if residual is None else f"{100 * residual:+.3f} %") + " |", flush=True)
 
     for radius, (creepages, cells) in GROOVES.items():
-        line(radius, "half-space", free_rolling(radius, creepages, {}, ["--reference-only"], 1))
+        line(radius, "half-space", free_rolling(radius, creepages, {}, "reference", 1))
         for cell in cells:
             line(radius, f"cells of {cell:g} mm", free_rolling(radius, creepages, {"Mesh/Finest cell (mm)": cell}))
         for name, changed in (("blocks half as large again", {"Wheel/Sector width (mm)": 50, "Wheel/Sector thickness (mm)": 45}),):

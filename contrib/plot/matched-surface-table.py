@@ -96,7 +96,7 @@ def main() -> None:
         if arguments.run and fnmatch.fnmatch(name, arguments.scenes):
             for kind, changes in MATCHED_SURFACE.items():
                 run_scene(scene, folders[kind], {**settings, **changes, "Output/Write volume": "false"})
-            run_scene(scene, folders["half-space"], settings, ranks=1, more=["--reference-only"])
+            run_scene(scene, folders["half-space"], settings, ranks=1, command="reference")
         if not all(is_complete(of_run) for of_run in folders.values()):
             print(f"note: no results of '{name}'")
             kept = {table: [row for row in rows_of("rolling-error.md", table) if row[0] == name] for table in ("matched", "energies")}

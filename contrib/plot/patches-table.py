@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from tread.commands import command_parser, run_command
 from tread.runs import run
@@ -22,9 +22,9 @@ BLOCKS = ((60, 120, 0.34), (60, 120, 0.24), (60, 160, 0.34), (100, 160, 0.34))
 CELLS = (1.26, 0.89, 0.63, 0.44)
 
 
-def summary_of(scene: str, settings: Mapping[str, object], ranks: int = 2, options: Sequence[str] = ()) -> dict:
+def summary_of(scene: str, settings: Mapping[str, object], ranks: int = 2, command: str = "run") -> dict:
     with tempfile.TemporaryDirectory() as folder:
-        return run(scene, {**settings, "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), options=options).summary
+        return run(scene, {**settings, "Output/Write volume": False}, ranks=ranks, output=os.path.join(folder, "run"), command=command).summary
 
 
 def two_patches() -> None:
@@ -36,7 +36,7 @@ def two_patches() -> None:
         print(f"| {name} | {' | '.join(cells)} {'| | | ' * (2 - len(cells))}| {1e-3 * summary['longitudinal_force_N']:.2f} | "
               f"{summary['frictional_power_W']:.0f} |", flush=True)
 
-    half_space = lambda distance: summary_of(TWO, {"Wheelset/Patch distance (mm)": distance}, 1, ["--reference-only"])
+    half_space = lambda distance: summary_of(TWO, {"Wheelset/Patch distance (mm)": distance}, 1, "reference")
     line("half-space, each patch alone", half_space(8))
     line("half-space, all in one plane", half_space(30))
     for depth, width, cell in BLOCKS:
@@ -55,7 +55,7 @@ def conformal() -> None:
         residual = summary.get("energy_residual_of_dissipated")
         print("|" if residual is None else f"{100 * residual:+.3f} % |", flush=True)
 
-    half_space = summary_of(CONFORMAL, {}, 1, ["--reference-only"])
+    half_space = summary_of(CONFORMAL, {}, 1, "reference")
     line("half-space", half_space, half_space["patches"][0])
     for cell in CELLS:
         summary = summary_of(CONFORMAL, {"Mesh/Finest cell (mm)": cell})

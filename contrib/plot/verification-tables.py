@@ -267,12 +267,12 @@ def run_missing(results: str, tables: Sequence[str]) -> None:
     if "locomotive" in tables:
         for creepage in LOCOMOTIVE_CREEPAGES:
             scene, settings = "verification/locomotive-0.63.prm", {"Motion/Creepage": creepage}
-            run_scene(scene, os.path.join(results, locomotive_run(creepage, "half-space")), settings, more=["--reference-only"])
+            run_scene(scene, os.path.join(results, locomotive_run(creepage, "half-space")), settings, command="reference")
             run_scene(scene, os.path.join(results, locomotive_run(creepage, "0.63")), settings)
     if "creepage-spin" in tables:
         for case, (_, settings) in enumerate(CREEPAGE_SPIN):
             scene = "verification/creepage-spin-0.63.prm"
-            run_scene(scene, os.path.join(results, creepage_spin_run(case, 0)), settings, more=["--reference-only"])
+            run_scene(scene, os.path.join(results, creepage_spin_run(case, 0)), settings, command="reference")
             for size in CREEPAGE_SPIN_CELLS:
                 run_scene(scene, os.path.join(results, creepage_spin_run(case, size)),
                           {**settings, "Mesh/Finest cell (mm)": size})

@@ -14,6 +14,7 @@ import io
 import json
 import math
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -431,7 +432,37 @@ class Runs(InFolder):
         with self.assertRaisesRegex(tread.DataError, "patch.csv: No such file"):
             run.patch
         self.assertEqual(tread.run("smooth-rolling.prm", program=self.program).folder, "somewhere")
-        self.assertEqual(tread.run("smooth-rolling.prm", program=self.program, options=["--reference-only"]).folder, "somewhere-reference")
+
+    def test_commands(self):
+        def said(scene="smooth-rolling.prm", **asked):
+            run = tread.run(scene, {"A/B": 1}, program=self.program, **asked)
+            return run.folder, [word.replace(os.path.join(ROOT, "prm") + os.sep, "") for word in run.summary["arguments"]]
+
+        words = lambda folder: ["smooth-rolling.prm", "-s", "A/B=1", "--output", folder]
+        self.assertEqual(said(command="run"), ("somewhere", words("somewhere")))
+        for command in ("reference", "modes", "contact-points"):
+            self.assertEqual(said(command=command, options=["--x", "1"]), (f"somewhere-{command}", [command, *words(f"somewhere-{command}"), "--x", "1"]))
+        # The table is looked for where scenes are.
+        self.assertEqual(said(command="wear", table="damage/contacts.csv", output="worn"),
+                         ("worn", ["wear", "smooth-rolling.prm", "damage/contacts.csv", *words("worn")[1:]]))
+        write(self.path("own.csv"), "")
+        self.assertEqual(said(command="wear", table=pathlib.Path("own.csv"))[1][:3], ["wear", "smooth-rolling.prm", "own.csv"])
+        # What was written before there were commands.
+        self.assertEqual(said(options=["--reference-only"]), ("somewhere-reference", [*words("somewhere-reference"), "--reference-only"]))
+        self.assertEqual(said(options=["--wear", "own.csv"]), ("somewhere-wear", [*words("somewhere-wear"), "--wear", "own.csv"]))
+
+    def test_commands_that_are_wrong(self):
+        for asked, message in (({"command": "roll"}, "'roll' is no command for a scene; there are run, reference, modes, contact-points, wear"),
+                               ({"command": "batch", "table": "x.csv"}, "'batch' is no command for a scene; there are run, reference, modes, contact-points, wear"),
+                               ({"command": "wear"}, "the command 'wear' needs table=, a table of contacts"),
+                               ({"command": "reference", "table": "x.csv"}, "the command 'reference' takes no table"),
+                               ({"table": "x.csv"}, "the command 'run' takes no table")):
+            for start in (lambda **asked: tread.run("smooth-rolling.prm", program=self.program, **asked),
+                          lambda **asked: tread.study("smooth-rolling.prm", {"Motion/Creepage": [1]}, output="out", program=self.program, **asked)):
+                with self.assertRaises(tread.Error) as caught:
+                    start(**asked)
+                self.assertEqual(str(caught.exception), message)
+        self.assertFalse(os.path.exists("out"))
 
     def test_a_run_that_fails(self):
         with self.assertRaises(tread.ProgramError) as caught:
@@ -444,7 +475,7 @@ class Runs(InFolder):
 
     def test_runs_that_are_kept(self):
         line = lambda arguments, ranks: [self.program, *arguments]
-        with mock.patch.object(measured_runs, "command", line), mock.patch("builtins.print"):
+        with mock.patch.object(measured_runs, "words_of", line), mock.patch("builtins.print"):
             for value in (1, 1, 2):  # once more with another setting
                 summary = measured_runs.run_scene("smooth-rolling.prm", self.path("kept"), {"A/B": value})
             with self.assertRaisesRegex(tread.ProgramError, "smooth-rolling.prm ended with 1 .'Motion/Creepage' cannot be '0.9'"):
@@ -702,7 +733,7 @@ class Studies(InFolder):
                          {f"smooth-twin_position-{x}": f"Defect/Position (mm)={x}, Defect/Shape=none, Defect/Length (mm)={l}" for x, l in (("-10", 4), ("5", 8))})
 
     def test_a_smooth_twin_that_fails_hides_no_other_figure(self):
-        """The stand-in knows no --dynamic-force: without a twin's fault that is the reason why there is no figure."""
+        """The stand-in knows no dynamic-force: without a twin's fault that is the reason why there is no figure."""
         program = write(self.path("program"), f"#!/bin/sh\ncase \"$*\" in *Shape=none*$FAILING*) echo 'tread: no edge' >&2; exit 1;; esac\nexec {self.program} \"$@\"\n", 0o755)
 
         def perform(figures, failing, *entries):
@@ -821,8 +852,16 @@ class StudiesFromPython(InFolder):
             self.assertEqual([self.calls(row) for row in rows], [2, 2])
             rows = self.vary([0.001], settings={"Output/Write volume": False}, options=["--reference-only"])
             self.assertEqual(self.calls(rows[0]), 3)
-        self.assertEqual(tread.Run("out/creepage-0.001").summary["arguments"][1:],
-                         ["-s", "Output/Write volume=false", "-s", "Motion/Creepage=0.001", "--output", "out/creepage-0.001", "--reference-only"])
+            words = ["-s", "Output/Write volume=false", "-s", "Motion/Creepage=0.001", "--output", "out/creepage-0.001"]
+            said = lambda: tread.Run("out/creepage-0.001").summary["arguments"]
+            self.assertEqual(said()[1:], [*words, "--reference-only"])
+            vary = lambda **asked: self.calls(self.vary([0.001], settings={"Output/Write volume": False}, **asked)[0])
+            self.assertEqual([vary(command="reference"), vary(command="reference"), said()[0], said()[2:]], [4, 4, "reference", words])
+            for content, calls in (("a\n1\n", 5), ("a\n1\n", 5), ("a\n2\n", 6)):  # a table is input, too
+                self.assertEqual(vary(command="wear", table=write(self.path("table.csv"), content)), calls)
+            self.assertEqual([said()[0], said()[2:]], ["wear", [self.path("table.csv"), *words]])
+            with self.assertRaisesRegex(tread.DataError, "none.csv: no such table"):
+                vary(command="wear", table="none.csv")
 
     def test_parameters_that_vary_together(self):
         with mock.patch.dict(sys.modules, {"pandas": None}):
@@ -978,7 +1017,7 @@ class TheProgram(InFolder):
         with mock.patch.dict(sys.modules, {"pandas": None}):
             for repetition in range(2):
                 rows = tread.study("smooth-rolling.prm", {"Contact/Friction coefficient": [0.35, 0.5]}, figures=["creepage", "adhesion_share"], processes=2,
-                                   output="study", options=["--reference-only"], program=REAL_PROGRAM)
+                                   output="study", command="reference", program=REAL_PROGRAM)
                 self.assertEqual([row["state"] for row in rows], ["complete"] * 2)
                 written = [os.path.getmtime(os.path.join(row["folder"], "summary.json")) for row in rows]
                 self.assertEqual(written, before if repetition else written)  # the second call takes what is there
@@ -988,8 +1027,11 @@ class TheProgram(InFolder):
         self.assertGreater(rows[1]["adhesion_share"], 1.5 * rows[0]["adhesion_share"])
 
     def test_its_own_folder_and_its_own_line(self):
-        own = tread.run("smooth-rolling.prm", {"Output/Directory": "own"}, options=["--reference-only"], program=REAL_PROGRAM)
+        own, older = (tread.run("smooth-rolling.prm", {"Output/Directory": "own"}, program=REAL_PROGRAM, **asked) for asked in ({"command": "reference"}, {"options": ["--reference-only"]}))
+        self.assertEqual(own.folder, older.folder)
         self.assertEqual(own.folder, "own-reference")
+        with self.assertRaisesRegex(tread.ProgramError, "--shift-to"):
+            tread.run("smooth-rolling.prm", {"Output/Directory": "own"}, command="reference", options=["--shift-to", "3"], program=REAL_PROGRAM)
         self.assertAlmostEqual(own.summary["traction_coefficient"], 0.3, delta=1e-4)
         for ranks in (1, 2):
             with self.assertRaises(tread.ProgramError) as caught:

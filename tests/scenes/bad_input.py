@@ -315,7 +315,7 @@ with tempfile.TemporaryDirectory() as folder:
                           ("capitals and tabs", b"SUBSECTION\tMotion\n\tSET Speed\t(km per h)  =\t77 # fast\nEND\n")):
         with open(path, "wb") as stream:
             stream.write(content)
-        read = json.loads(execute_often([path, "--print-parameters=json", "-s", "Scene/Title=read"], program).stdout)
+        read = json.loads(execute_often(["parameters", path, "--json", "-s", "Scene/Title=read"], program).stdout)
         check.that(f"a parameter file with {name} is read", read["Motion"]["Speed (km per h)"]["value"] == "77")
     # A file that includes another one sets again what that sets, and its settings may be all on the command line.
     with open(path, "w", encoding="utf-8") as stream:
@@ -323,7 +323,7 @@ with tempfile.TemporaryDirectory() as folder:
     with open(os.path.join(folder, "own.prm"), "w", encoding="utf-8") as stream:
         stream.write("include bad.prm\nsubsection Motion\n  set Speed (km per h) = 88\nend\n")
     for name, settings, speed in (("own.prm", [], "88"), ("empty.prm", ["Motion/Speed (km per h)=99"], "99")):
-        read = json.loads(execute_often([*arguments_of(os.path.join(folder, name), settings), "--print-parameters=json"], program).stdout)
+        read = json.loads(execute_often(["parameters", *arguments_of(os.path.join(folder, name), settings), "--json"], program).stdout)
         check.that(f"{name} with {settings}: {speed} km/h", read["Motion"]["Speed (km per h)"]["value"] == speed)
     must_fail("a setting that is not UTF-8", base + ["-s", b"Scene/Title=Pr\xfcfstand"], ["-s", "UTF-8"])
     steps = os.path.join(folder, "map.csv")
@@ -331,10 +331,10 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write("x_mm,y_mm,z_mm\n" + "".join(f"{i},{i},0.1\n" for i in range(60000)))
     must_fail("a map of a diagonal, whose grid would take gigabytes", base + ["-s", "Defect/Shape=map", "-s", "Defect/Profile file=" + steps],
               ["Defect/Profile file", "60000 x 60000", "x 1 mm, y 0 mm", "is missing"])
-    must_fail("a batch from a pipe", ["--batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["tread batch", "twice"])
+    must_fail("a batch from a pipe", ["batch", "/dev/null", "--output", os.path.join(folder, "answers.csv")], ["tread batch", "twice"])
 
-    for what in ([], ["--reference-only"]):
-        must_fail("the root of a flange that an upright wheel does not have", [*base, *what, "-s", "Wheel/Tread profile=S1002", "-s",
+    for what in ([], ["reference"]):
+        must_fail("the root of a flange that an upright wheel does not have", [*what, *base, "-s", "Wheel/Tread profile=S1002", "-s",
                   "Wheel/Lateral position (mm)=20", "-s", "Rail/Inclination=1:40"], ["root of the flange", "Wheelset/Lateral shift (mm)"])
     must_fail("a sector that is too narrow for its fine zone", base + ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Wheel/Sector width (mm)=20"], ["Wheel/Sector width (mm)", "too small"])
 
@@ -365,12 +365,12 @@ with tempfile.TemporaryDirectory() as folder:
     usual = execute_often([scene, "--dry-run", *coarse], program)
     check.that("and none that is shorter", usual.returncode == 0 and "WARNING" not in usual.stdout)
 
-    printed = execute_often(["--print-parameters", "-s", "Motion/Speed (km per h)=123"], program)
-    as_json = json.loads(execute_often(["--print-parameters=json", "-s", "Motion/Speed (km per h)=123"], program).stdout)
-    check.that("--print-parameters=json has the same", as_json["Motion"]["Speed (km per h)"]["value"] == "123")
+    printed = execute_often(["parameters", "-s", "Motion/Speed (km per h)=123"], program)
+    as_json = json.loads(execute_often(["parameters", "--json", "-s", "Motion/Speed (km per h)=123"], program).stdout)
+    check.that("parameters --json has the same", as_json["Motion"]["Speed (km per h)"]["value"] == "123")
     quiet = execute_often([scene, "--quiet", "--dry-run", "--output", results], program)
     check.that("--quiet says nothing", quiet.returncode == 0 and quiet.stdout == quiet.stderr == "")
     must_fail("--quiet says what is wrong", base + ["--quiet", "-s", "Motion/Speed (km per h)=-1"], ["Motion/Speed (km per h)", "allowed"])
-    check.that("--print-parameters without a scene shows what was set", "set Speed (km per h) " in printed.stdout and "= 123" in printed.stdout)
+    check.that("parameters without a scene shows what was set", "set Speed (km per h) " in printed.stdout and "= 123" in printed.stdout)
 
 check.exit()

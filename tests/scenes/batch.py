@@ -40,7 +40,7 @@ with tempfile.TemporaryDirectory() as folder:
             writer = csv.writer(file)
             writer.writerow(columns)
             writer.writerows(zip(*[[f"{value:.17g}" if isinstance(value, float) else value for value in column] for column in columns.values()]))
-        return execute(["--batch", path("cases.csv"), *(["--output", path(output)] if output else []), *more], ranks, program)
+        return execute(["batch", path("cases.csv"), *(["--output", path(output)] if output else []), *more], ranks, program)
 
     full = {COLUMNS[name]: np.broadcast_to(value, len(answers["status"])).astype(float) for name, value in cases.items()}
     full["lateral_creepage"] = full["lateral_creepage"] + full["spin_per_m"] * full["element_x_m"] / 6.
@@ -91,7 +91,7 @@ with tempfile.TemporaryDirectory() as folder:
     refused("an unknown order", batch({**one, "slip_order": np.array([1., 2., 3.])}), 1, ["row 3", "slip_order"])
     refused("no rows", batch({name: values[:0] for name, values in one.items()}), 1, ["no rows"])
     refused("no --output", batch(one, None), 1, ["--output"])
-    refused("a scene beside it", batch(one, more=["scene.prm"]), 1, ["--batch"])
+    refused("a scene beside it", batch(one, more=["scene.prm"]), 1, ["scene.prm", "tread batch --help"])
     check.that("mpirun is refused, once", batch(one, ranks=2).stderr.count("start it without mpirun") == 1)
     refused("a folder that is not there", batch(one, "no/out.csv"), 2, ["no/out.csv"])
     os.symlink("/dev/full", path("full"))

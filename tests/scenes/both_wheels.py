@@ -47,7 +47,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Half-space: in the middle both wheels are alike; beside it they carry the load without a moment, and each is the single wheel's
     # answer with that roll under its share of the load.
-    half = lambda name, **settings: run(program, SCENE, path(name), {**HELD, **settings}, 1, ["--reference-only"])
+    half = lambda name, **settings: run(program, SCENE, path(name), {**HELD, **settings}, 1, command="reference")
     middle = half("middle", **{"Wheelset/Lateral shift (mm)": 0})
     own, other = (of(middle["patches"], wheel) for wheel in ("own", "other"))
     check.below("half-space, middle: roll, urad", 1e6 * middle["roll_rad"], 1e-3)

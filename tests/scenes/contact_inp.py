@@ -465,7 +465,7 @@ def mat_of_patch(name, file, row, patch):
 
 def two_patches():
     """S1002 on 60E1 1:20 stands on tread and gauge corner. The rail's points are those that the program writes of its profile."""
-    must = execute_often([os.path.join(ROOT, "prm/curves/two-patches.prm"), "--contact-points", "--output", path("points")], program)
+    must = execute_often(["contact-points", os.path.join(ROOT, "prm/curves/two-patches.prm"), "--output", path("points")], program)
     check.that("the rail's points are written", must.returncode == 0)
     points = read_table(path("points/rail_profile.csv"))
     np.savetxt(path("rail.txt"), np.column_stack([points["y_rail_mm"], -points["z_mm"]]))

@@ -16,7 +16,7 @@ check = Check()
 with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
     one = run(program, SCENE, path("1"), ["Output/Write volume=false"])
-    half_space = run(program, SCENE, path("half-space"), more=["--reference-only"])
+    half_space = run(program, SCENE, path("half-space"), command="reference")
 
     def share(summary, direction):
         return summary[f"{direction}_force_N"] / summary["normal_force_N"]
@@ -48,7 +48,7 @@ with tempfile.TemporaryDirectory() as folder:
                "Motion/Lateral creepage=0", "Motion/Spin (1 per m)=0", "Output/Write volume=false", "Mesh/Finest cell (mm)=1.3",
                "Motion/Rolled distance (mm)=12"]
     falls = run(program, SCENE, path("falls"), falling)
-    wanted = run(program, SCENE, path("falls, half-space"), falling, more=["--reference-only"])
+    wanted = run(program, SCENE, path("falls, half-space"), falling, command="reference")
     check.relative("falling friction: traction coefficient", share(falls, "longitudinal"), share(wanted, "longitudinal"), 0.005)
     check.relative("falling friction: largest slip, m/s", falls["max_slip_m_per_s"], wanted["max_slip_m_per_s"], 0.02)
     check.relative("falling friction: frictional power, W", falls["frictional_power_W"], wanted["frictional_power_W"], 0.01)
@@ -62,8 +62,8 @@ with tempfile.TemporaryDirectory() as folder:
               "Motion/Spin (1 per m)=0.3"]
     by_place = [*across, "Contact/Friction across (mm)=-3, 3", "Contact/Friction across factors=1, 0.2"]
     fe = run(program, SCENE, path("across"), by_place)
-    wanted = run(program, SCENE, path("across, half-space"), by_place, more=["--reference-only"])
-    plain = run(program, SCENE, path("across, plain"), across, more=["--reference-only"])
+    wanted = run(program, SCENE, path("across, half-space"), by_place, command="reference")
+    plain = run(program, SCENE, path("across, plain"), across, command="reference")
     check.that("less friction on one side changes the traction by a tenth", share(wanted, "longitudinal") < 0.9 * share(plain, "longitudinal"))
     check.relative("less friction on one side: traction coefficient", share(fe, "longitudinal"), share(wanted, "longitudinal"), 0.01)
     check.absolute("less friction on one side: lateral force over load", share(fe, "lateral"), share(wanted, "lateral"), 0.003)
@@ -100,7 +100,7 @@ with tempfile.TemporaryDirectory() as folder:
     falls_with_pressure = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=12", "Motion/Lateral creepage=0",
                            "Motion/Spin (1 per m)=0", "Contact/Friction pressures (MPa)=0, 4000", "Contact/Friction pressure factors=1, 0"]
     rolls = run(program, SCENE, path("rolls"), falls_with_pressure + ["Motion/Creepage=0.003"])
-    wanted = run(program, SCENE, path("rolls, half-space"), falls_with_pressure + ["Motion/Creepage=0.003"], more=["--reference-only"])
+    wanted = run(program, SCENE, path("rolls, half-space"), falls_with_pressure + ["Motion/Creepage=0.003"], command="reference")
     check.relative("falls with pressure, rolling: traction coefficient", share(rolls, "longitudinal"), share(wanted, "longitudinal"), 0.01)
     check.absolute("falls with pressure, rolling: adhesion share, %", 100. * rolls["adhesion_share"], 100. * wanted["adhesion_share"], 5.)  # 1.3 mm: 4.2
     slides = run(program, SCENE, path("slides"), falls_with_pressure + ["Motion/Creepage=0.05"])
@@ -109,7 +109,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Beside a run stands the half-space that slides as it does, and the same way.
     check.relative("falls with pressure, sliding: the half-space beside the run", slides["reference"]["traction_coefficient"]["half-space"]["value"],
                    share(slides, "longitudinal"), 0.0026)
-    usual = run(program, SCENE, path("usual, half-space"), falls_with_pressure[:5] + ["Motion/Creepage=0.003"], more=["--reference-only"])
+    usual = run(program, SCENE, path("usual, half-space"), falls_with_pressure[:5] + ["Motion/Creepage=0.003"], command="reference")
     check.that("and not that without it", share(wanted, "longitudinal") < 0.9 * share(usual, "longitudinal"))
 
     coarse = ["Output/Write volume=false", "Mesh/Finest cell (mm)=1.3", "Motion/Rolled distance (mm)=8", "Start/Tractions=none", "Scene/Reproducible=true"]

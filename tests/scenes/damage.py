@@ -112,7 +112,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Friction that falls with the temperature: from 0.3 at 20 degrees to a third of it at 320, so that it heats less. Beside half-space theory at the same creepage.
     falls = ["Contact/Friction temperatures (C)=20,320", "Contact/Friction temperature factors=1,0.3333333333"]
     cooler = run(program, HEAT, path("falls"), [*COARSE, "Motion/Rolled distance (mm)=24", *falls])
-    of_theory = run(program, HEAT, path("falls line"), falls, more=["--reference-only"])
+    of_theory = run(program, HEAT, path("falls line"), falls, command="reference")
     check.relative("falling friction: traction beside half-space theory", cooler["traction_coefficient"], of_theory["traction_coefficient"], 4e-3)
     check.relative("falling friction: flash temperature of the rail, K", columns(path("falls"), RAIL)["max_flash_temperature_K"].max(),
                    columns(path("falls line"), RAIL)["max_flash_temperature_K"].max(), 0.01)
@@ -121,16 +121,16 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("it carries less, by what the heat leaves", 0.2 < abs(cooler["traction_coefficient"]) < 0.28)
     # A wheel that comes warm to a cold rail: what counts is the mean, of steels with unlike effusivities nearer to that of the larger one.
     unlike = ["Rail/Density (kg per m3)=5000", "Damage/Rail temperature (C)=80", "Damage/Wheel temperature (C)=-20"]
-    warm = run(program, HEAT, path("warm"), [*unlike, *falls], more=["--reference-only"])
+    warm = run(program, HEAT, path("warm"), [*unlike, *falls], command="reference")
     mean = (math.sqrt(5000.) * 80. - math.sqrt(7850.) * 20.) / (math.sqrt(5000.) + math.sqrt(7850.))
-    alike = run(program, HEAT, path("alike"), [unlike[0], f"Damage/Rail temperature (C)={mean:.9f}", f"Damage/Wheel temperature (C)={mean:.9f}", *falls], more=["--reference-only"])
+    alike = run(program, HEAT, path("alike"), [unlike[0], f"Damage/Rail temperature (C)={mean:.9f}", f"Damage/Wheel temperature (C)={mean:.9f}", *falls], command="reference")
     check.relative("unlike temperatures: traction of their mean", warm["traction_coefficient"], alike["traction_coefficient"], 1e-6)
-    other = run(program, HEAT, path("other"), [unlike[0], "Damage/Rail temperature (C)=-20", "Damage/Wheel temperature (C)=80", *falls], more=["--reference-only"])
+    other = run(program, HEAT, path("other"), [unlike[0], "Damage/Rail temperature (C)=-20", "Damage/Wheel temperature (C)=80", *falls], command="reference")
     check.that("and not of the mean the other way round", abs(other["traction_coefficient"] / warm["traction_coefficient"] - 1.) > 0.01)
 
     # By half-space theory alone: a row for each line along the path.
     for scene, name in ((WEAR, "line"), (HEAT, "hot line")):
-        run(program, scene, path(name), more=["--reference-only"])
+        run(program, scene, path(name), command="reference")
     line = columns(path("line"), RAIL)
     check.below("work across the path, elements and cells, largest difference over the largest",
                 np.abs(row["friction_work_J_per_m2"] - np.interp(row["y_mm"], line["y_mm"], line["friction_work_J_per_m2"], left=0., right=0.)).max()
@@ -143,7 +143,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("and of the wheel, K", columns(path("hot line"), WHEEL)["max_flash_temperature_K"].max(), 149.99, 4e-3)
     check.relative("work on a metre of way, J", integral(line, "friction_work_J_per_m2"), read_summary(path("line"))["t_gamma_N"], 5e-3) # which is extrapolated to small elements
     wheelset = run(program, "curves/two-patches.prm", path("wheelset"), ["Damage/Record=true", "Damage/Shear strength (MPa)=300", "Damage/Function T-gammas (N)=0, 10000", "Damage/Function damages=0, 1"],
-                   more=["--reference-only"])
+                   command="reference")
     patches = wheelset["patches"]
     check.relative("T-gamma is the sum over the patches, N", wheelset["t_gamma_N"], sum(patch["t_gamma_N"] for patch in patches), 1e-9)
     for patch in patches:
@@ -159,7 +159,7 @@ with tempfile.TemporaryDirectory() as folder:
         # A place of the wheel is passed as often as its surface is faster: more by the creepage of its patch.
         check.relative(f"two patches with elements of their own, {name}: work on a metre of way, J", integral(passed, "friction_work_J_per_m2"), wheelset["t_gamma_N"], 2e-3 if name == RAIL else 0.03)
     check.refused("a wheel that does not turn", program, "curves/two-patches.prm", path("refused"), ["Damage/Record=true", "Motion/Angular velocity (rad per s)=0"],
-                  ["'Damage/Record'", "passes"], more=["--reference-only"])
+                  ["'Damage/Record'", "passes"], command="reference")
     check.that("pictures of it", "damage.png" in "".join(script("plot/plot-run.py", path("line")).stdout + " ".join(os.listdir(os.path.join(path("line"), "pictures")))))
 
     # Passages: each begins cold, on a rail that remembers work.

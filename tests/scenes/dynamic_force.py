@@ -43,7 +43,7 @@ def smooth(t):
 
 def write_parameters(folder, settings):
     """parameters.prm, as a run writes it. The last setting of each name counts."""
-    arguments = ["--print-parameters"]
+    arguments = ["parameters"]
     for setting in {setting.partition("=")[0]: setting for setting in settings}.values():
         arguments += ["-s", setting]
     printed = must_end_well(execute_often(arguments, program))
@@ -92,7 +92,7 @@ with tempfile.TemporaryDirectory() as folder:
     # The twin's rows lie between those of the run, and it begins a little later.
     write(path("run"), 2000, defect=True)
     write(path("twin"), 2000, shift=0.4 * ROW)
-    both = ["--dynamic-force", path("run"), "--smooth-twin", path("twin")]
+    both = ["dynamic-force", path("run"), "--smooth-twin", path("twin")]
     result = execute_often(both, program)
     if not check.that("a run and its twin: exit code 0", result.returncode == 0):
         print(result.stdout, result.stderr)
@@ -162,7 +162,7 @@ with tempfile.TemporaryDirectory() as folder:
     # straight line misses up to (2 pi f h)^2/8 of a wave, the mean of a row (2 pi f h)^2/24.
     write(path("steps-run"), 2000, defect=True, steps=26.4e-6)
     write(path("steps-twin"), 2000, steps=24.8e-6)
-    result = execute_often(["--dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")], program)
+    result = execute_often(["dynamic-force", path("steps-run"), "--smooth-twin", path("steps-twin")], program)
     if check.that("a twin with other time steps: exit code 0", result.returncode == 0):
         rows = rows_of(path("steps-run"), "dynamic.csv")
         worst = max(abs(row["normal_force_N"] - blow((row["position_m"] - BEGIN) / SPEED)) for row in rows
@@ -196,23 +196,23 @@ with tempfile.TemporaryDirectory() as folder:
         check.absolute(f"Zimmermann: support 1 at {at:.0f} mm: by the beam, %", row[3], share, 0.01)
         check.absolute(f"Zimmermann: support 1 at {at:.0f} mm: difference, %", row[4], 100 * (40.0 / share - 1), 0.1)
 
-    fails("no twin named", ["--dynamic-force", path("run")], ["--smooth-twin"])
-    fails("a scene beside", both + ["scene.prm"], ["takes no scene"])
-    fails("a parameter beside", both + ["-s", "Motion/Speed (km per h)=100"], ["--dynamic-force", "-s", "for a scene"])
-    fails("another tool's", ["--sleeper-stress", path("run"), "--contact-points"], ["--sleeper-stress", "--contact-points"])
-    fails("no such folder", ["--dynamic-force", path("none"), "--smooth-twin", path("twin")], ["no folder", "none"])
+    fails("no twin named", ["dynamic-force", path("run")], ["--smooth-twin"])
+    fails("a scene beside", both + ["scene.prm"], ["scene.prm", "tread dynamic-force --help"])
+    fails("a parameter beside", both + ["-s", "Motion/Speed (km per h)=100"], ["-s", "tread dynamic-force --help"])
+    fails("another tool's", ["sleeper-stress", path("run"), "--smooth-twin", path("twin")], ["--smooth-twin", "tread sleeper-stress --help"])
+    fails("no such folder", ["dynamic-force", path("none"), "--smooth-twin", path("twin")], ["no folder", "none"])
     os.makedirs(path("empty"))
-    fails("no history", ["--dynamic-force", path("run"), "--smooth-twin", path("empty")], ["history.csv", "empty"])
+    fails("no history", ["dynamic-force", path("run"), "--smooth-twin", path("empty")], ["history.csv", "empty"])
     write(path("short"), 10)
-    fails("too few rows", ["--dynamic-force", path("run"), "--smooth-twin", path("short")], ["11 rows", "at least 16"])
+    fails("too few rows", ["dynamic-force", path("run"), "--smooth-twin", path("short")], ["11 rows", "at least 16"])
     write(path("fast"), 2000, speed=1.4 * SPEED)
-    fails("another speed", ["--dynamic-force", path("run"), "--smooth-twin", path("fast")], ["100 km/h", "140 km/h"])
+    fails("another speed", ["dynamic-force", path("run"), "--smooth-twin", path("fast")], ["100 km/h", "140 km/h"])
     write(path("lighter"), 2000, settings=["Vehicle/Sprung mass (kg)=9000"])
-    fails("a twin of another vehicle", ["--dynamic-force", path("run"), "--smooth-twin", path("lighter")], ["Vehicle/Sprung mass (kg)", "9000"])
+    fails("a twin of another vehicle", ["dynamic-force", path("run"), "--smooth-twin", path("lighter")], ["Vehicle/Sprung mass (kg)", "9000"])
     write(path("elsewhere"), 2000, shift=2.0)
-    fails("a twin elsewhere", ["--dynamic-force", path("run"), "--smooth-twin", path("elsewhere")], ["elsewhere", "does not cover"])
+    fails("a twin elsewhere", ["dynamic-force", path("run"), "--smooth-twin", path("elsewhere")], ["elsewhere", "does not cover"])
     write(path("stopped"), 1500)
-    stopped = ["--dynamic-force", path("run"), "--smooth-twin", path("stopped"), "--output", path("stopped-section")]
+    stopped = ["dynamic-force", path("run"), "--smooth-twin", path("stopped"), "--output", path("stopped-section")]
     fails("a twin that stopped before the run", stopped, ["stopped", "to 74.", "does not cover", "to 199."])
     check.that("a section that it covers", execute_often(stopped + ["--to", "70"], program).returncode == 0)
     fails("a section of a few rows", both + ["--from", "10", "--to", "11"], ["4 intervals", "at least 16"])
@@ -228,21 +228,21 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("a run that was interrupted is named", f"WARNING: {path('run')} has no summary of a completed run" in must_end_well(execute_often(both, program)).stdout)
     write_summary(path("run"), completed=True)
     write(path("contact"), 2000, columns=("normal_force_N",))
-    fails("a column that the twin has not", ["--dynamic-force", path("run"), "--smooth-twin", path("contact")],
+    fails("a column that the twin has not", ["dynamic-force", path("run"), "--smooth-twin", path("contact")],
           ["contact/history.csv", "support_1_pad_N"])
     write(path("nothing"), 2000, columns=())
-    fails("no forces", ["--dynamic-force", path("nothing"), "--smooth-twin", path("twin")], ["nothing/history.csv", "_N"])
+    fails("no forces", ["dynamic-force", path("nothing"), "--smooth-twin", path("twin")], ["nothing/history.csv", "_N"])
     write(path("damaged"), 20)
     with open(path("damaged/history.csv"), "a", encoding="utf-8") as stream:
         stream.write("1,2\n")
-    fails("a row that is cut off", ["--dynamic-force", path("damaged"), "--smooth-twin", path("twin")], ["row 22", "2 entries"])
+    fails("a row that is cut off", ["dynamic-force", path("damaged"), "--smooth-twin", path("twin")], ["row 22", "2 entries"])
     write(path("nan"), 2000)
     with open(path("nan/history.csv"), encoding="utf-8") as stream:
         lines = [line.rstrip("\n").split(",") for line in stream]
     lines[100][lines[0].index("normal_force_N")] = "nan"
     with open(path("nan/history.csv"), "w", encoding="utf-8") as stream:
         stream.write("\n".join(",".join(line) for line in lines) + "\n")
-    fails("a force that is none", ["--dynamic-force", path("nan"), "--smooth-twin", path("twin")], ["row 100", "nan"])
+    fails("a force that is none", ["dynamic-force", path("nan"), "--smooth-twin", path("twin")], ["row 100", "nan"])
     fails("an unknown window", both + ["--window", "Hamming"], ["Hamming", "rectangular", "Hann"])
     fails("no position", both + ["--from", "here"], ["--from", "here", "mm"])
     fails("not a number", both + ["--from", "nan"], ["--from", "nan", "mm"])
@@ -267,10 +267,10 @@ with tempfile.TemporaryDirectory() as folder:
         fails(f"the twin has another {name}", both, [f"'{name}'", f"'{before}'", f"'{value}'", path("run"), path("twin")])
     write_parameters(path("twin"), ["Motion/Speed (km per h)=140", "Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"])
     fails("the twin has a defect, too", both, ["'Defect/Shape'", "'dip'", path("twin")])
-    fails("both folders are one", ["--dynamic-force", path("run"), "--smooth-twin", path("run")], ["'Defect/Shape'", path("run")])
+    fails("both folders are one", ["dynamic-force", path("run"), "--smooth-twin", path("run")], ["'Defect/Shape'", path("run")])
     write_parameters(path("twin"), ["Motion/Speed (km per h)=140"])
-    fails("exchanged", ["--dynamic-force", path("twin"), "--smooth-twin", path("run")], ["'Defect/Shape'", "'dip'", path("run")])
-    fails("neither has a defect", ["--dynamic-force", path("twin"), "--smooth-twin", path("twin")], ["'Defect/Shape' is 'none'", path("twin")])
+    fails("exchanged", ["dynamic-force", path("twin"), "--smooth-twin", path("run")], ["'Defect/Shape'", "'dip'", path("run")])
+    fails("neither has a defect", ["dynamic-force", path("twin"), "--smooth-twin", path("twin")], ["'Defect/Shape' is 'none'", path("twin")])
     # Files of one name may have other contents; those of the defect may be unlike.
     def has_read(name, parameter, content):
         with open(path(f"{name}/parameters.prm"), "a", encoding="utf-8") as stream:

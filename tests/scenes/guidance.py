@@ -64,7 +64,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Friction that falls with slip, or with pressure, or on a spot of the rail, beside the half-space's with the same; each is far from Coulomb's.
     sliding = {**COARSE, "Motion/Lateral creepage": 0.005, "Motion/Rolled distance (mm)": 16}
-    coulomb = run(program, SCENE, path("coulomb"), sliding, 1, ["--reference-only"])
+    coulomb = run(program, SCENE, path("coulomb"), sliding, 1, command="reference")
     for what, settings in (("falling", {"Contact/Friction law": "falling", "Contact/Kinetic friction coefficient": 0.1, "Contact/Falling slip speed (m per s)": 0.1,
                                         "Contact/Friction memory (mm)": 0.03}),
                            ("with pressure", {"Contact/Friction pressures (MPa)": "0, 700", "Contact/Friction pressure factors": "1, 0.3"}),

@@ -18,7 +18,7 @@ check = Check()
 CALLS = """
 import tread
 from tread import half_space
-run = tread.run("smooth-rolling.prm", options=["--reference-only"], output="reference")
+run = tread.run("smooth-rolling.prm", command="reference", output="reference")
 answer = half_space.solve(curvature_x=1., curvature_y=1., normal_force=1e5, friction=0.3, creepage=-1e-3)
 print(run.folder, half_space.library_path(), float(answer["longitudinal_force"]) > 0.)
 """
@@ -52,8 +52,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     shared = os.path.join(prefix, "share/tread")
     # One scene includes another file, the other names a measured profile.
-    said("tread", f"{shared}/prm/thesis/3.1-1.3-mu0.30.prm", "--reference-only", "--output", "included")
-    said("tread", f"{shared}/prm/curves/groove.prm", "--reference-only", "--output", "profile")
+    said("tread", "reference", f"{shared}/prm/thesis/3.1-1.3-mu0.30.prm", "--output", "included")
+    said("tread", "reference", f"{shared}/prm/curves/groove.prm", "--output", "profile")
     words = said("/usr/bin/python3", "-c", CALLS).split()
     check.that("Python: installed scene and library", words[:1] == ["reference"] and words[1].startswith(prefix) and words[2] == "True")
     said("tread-study", f"{shared}/prm/studies/friction.study", "--dry-run")

@@ -22,7 +22,7 @@ SHARES = ["rail_share", "sleeper_share", "rim_share", "web_share", "hub_share", 
 
 with tempfile.TemporaryDirectory() as folder:
     def modes(output, ranks=1, *more):
-        return execute(arguments_of(SCENE, COARSE, output) + ["--modes", "--up-to", "1500", *more], ranks=ranks, program=program)
+        return execute(arguments_of(SCENE, COARSE, output, "modes") + ["--up-to", "1500", *more], ranks=ranks, program=program)
 
     def words_of(path):
         with open(os.path.join(path, "modes.csv"), encoding="utf-8") as stream:
@@ -67,7 +67,7 @@ with tempfile.TemporaryDirectory() as folder:
                lines[0]["rail_phase_degrees"] > -60. and min(row["rail_phase_degrees"] for row in lines) < -120.)
     # Between equal roughness and force: the contact spring, and wheel and rail without the dents that the discs press into
     # them, each of which is in the contact spring already (Johnson 1985, section 3.4: mean of an evenly loaded disc).
-    half_space = run(program, SCENE, os.path.join(folder, "half_space"), COARSE, more=["--reference-only"])
+    half_space = run(program, SCENE, os.path.join(folder, "half_space"), COARSE, command="reference")
     spring = 1.5 * half_space["normal_force_N"] / half_space["approach_m"]
     dents = 2 * 16 * (1 - 0.28**2) / (3 * math.pi**2 * 15e-3 * 210e9)
     for row in (lines[100], lines[300]):
@@ -79,18 +79,18 @@ with tempfile.TemporaryDirectory() as folder:
                                             [f"modes-{k:04d}.vtu" for k in range(1, len(rows) + 1)]))
 
     # Bad input: one line, no files.
-    def must_fail(what, arguments, words):
+    def must_fail(what, arguments, words, command="modes"):
         output = os.path.join(folder, "bad")
-        result = execute_often([*arguments_of(SCENE, COARSE, output), *arguments], program)
+        result = execute_often([*arguments_of(SCENE, COARSE, output, command), *arguments], program)
         said = result.stderr.strip().splitlines()
         print("   ", *said)
         check.that(f"{what}: one line that names it, exit code 1, nothing written",
                    result.returncode == 1 and len(said) == 1 and all(word in said[0] for word in words) and not os.path.exists(output))
 
-    must_fail("no frequency", ["--modes", "--up-to", "0"], ["--up-to 0", "between"])
-    must_fail("nan", ["--modes", "--up-to", "nan"], ["--up-to", "between"])
-    must_fail("no number", ["--modes", "--up-to", "high"], ["--up-to", "high"])
-    must_fail("without --modes", ["--up-to", "500"], ["--up-to", "--modes"])
-    must_fail("with --resume", ["--modes", "--resume"], ["--modes", "--resume"])
+    must_fail("no frequency", ["--up-to", "0"], ["--up-to 0", "between"])
+    must_fail("nan", ["--up-to", "nan"], ["--up-to", "between"])
+    must_fail("no number", ["--up-to", "high"], ["--up-to", "high"])
+    must_fail("of a run", ["--up-to", "500"], ["--up-to", "modes"], command="run")
+    must_fail("with --resume", ["--resume"], ["--resume", "tread modes --help"])
 
 check.exit()

@@ -50,7 +50,7 @@ with tempfile.TemporaryDirectory() as folder:
     for key, allowed in (("normal_force_N", 3e-3), ("longitudinal_force_N", 0.02), ("max_pressure_Pa", 0.01), ("creepage", 2e-3), ("pressure_semi_axis_x_m", 5e-3)):
         check.relative(f"cells that lie in any way: {key}", moved[key], own[key], allowed)
 
-    # Ends are held in --modes as in a run: shear along the path, at c_s / 4h of the bar's height, is a mode of free ends alone.
+    # Ends are held in `tread modes` as in a run: shear along the path, at c_s / 4h of the bar's height, is a mode of free ends alone.
     shear_wave, height = 3.2e3, 104e-3  # m/s of steel, m
     found = {}
     coarsest = {"Motion/Start (mm)": 0, "Motion/Rolled distance (mm)": 1, "Mesh/Finest cell (mm)": 2.6, "Mesh/Fine half width (mm)": 9.1, "Mesh/Cells per level": 1,
@@ -58,7 +58,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name, held in (("free", False), ("held", True)):
         rail_mesh.write(rail_mesh.bar(lines(-40., 40., 20.), lines(-20.8, 20.8, 20.8), lines(-1e3 * height, 0., 26.), 300., 0., (held, held)), path(f"{name}.msh"))
         settings = [*short, *(f"{parameter}={value}" for parameter, value in coarsest.items()), *mesh(f"{name}.msh")]
-        must_end_well(execute([*arguments_of(BLOCK, settings, path(name)), "--modes", "--up-to", "10000"], program=program))
+        must_end_well(execute([*arguments_of(BLOCK, settings, path(name), "modes"), "--up-to", "10000"], program=program))
         with open(os.path.join(path(name), "modes.csv"), encoding="utf-8") as stream:
             found[name] = [row for row in csv.DictReader(stream) if row["body"] == "track"]
     along = {name: [float(row["frequency_Hz"]) for row in rows if float(row["longitudinal_share"]) > 0.5] for name, rows in found.items()}

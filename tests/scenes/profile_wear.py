@@ -40,7 +40,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     usual = contacts("contacts.csv", ROWS)
     settings = [f"{name}={value}" for name, value in SHORT.items()]
-    summary = run(program, SCENE, path("wear"), settings, more=["--wear", usual])
+    summary = run(program, SCENE, path("wear"), settings, command="wear", table=usual)
 
     # By Coulomb's and Archard's laws what slips loses coefficient over hardness times work over friction.
     for body, passages in (("rail", 2000), ("wheel", 3000)):
@@ -81,7 +81,7 @@ with tempfile.TemporaryDirectory() as folder:
             single = path(f"single-{state}-{number}")
             alone = run(program, scene, single, [f"Wheelset/Lateral shift (mm)={shift}", f"Wheelset/Yaw (mrad)={yaw}", f"Vehicle/Wheel load (kN)={load}", "Motion/Creepage=predicted",
                                                  f"Motion/Angular velocity (rad per s)={patches['angular_velocity_rad_per_s'][own[0]]:.9g}", "Damage/Wear coefficient=1e-3", "Damage/Record=true"],
-                        more=["--reference-only"])
+                        command="reference")
             check.that(f"state {state}, contact {number}: patches", len(own) == len(alone["patches"]))
             worn = 0.
             for k, patch in zip(own, alone["patches"]):
@@ -107,7 +107,7 @@ with tempfile.TemporaryDirectory() as folder:
     quick = ["Profile wear/Passages=200", "Profile wear/States=1", "Damage/Wear coefficient=1e-3"]
     split = contacts("split.csv", ["1" + ROWS[0][1:], *ROWS[1:], "1" + ROWS[0][1:]])
     for name, table in (("heavy", usual), ("split", split)):
-        run(program, SCENE, path(name), quick, more=["--wear", table])
+        run(program, SCENE, path(name), quick, command="wear", table=table)
     depths = [read_table(os.path.join(path(name), "rail_wear.csv"))["depth_mm"] for name in ("heavy", "split")]
     check.below("a contact in two halves, relative", np.abs(depths[0] - depths[1]).max() / depths[0].max(), 1e-6)
     kept = read_table(os.path.join(path("heavy"), "wheel_wear.csv"))
@@ -117,7 +117,7 @@ with tempfile.TemporaryDirectory() as folder:
     tables = ("rail_wear.csv", "wheel_wear.csv", "wear_patches.csv", "wear_steps.csv", *(f"worn{body}_{state}" for state in (1, 2) for body in ("_rail", "_wheel")))
     tables = [name + ".csv" if name.startswith("worn") else name for name in tables]
     for number, (name, exit_code) in ((signal.SIGKILL, ("killed", -9)), (signal.SIGINT, ("interrupted", 130))):
-        process = subprocess.Popen(command([*arguments_of(SCENE, settings, path(name)), "--wear", usual], 1, program), env=environment(), stdout=subprocess.DEVNULL)
+        process = subprocess.Popen(command(arguments_of(SCENE, settings, path(name), "wear", usual), 1, program), env=environment(), stdout=subprocess.DEVNULL)
         # The one that is killed between two states that are kept.
         grown = lambda: os.path.exists(os.path.join(path(name), "wear_steps.csv")) and read_table(os.path.join(path(name), "wear_steps.csv"))["passages"].max() > (1000 if name == "killed" else 0)
         while process.poll() is None and not grown():
@@ -126,23 +126,23 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"{name}: exit code", process.wait(timeout=60) == exit_code)
         check.that(f"{name}: no summary", not os.path.exists(os.path.join(path(name), "summary.json")))
         if name == "killed":
-            for what, other in (("other contacts", ["--wear", split]), ("another scene", ["--wear", usual, "-s", "Profile wear/Largest change=0.2"])):
-                said = execute([*arguments_of(SCENE, settings, path(name)), "--resume", *other], program=program)
+            for what, other, more in (("other contacts", split, []), ("another scene", usual, ["-s", "Profile wear/Largest change=0.2"])):
+                said = execute([*arguments_of(SCENE, settings, path(name), "wear", other), "--resume", *more], program=program)
                 check.that(f"--resume with {what}: one line", said.returncode == 1 and said.stderr.count("\n") == 1 and "of another scene, other contacts" in said.stderr)
-        run(program, SCENE, path(name), settings, more=["--wear", usual, "--resume"])
+        run(program, SCENE, path(name), settings, more=["--resume"], command="wear", table=usual)
         check.that(f"{name} and resumed: the same bytes", all(open(os.path.join(path(name), table), "rb").read() == open(os.path.join(path("wear"), table), "rb").read() for table in tables))
     with open(os.path.join(path("killed"), "wear.checkpoint"), "r+b") as stream:
         stream.seek(5000)
         stream.write(b"\0\1\2\3")
-    said = execute([*arguments_of(SCENE, settings, path("killed")), "--resume", "--wear", usual], program=program)
+    said = execute([*arguments_of(SCENE, settings, path("killed"), "wear", usual), "--resume"], program=program)
     check.that("a damaged checkpoint: one line", said.returncode == 1 and said.stderr.count("\n") == 1 and "damaged" in said.stderr)
-    run(program, SCENE, path("killed"), quick, more=["--wear", usual, "--overwrite"])
+    run(program, SCENE, path("killed"), quick, more=["--overwrite"], command="wear", table=usual)
     check.that("a new run leaves nothing of the old one", not os.path.exists(os.path.join(path("killed"), "worn_2.prm")))
 
     # A scene on worn profiles does not write over them, and turns as the one before.
-    said = execute_often([os.path.join(path("wear"), "worn_1.prm"), "--wear", usual, "--overwrite", "--output", path("wear")], program)
+    said = execute_often(["wear", os.path.join(path("wear"), "worn_1.prm"), usual, "--overwrite", "--output", path("wear")], program)
     check.that("nor with --overwrite", said.returncode == 1 and "lies in the folder of the results" in said.stderr and os.path.exists(os.path.join(path("wear"), "worn_rail_1.csv")))
-    turns = run(program, os.path.join(path("wear"), "worn_2.prm"), path("turns"), more=["--reference-only"])
+    turns = run(program, os.path.join(path("wear"), "worn_2.prm"), path("turns"), command="reference")
     check.relative("a worn scene turns as fast", turns["angular_velocity_rad_per_s"], 80 / 3.6 / 0.46, 1e-9)
 
     # Pictures, from Python.
@@ -165,16 +165,16 @@ with tempfile.TemporaryDirectory() as folder:
             ("no work", usual, ["-s", "Contact/Friction coefficient=0", "-s", "Damage/Wear law=friction work"], "nothing wears"),
             ("smoothing between the points", usual, ["-s", "Profile wear/Smoothing length (mm)=0.3"], "too short for"),
             ("an upright wheel", usual, ["-s", "Wheelset/Lateral shift (mm)=none"], "tread wear"),
-            ("two things at once", usual, ["--reference-only"], "--wear excludes"),
+            ("two things at once", usual, ["--dry-run", "--resume"], "--resume"),
             ("a wheel that derails", contacts("7.csv", ["90\n"], "shift_mm\n"), [], "the wheelset's other wheel"),
             ("a map with a gap", usual, ["-s", "Damage/Wear law=Archard map", "-s", "Damage/Map slip speeds (m per s)=0.2", "-s", "Damage/Map wear coefficients=1e-4"], "has 1 numbers; 2 ranges")):
-        said = execute_often([*arguments_of(SCENE, [], path("wrong")), "--wear", rows, *more], program)
+        said = execute_often([*arguments_of(SCENE, [], path("wrong"), "wear", rows), *more], program)
         check.that(f"{what}: one line", said.returncode in (1, 2) and said.stderr.count("\n") == 1 and words in said.stderr)
         if words not in said.stderr:
             print(said.returncode, said.stderr)
-    said = execute_often([*arguments_of(SCENE, [], path("nowhere")), "--wear", usual, "--resume"], program)
+    said = execute_often([*arguments_of(SCENE, [], path("nowhere"), "wear", usual), "--resume"], program)
     check.that("nothing to go on from: one line", said.returncode == 1 and "--resume: there is no" in said.stderr)
-    said = execute([*arguments_of(SCENE, [], path("wrong")), "--wear", usual], ranks=2, program=program)
+    said = execute(arguments_of(SCENE, [], path("wrong"), "wear", usual), ranks=2, program=program)
     check.that("two ranks: one line", said.returncode == 1 and "start it on one rank" in said.stderr)
 
 check.exit()

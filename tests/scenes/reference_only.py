@@ -31,7 +31,7 @@ with tempfile.TemporaryDirectory() as folder:
     numbers = iter(range(1000))
 
     def reference_only(*settings, scene=SCENE, ranks=1, output=None):
-        return run(program, scene, output or path(str(next(numbers))), settings, ranks, ["--reference-only"])
+        return run(program, scene, output or path(str(next(numbers))), settings, ranks, command="reference")
 
     # run() asks of every summary of these tests that its keys are explained: of this one only some are.
     check.that("keys without a meaning are found",
@@ -134,7 +134,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.mkdir(results)
     with open(os.path.join(results, "summary.json"), "w", encoding="utf-8") as stream:
         stream.write("kept")
-    execute(arguments_of(SCENE, [f"Output/Directory={results}"]) + ["--reference-only"], program=program, check=True)
+    execute(arguments_of(SCENE, [f"Output/Directory={results}"], command="reference"), program=program, check=True)
     with open(os.path.join(results, "summary.json"), encoding="utf-8") as stream:
         check.that("without --output a run's results are kept", stream.read() == "kept")
     check.that("without --output it writes beside them", os.path.exists(results + "-reference/summary.json"))
@@ -221,7 +221,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Bad input: one line, no files.
     def must_fail(what, arguments, words):
         output = path("bad")
-        result = execute([*arguments_of(SCENE, output=output), "--reference-only", *arguments], program=program)
+        result = execute([*arguments_of(SCENE, output=output, command="reference"), *arguments], program=program)
         lines = result.stderr.strip().splitlines()
         check.that(f"{what}: exit code not 0", result.returncode in (1, 2))
         check.that(f"{what}: one line that names it", len(lines) == 1 and all(word in lines[0] for word in words))
@@ -240,7 +240,7 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("negative friction", setting("Contact/Friction coefficient=-0.1"), ["Contact/Friction coefficient", "allowed"])
     must_fail("creepage that is no number", setting("Motion/Creepage=much"), ["Motion/Creepage", "predicted"])
     must_fail("incompressible rail", setting("Rail/Poisson's ratio=0.5"), ["Rail/Poisson's ratio", "allowed"])
-    must_fail("with --resume", ["--resume"], ["--resume", "--reference-only"])
-    must_fail("with --dry-run", ["--dry-run"], ["--dry-run", "--reference-only"])
+    must_fail("with --resume", ["--resume"], ["--resume", "tread reference --help"])
+    must_fail("with --dry-run", ["--dry-run"], ["--dry-run", "tread reference --help"])
 
 check.exit()

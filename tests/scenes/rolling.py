@@ -462,10 +462,10 @@ with tempfile.TemporaryDirectory() as folder:
         fails("a run that does not say what it has read", once_more, ["complete", "does not say", "Defect/Profile file"])
         # A folder with the finished run of another scene is not for this one, unless it may be.
         other = arguments_of("smooth-rolling.prm", SHORT, path("scanned"))
-        for what in ([], ["--reference-only"]):
-            fails("a folder with another scene's run", other + what, ["another scene", "dip.prm", "--overwrite", "--output"])
+        for what in ([], ["reference"]):
+            fails("a folder with another scene's run", what + other, ["another scene", "dip.prm", "--overwrite", "--output"])
         check.that("whose results stay", read_summary(path("scanned"))["completed"] and os.path.exists(path("scanned/history.csv")))
-        check.that("it may", execute_often(other + ["--reference-only", "--overwrite"], program).returncode == 0
+        check.that("it may", execute_often(["reference", *other, "--overwrite"], program).returncode == 0
                    and "half-space" in read_summary(path("scanned"))["method"])
         with open(path("step.csv"), "w", encoding="utf-8") as stream:
             stream.write("x_mm,y_mm,z_mm\n")
@@ -571,11 +571,11 @@ with tempfile.TemporaryDirectory() as folder:
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
         shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
                    if name.endswith(".prm")]
-        all_settings = {scene: parameters_in(must_end_well(execute_often([scene, "--print-parameters"], program)).stdout.splitlines()) for scene in sorted(shipped)}
+        all_settings = {scene: parameters_in(must_end_well(execute_often(["parameters", scene], program)).stdout.splitlines()) for scene in sorted(shipped)}
         for scene, settings in sorted(all_settings.items(), key=lambda entry: -float(entry[1]["Mesh/Finest cell (mm)"])):
             name = os.path.relpath(scene, os.path.join(ROOT, "prm"))
             if settings["Wheelset/Lateral shift (mm)"] != "none":  # wheelset_rolling.py rolls them
-                check.that(f"{name}: has a half-space answer", run(program, name, path("start"), more=["--reference-only", "--overwrite"])["completed"])
+                check.that(f"{name}: has a half-space answer", run(program, name, path("start"), more=["--overwrite"], command="reference")["completed"])
                 continue
             on_track = settings["Track/Foundation"] != "rigid"
             new_mesh = is_first(settings, no_mesh)

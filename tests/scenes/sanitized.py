@@ -57,5 +57,5 @@ with tempfile.TemporaryDirectory() as folder:
         ends_well(name, arguments_of(scene, changes, os.path.join(folder, "run")), ranks)
         if ranks == 2:
             ends_well(name, arguments_of(scene, changes, os.path.join(folder, "run")))
-            ends_well(name + " --reference-only", arguments_of(scene, changes, os.path.join(folder, "reference")) + ["--reference-only"])
+            ends_well("reference " + name, arguments_of(scene, changes, os.path.join(folder, "reference"), "reference"))
 check.exit()

@@ -57,7 +57,7 @@ with tempfile.TemporaryDirectory() as folder:
             name = f"{tread}, traction coefficient {traction}: "
             driven = settings + [f"Motion/Traction coefficient={traction}"]
             summary = run(program, "smooth-rolling.prm", path("driven"), driven)
-            half_space = run(program, "smooth-rolling.prm", path("half-space"), driven, more=["--reference-only"])
+            half_space = run(program, "smooth-rolling.prm", path("half-space"), driven, command="reference")
             check.absolute(name + "traction coefficient, the one asked for", summary["traction_coefficient"], traction, 0.005)
             check.absolute(name + "creepage, half-space's", summary["creepage"], summary["reference"]["creepage"]["half-space"]["value"],
                            5e-5)

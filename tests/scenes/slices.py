@@ -27,7 +27,7 @@ with tempfile.TemporaryDirectory() as folder:
     # The same profile at every x: its points once in 60 mm.
     short = ["Mesh/Finest cell (mm)=1", "Wheelset/Lateral shift (mm)=0", "Motion/Rolled distance (mm)=3", "Output/Write volume=false",
              "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50"]
-    must_end_well(execute([*arguments_of(CURVE, short, path("points")), "--contact-points", "--shift-to", "1"], program=program))
+    must_end_well(execute([*arguments_of(CURVE, short, path("points"), "contact-points"), "--shift-to", "1"], program=program))
     points = table(path("points"), "rail_profile.csv")
     with open(path("same.csv"), "w", encoding="utf-8") as file:
         file.write("x_mm,y_mm,z_mm\n")
@@ -48,7 +48,7 @@ with tempfile.TemporaryDirectory() as folder:
         file.writelines(f"{y:.9f} {-z:.9f}\n" for y, z in zip(points["y_mm"], points["z_mm"]))
     with open(path("same.slcs"), "w", encoding="utf-8") as file:
         file.write("0 1\n5\n0 0 0\n1\n" + "".join(f"{x} 'section.txt'\n" for x in (-120, -60, 0, 60, 120)))
-    listed = run(program, CURVE, path("listed"), [*short, "Rail/Shape=slices", f"Rail/Slices={path('same.slcs')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"], more=["--reference-only"])
+    listed = run(program, CURVE, path("listed"), [*short, "Rail/Shape=slices", f"Rail/Slices={path('same.slcs')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"], command="reference")
     check.relative("a list beside the table: largest pressure by half-space theory", listed["max_pressure_Pa"], slices["half_space_patches"][0]["max_pressure_Pa"], 1e-3)
     read = {file["parameter"]: file for file in listed["files"]}
     with open(path("section.txt"), "rb") as file:
@@ -94,7 +94,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # The way as a table, beside the answers at its places, and the height at which nothing carries yet.
     must_end_well(execute([*arguments_of(PASSAGE, ["Rail/Slices place (mm)=239", "Wheelset/Lateral shift (mm)=0.97", "Motion/Start (mm)=-2", "Motion/Rolled distance (mm)=4"],
-                                         path("points-along")), "--contact-points"], program=program))
+                                         path("points-along"), "contact-points")], program=program))
     along = read_table(os.path.join(path("points-along"), "contact_way.csv"), text=("part",))
     places = sorted(set(along["along_mm"]))
     check.that("five places", np.allclose(places, [237, 238, 239, 240, 241]) and np.allclose(along["along_mm"] - along["axle_x_mm"], 239))
@@ -121,7 +121,7 @@ with tempfile.TemporaryDirectory() as folder:
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
     refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])
-    check.refused("points over the shift", program, PASSAGE, path("refused"), [], ["--shift-to", "'Rail/Shape' slices"], more=["--contact-points", "--shift-to", "5"])
+    check.refused("points over the shift", program, PASSAGE, path("refused"), [], ["--shift-to", "'Rail/Shape' slices"], more=["--shift-to", "5"], command="contact-points")
     refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' need 'Rail/Shape' slices"])
     refused("a wheel that yields", PASSAGE, ["Wheel/Yield stress (MPa)=500"], ["'Wheel/Yield stress (MPa)' must be 0"])
     refused("no file", PASSAGE, ["Rail/Slices="], ["'Rail/Shape' slices needs a file"])

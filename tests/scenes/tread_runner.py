@@ -35,13 +35,13 @@ def unexplained_keys(summary, explained):
     return sorted(keys - explained)
 
 
-def run(program, scene, output, settings=(), ranks=1, more=()):
-    """Run a scene to its end and return its summary, all of whose keys must have a meaning; anything else ends the test."""
+def run(program, scene, output, settings=(), ranks=1, more=(), command="run", table=None):
+    """Run a scene to its end, or do with it what another command does, and return its summary, all of whose keys must have a meaning; anything else ends the test."""
     try:
         if ranks > 1:
-            summary = tread.run(scene, settings, ranks=ranks, output=output, options=more, program=program).summary
+            summary = tread.run(scene, settings, command=command, table=table, ranks=ranks, output=output, options=more, program=program).summary
         else:
-            must_end_well(execute_often([*arguments_of(scene, settings, output), *more], program))
+            must_end_well(execute_often([*arguments_of(scene, settings, output, command, table), *more], program))
             summary = read_summary(output)
         unexplained = unexplained_keys(summary, explained_keys(program))
     except tread.Error as error:
@@ -120,9 +120,9 @@ class Check:
         self.below(f"{name}work of contact on the nodes less that of the pairs, over what was dissipated",
                    (summary["contact_work_on_nodes_J"] - pairs) / summary["dissipated_work_J"], 1e-9)
 
-    def refused(self, what, program, scene, output, settings, words, more=()):
+    def refused(self, what, program, scene, output, settings, words, more=(), command="run"):
         """A scene that must end at once with one line that has all of the words."""
-        ended = execute_often(arguments_of(scene, settings, output) + list(more), program)
+        ended = execute_often(arguments_of(scene, settings, output, command) + list(more), program)
         lines = [line for line in ended.stderr.splitlines() if line.startswith("tread:")]
         if not self.that(f"{what}: exit code 1, one line with {words}", ended.returncode == 1 and len(lines) == 1
                          and all(word in lines[0] for word in words)):

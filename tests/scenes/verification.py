@@ -35,7 +35,7 @@ with tempfile.TemporaryDirectory() as folder:
         stream.seek(0)
         m = json.load(stream)
     fine = compare_with_half_space(folder) if scene.startswith("low-strain") else {}
-    run(program, f"verification/{scene}.prm", os.path.join(folder, "half-space"), peaks, more=["--reference-only"])
+    run(program, f"verification/{scene}.prm", os.path.join(folder, "half-space"), peaks, command="reference")
     peak_rows = rows_of(folder, "peak_stress.csv")
     with open(os.path.join(folder, "half-space", "subsurface.csv"), encoding="utf-8") as stream:
         depth_rows = list(csv.DictReader(stream))

@@ -72,8 +72,8 @@ with tempfile.TemporaryDirectory() as folder:
     # Both wheels of a wheelset in the middle, and in mirrored positions.
     for shift in (0, 6):
         settings, _ = position("right", shift)
-        own = run(program, "curves/manchester-a22-right.prm", path("own"), settings, more=["--reference-only"])
-        other = run(program, "curves/manchester-a22-left.prm", path("other"), settings, more=["--reference-only"])
+        own = run(program, "curves/manchester-a22-right.prm", path("own"), settings, command="reference")
+        other = run(program, "curves/manchester-a22-left.prm", path("other"), settings, command="reference")
         for key in ("normal_force_N", "lateral_force_N", "spin_moment_Nm", "max_pressure_Pa"):
             check.relative(f"mirrored, {shift} mm: {key}", own["patches"][0][key], other["patches"][0][key], 1e-10)
 
@@ -91,7 +91,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # A patch 16 mm wide on the tread's changing radius: what the plane does not know, and that it is said.
     surface = run(program, "curves/manchester-a22-right.prm", path("surface"), {"Wheelset/Slip over the patch": "surface"},
-                  more=["--reference-only"])
+                  command="reference")
     check.absolute("slip by the wheel's surface: longitudinal force, N", surface["longitudinal_force_N"], 117., 1.5)
 
     # A lateral speed imposed on the wheelset adds to what yaw makes, along the patch.
@@ -104,7 +104,7 @@ with tempfile.TemporaryDirectory() as folder:
     # From the tread to the flange of a rail that leans more: two patches, then one for which a plane is not enough.
     heavy = {"Rail/Measured head": "", "Rail/Profile": "60E1", "Rail/Inclination": "1:20", "Vehicle/Sprung mass (kg)": 9000}
     two, wide = (run(program, "curves/manchester-a22-right.prm", path(f"heavy-{shift}"), {**heavy, "Wheelset/Lateral shift (mm)": shift},
-                     more=["--reference-only"]) for shift in (6, 6.1))
+                     command="reference") for shift in (6, 6.1))
     check.that("two patches, and that one deforms the other", len(two["patches"]) == 2 and len(two["warnings"]) == 1
                and "patch 1 gives way" in two["warnings"][0])
     check.relative("two patches: their vertical forces, kN", sum(
@@ -114,8 +114,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("the benchmark is not conformal", not own["warnings"] and not surface["warnings"])
 
     # Contact points: rows, symmetry, the flange.
-    result = execute_often([RIGHT, "--contact-points", "--output", path("points")], program)
-    check.that("--contact-points ends well", result.returncode == 0)
+    result = execute_often(["contact-points", RIGHT, "--output", path("points")], program)
+    check.that("contact-points ends well", result.returncode == 0)
     points = table(path("points"), "contact_points.csv")
     # The wheel stands on the rail where the table says so.
     rail, wheel = (table(path("points"), f"{body}_profile.csv") for body in ("rail", "wheel"))
@@ -145,9 +145,9 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write(f"include {RIGHT}\n{head}subsection Wheel\n set Radius (mm) = 460.2\nend\n")
     with open(path("wide.prm"), "w", encoding="utf-8") as stream:
         stream.write(f"include {RIGHT}\n{head}subsection Wheelset\n set Track gauge (mm) = 1440\nend\n")
-    same = execute_often([RIGHT, "--contact-points", "--other-side", RIGHT, "--output", path("same")], program)
+    same = execute_often(["contact-points", RIGHT, "--other-side", RIGHT, "--output", path("same")], program)
     check.that("the other side by the same scene", same.returncode == 0 and str(table(path("same"), "contact_points.csv")) == str(points))  # nan is nan
-    unlike = execute_often([RIGHT, "--contact-points", "--other-side", path("larger.prm"), "--output", path("unlike")], program)
+    unlike = execute_often(["contact-points", RIGHT, "--other-side", path("larger.prm"), "--output", path("unlike")], program)
     unlike_points = table(path("unlike"), "contact_points.csv")
     check.absolute("a larger other wheel: radius difference in the middle without roll, mm", unlike_points["radius_difference_without_roll_mm"][by_shift[0.]], -0.2, 1e-6)
     shift = float(re.search(r"equal at a lateral shift of (\S+) mm", unlike.stdout)[1])
@@ -172,7 +172,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Steep cones on short profiles touch at several rolls: both sides of the track have the same, that of the way out of the middle.
     klingel = os.path.join(ROOT, "prm", "curves", "klingel.prm")
-    check.that("contact points of steep cones", execute_often([klingel, "--contact-points", "--output", path("steep")], program).returncode == 0)
+    check.that("contact points of steep cones", execute_often(["contact-points", klingel, "--output", path("steep")], program).returncode == 0)
     steep = table(path("steep"), "contact_points.csv")
     by_shift = dict(zip(steep["lateral_shift_mm"], steep["radius_difference_mm"]))
     check.that("steep cones: as many shifts to both sides", set(by_shift) == {-shift for shift in by_shift} and len(by_shift) > 50)
@@ -181,12 +181,12 @@ with tempfile.TemporaryDirectory() as folder:
 
     # The flange of the wheel's file has its back 70 mm from the running circle, as the scene says by default.
     elsewhere = "'Wheelset/Flange back (mm)' -62: the flange of 'Wheel/Tread profile' 'profiles/cone-1-5.txt' has its back at -70.0, so that the wheel stands 8.0 mm off"
-    told = [run(program, "curves/klingel.prm", path(f"back {back}"), {"Wheelset/Flange back (mm)": back}, more=["--reference-only"])["warnings"] for back in (-70, -67.5, -62)]
+    told = [run(program, "curves/klingel.prm", path(f"back {back}"), {"Wheelset/Flange back (mm)": back}, command="reference")["warnings"] for back in (-70, -67.5, -62)]
     check.that("a flange back of another wheel", [any("Flange back" in warning for warning in warnings) for warnings in told] == [False, False, True]
                and any(warning.startswith(elsewhere) for warning in told[2]))
     profiles = os.path.join(ROOT, "prm", "curves", "profiles")
     upright = {"Wheelset/Flange back (mm)": -62, "Wheel/Tread profile": f"{profiles}/cone-1-5.txt", "Rail/Measured head": f"{profiles}/crown-1-5.txt"}
-    in_table = execute_often([*arguments_of("smooth-rolling.prm", upright, path("back-points")), "--contact-points", "--shift-step", "3"], program)
+    in_table = execute_often([*arguments_of("smooth-rolling.prm", upright, path("back-points"), "contact-points"), "--shift-step", "3"], program)
     check.that("and in a table of contact points", in_table.returncode == 0 and "warning: " + elsewhere.replace("profiles/", f"{profiles}/") in in_table.stdout)
     check.that("shifts that end before their last one", "the table ends at lateral shifts of 9 mm, before --shift-to 10" in in_table.stdout
                and max(table(path("back-points"), "contact_points.csv")["lateral_shift_mm"]) == 9.)
@@ -194,29 +194,29 @@ with tempfile.TemporaryDirectory() as folder:
 
     # What cannot be.
     def must_fail(what, arguments, *words):
-        failed = execute_often([RIGHT, "--output", path("bad"), *arguments], program)
+        failed = execute_often([*arguments, "--output", path("bad")], program)
         lines = [line for line in failed.stderr.splitlines() if line.startswith("tread:")]
         if not check.that(f"{what}: exit code 1, one line with {words}", failed.returncode == 1 and len(lines) == 1
                           and all(word in lines[0] for word in words)):
             print(failed.returncode, failed.stderr)
 
-    reference = "--reference-only"
-    must_fail("yaw beyond 5 degrees", [reference, "-s", "Wheelset/Yaw (mrad)=90"], "Wheelset/Yaw (mrad)", "5 degrees")
-    must_fail("falls between the rails", [reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "Wheelset/Lateral shift (mm)' -90", "falls between the rails")
-    must_fail("the other flange in the other rail", [reference, "-s", "Wheelset/Lateral shift (mm)=-27"], "Wheelset/Lateral shift (mm)' -27", "other wheel", "deep")
-    must_fail("profiles that do not meet", [reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
-    must_fail("a rail without gauge face", [reference, "-s", "Rail/Shape=block", "-s", "Rail/Measured head="], "Rail/Shape", "block")
+    reference, points = ["reference", RIGHT], ["contact-points", RIGHT]
+    must_fail("yaw beyond 5 degrees", [*reference, "-s", "Wheelset/Yaw (mrad)=90"], "Wheelset/Yaw (mrad)", "5 degrees")
+    must_fail("falls between the rails", [*reference, "-s", "Wheelset/Lateral shift (mm)=-90"], "Wheelset/Lateral shift (mm)' -90", "falls between the rails")
+    must_fail("the other flange in the other rail", [*reference, "-s", "Wheelset/Lateral shift (mm)=-27"], "Wheelset/Lateral shift (mm)' -27", "other wheel", "deep")
+    must_fail("profiles that do not meet", [*reference, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
+    must_fail("a rail without gauge face", [*reference, "-s", "Rail/Shape=block", "-s", "Rail/Measured head="], "Rail/Shape", "block")
     with open(path("flat.txt"), "w", encoding="utf-8") as stream:
         stream.writelines(f"{y} {0.02 * y}\n" for y in range(-60, 61))
-    must_fail("a wheel without flange in a file", [reference, "-s", f"Wheel/Tread profile={path('flat.txt')}"],
+    must_fail("a wheel without flange in a file", [*reference, "-s", f"Wheel/Tread profile={path('flat.txt')}"],
               "Wheel/Tread profile", "no flange")
-    must_fail("no angular velocity", [reference, "-s", "Motion/Angular velocity (rad per s)=by the drive"], "Motion/Angular velocity (rad per s)")
-    must_fail("torque and angular velocity", [reference, "-s", "Motion/Drive=torque"], "Motion/Drive", "torque")
-    must_fail("contact points of a gauge too wide", ["--contact-points", "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
-    for what in (reference, "--contact-points"):
-        must_fail(f"{what}: a gauge below the distance of the flanges", [what, "-s", "Wheelset/Track gauge (mm)=1000"],
+    must_fail("no angular velocity", [*reference, "-s", "Motion/Angular velocity (rad per s)=by the drive"], "Motion/Angular velocity (rad per s)")
+    must_fail("torque and angular velocity", [*reference, "-s", "Motion/Drive=torque"], "Motion/Drive", "torque")
+    must_fail("contact points of a gauge too wide", [*points, "-s", "Wheelset/Track gauge (mm)=1900"], "do not meet")
+    for what in (reference, points):
+        must_fail(f"{what[0]}: a gauge below the distance of the flanges", [*what, "-s", "Wheelset/Track gauge (mm)=1000"],
                   "Wheelset/Track gauge (mm)' 1000", "Flange-back distance (mm)' 1360", "between the rails")
-    must_fail("another gauge on the other side", ["--contact-points", "--other-side", path("wide.prm")], "--other-side", "track gauge")
-    must_fail("shifts without a step", ["--contact-points", "--shift-step", "0"], "--shift-step")
+    must_fail("another gauge on the other side", [*points, "--other-side", path("wide.prm")], "--other-side", "track gauge")
+    must_fail("shifts without a step", [*points, "--shift-step", "0"], "--shift-step")
 
 check.exit()

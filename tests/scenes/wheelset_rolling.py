@@ -93,10 +93,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("two patches: vertical force, kN", 1e-3 * two["normal_force_N"], 9900 * 9.81e-3, 3e-3)
     lateral, vertical = force_in_track(two)
     check.relative("two patches: vertical force by the patches' axes", vertical, two["normal_force_N"], 2e-3)
-    together = run(program, "curves/two-patches.prm", path("together"), {"Wheelset/Patch distance (mm)": 30}, more=["--reference-only"])
+    together = run(program, "curves/two-patches.prm", path("together"), {"Wheelset/Patch distance (mm)": 30}, command="reference")
     for key in ("longitudinal_force_N", "frictional_power_W"):
         check.relative(f"two patches: {key} of one plane", two[key], together[key], 0.06)
-    apart = run(program, "curves/two-patches.prm", path("apart"), more=["--reference-only"])
+    apart = run(program, "curves/two-patches.prm", path("apart"), command="reference")
     check.that("half-space: says what it leaves out", any("gives way under the pressure of the others" in w for w in apart["warnings"]))
     check.that("half-space in one plane: says so", any("Wheelset/Patch distance" in w for w in together["warnings"]))
 

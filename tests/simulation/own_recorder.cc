@@ -139,7 +139,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
                    "Of the torque that drives it");
   }
   const std::vector<TableDescription> tables = tables_of_a_run();
-  check.that("--print-columns has it",
+  check.that("tread columns has it",
              known && std::any_of(tables.begin(), tables.end(),
                                   [](const auto &table) { return table.file == "hub_power.csv"; }));
   check.that("its key has a meaning", !about_summary_key("largest_hub_power_W").empty());

@@ -163,5 +163,5 @@ def solve_track_case(case: TrackCase, output: str, title: str = "", program: str
     os.makedirs(os.path.dirname(output) or ".", exist_ok=True)
     with open(output + ".prm", "w", encoding="utf-8") as stream:
         stream.write(scene_text(case.settings, title))
-    answer = run(output + ".prm", options=["--reference-only"], output=output, program=program)
+    answer = run(output + ".prm", command="reference", output=output, program=program)
     return answer, patch_rows(case.side, answer.summary["patches"])

@@ -95,7 +95,7 @@ class Scene:
                         "Mesh/Path cell (mm)": 0, "Mesh/Longest row (mm)": 60}
             if known["Rail/Ends"] == "endless":  # waves that leave have no modes
                 settings |= {"Rail/Ends": "absorbing", "Rail/Absorbing length (m)": OF_MODES}
-            must_end_well(execute([*arguments_of(self.path, settings, folder), "--modes", "--up-to", f"{1.2 * highest:.0f}"], self.ranks))
+            must_end_well(execute([*arguments_of(self.path, settings, folder, "modes"), "--up-to", f"{1.2 * highest:.0f}"], self.ranks))
             table = Run(folder).table("receptance.csv")
             complex_of = lambda body: table[f"{body}_magnitude_m_per_N"] * np.exp(1j * np.radians(table[f"{body}_phase_degrees"]))
             rail.append(complex_of("rail") - by_disc["Rail"])

@@ -52,4 +52,4 @@ def solve(side: str, settings: Mapping[str, object], program: str = PROGRAM) -> 
     """The summary of a position."""
     with tempfile.TemporaryDirectory() as folder:
         return run(f"curves/manchester-a22-{side}.prm", settings, output=os.path.join(folder, "run"),
-                   options=["--reference-only"], program=program).summary
+                   command="reference", program=program).summary

@@ -9,12 +9,13 @@ import os
 import re
 import subprocess
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import TypeVar
 
 from .comparison import compare
 from .files import input_of, is_complete, read_summary
-from .runs import ROOT, ProgramError, arguments_of, command, environment, execute, must_end_well, own_line
+from .runs import ROOT, ProgramError, arguments_of, environment, execute, must_end_well, own_line
+from .runs import command as words_of
 
 Name = TypeVar("Name")
 
@@ -37,14 +38,14 @@ def available_ranks() -> int:
     return min(2, os.cpu_count() or 1)
 
 
-def run_scene(scene: str, folder: str, settings: Mapping[str, object] | None = None, ranks: int | None = None, more: Sequence[str] = ()) -> dict:
-    """The summary of a scene of prm/, which is run unless `folder` has the complete results of the same command and
-    the same input.
+def run_scene(scene: str, folder: str, settings: Mapping[str, object] | None = None, ranks: int | None = None, command: str = "run") -> dict:
+    """The summary of a scene of prm/, which is run, or what another command of the program does with it, unless `folder` has the complete results
+    of the same command and the same input.
 
     Beside the summary's figures: `seconds` from the start of the program to its summary.json, and `peak_bytes`,
     the memory of its largest process.
     """
-    line = command([*arguments_of(shipped(scene), settings or {}, folder), *more], ranks or available_ranks())
+    line = words_of(arguments_of(shipped(scene), settings or {}, folder, command), ranks or available_ranks())
     known_line = [part for before, part in zip(["", *line], line) if before != "orte_tmpdir_base"]  # a folder that each start has of its own
     cost_file = os.path.join(folder, "cost.json")
     cost = {}

@@ -39,7 +39,7 @@ def solve(rows: Sequence[Row], program: str) -> list[list[dict[str, str]]]:
     with tempfile.TemporaryDirectory() as folder:
         table, output = os.path.join(folder, "positions.csv"), os.path.join(folder, "patches.csv")
         write(table, list(rows[0]), rows)
-        done = execute(["--positions", table, "--output", output], program=program)
+        done = execute(["positions", table, "--output", output], program=program)
         if not os.path.exists(output):
             must_end_well(done)
             raise Error("the program wrote no table")

@@ -8,6 +8,7 @@
     run.frame()                                           # history.csv as a data frame
     [(instant.position_mm, instant.patch.pressure.max()) for instant in run.patches]
     run.pictures()
+    tread.run("prm/smooth-rolling.prm", command="reference")       # what the program can do with a scene besides rolling it
 
 numpy is imported where columns are read: without it programs can be started, and commands say in one line that it is missing.
 """
@@ -103,13 +104,28 @@ def text_of(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def arguments_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequence[str] = (), output: str | None = None) -> list[str]:
+# What the program does with a scene, as `tread --help` lists it, and what it adds to the name of the folder where the scene names one.
+COMMANDS = {"run": "", "reference": "-reference", "modes": "-modes", "contact-points": "-contact-points", "wear": "-wear"}
+
+
+def must_be_command(command: str, table: object) -> None:
+    """@raises Error for what is no command for scenes, or one whose table is missing or too many"""
+    if command not in COMMANDS:
+        raise Error(f"'{command}' is no command for a scene; there are {', '.join(COMMANDS)}")
+    if (table is not None) != (command == "wear"):
+        raise Error("the command 'wear' needs table=, a table of contacts" if table is None else f"the command '{command}' takes no table")
+
+
+def arguments_of(scene: str | os.PathLike, settings: Mapping[str, object] | Sequence[str] = (), output: str | None = None, command: str = "run",
+                 table: str | os.PathLike | None = None) -> list[str]:
     """What follows the program's name. @param scene a path from the current folder, or from prm/ of the source tree
     @param settings {"Section/Name": value}, or a list of "Section/Name=value", of which the last of each name counts: the program takes
-    each name once"""
+    each name once @param command one of COMMANDS @param table of contacts, a path like the scene's, for 'wear'
+    @raises Error as must_be_command()"""
+    must_be_command(command, table)
     if hasattr(settings, "items"):
         settings = [f"{name}={text_of(value)}" for name, value in settings.items()]
-    arguments = [scene_path(scene)]
+    arguments = ([command] if command != "run" else []) + [scene_path(path) for path in (scene, table) if path is not None]
     for setting in {setting.partition("=")[0].strip(): setting for setting in settings}.values():
         arguments += ["-s", setting]
     return arguments + (["--output", output] if output else [])
@@ -135,26 +151,9 @@ def must_end_well(result: subprocess.CompletedProcess) -> subprocess.CompletedPr
     return result
 
 
-def run(scene: str | os.PathLike, settings: Mapping[str, object] | None = None, *, ranks: int = 1, output: str | os.PathLike | None = None,
-        options: Sequence[str] = (), program: str = PROGRAM, show: bool = False) -> Run:
-    """Roll a scene to its end.
-
-    scene     path of a parameter file, from the current folder or from prm/ of the source tree
-    settings  {"Section/Name": value}, in the units that the names state, such as {"Mesh/Finest cell (mm)": 1.3}
-    ranks     MPI processes
-    output    folder of the results; by default that of the scene, 'Output/Directory', seen from the current folder
-    options   more of the program's, such as ["--resume"], ["--reference-only"] or ["--wear", "contacts.csv"]
-    show      let the terminal have what the program prints
-
-    Returns the Run. Raises ProgramError if the exit code is not 0. Ctrl-C ends the program with a checkpoint, from which
-    options=["--resume"] goes on.
-    """
-    if shutil.which(program) is None:
-        raise Error(f"{program}: no such program; build it or name it with program=")
-    if output is None:
-        own = parameters_of(scene, settings or {}, program)["Output/Directory"]
-        output = own + ("-reference" if "--reference-only" in options else "-wear" if "--wear" in options else "")
-    line = command([*arguments_of(scene, settings or {}, os.fspath(output)), *options], ranks, program)
+def execute_stoppable(arguments: Iterable[str], ranks: int = 1, program: str = PROGRAM, show: bool = False) -> None:
+    """The program to its end. Ctrl-C ends it with a checkpoint. @raises ProgramError if the exit code is not 0"""
+    line = command(arguments, ranks, program)
     # A session of its own: Ctrl-C comes once, from here, and not from the terminal as well.
     with subprocess.Popen(line, env=environment(), stdout=None if show else subprocess.DEVNULL, stderr=subprocess.PIPE,
                           text=True, start_new_session=True) as process:
@@ -165,6 +164,32 @@ def run(scene: str | os.PathLike, settings: Mapping[str, object] | None = None, 
             process.communicate()
             raise
     must_end_well(subprocess.CompletedProcess(line, process.returncode, stderr=errors))
+
+
+def run(scene: str | os.PathLike, settings: Mapping[str, object] | None = None, *, command: str = "run", table: str | os.PathLike | None = None,
+        ranks: int = 1, output: str | os.PathLike | None = None, options: Sequence[str] = (), program: str = PROGRAM, show: bool = False) -> Run:
+    """Roll a scene to its end, or do with it what another command of the program does.
+
+    scene     path of a parameter file, from the current folder or from prm/ of the source tree
+    settings  {"Section/Name": value}, in the units that the names state, such as {"Mesh/Finest cell (mm)": 1.3}
+    command   of the program: "run", "reference", "modes", "contact-points" or "wear"
+    table     of contacts, which "wear" reads: a path like that of the scene
+    ranks     MPI processes
+    output    folder of the results; by default that of the scene, 'Output/Directory', seen from the current folder, and the command behind
+              its name unless that is "run"
+    options   more of the program's, such as ["--resume"], or ["--shift-to", "5"] of "contact-points"
+    show      let the terminal have what the program prints
+
+    Returns the Run. Raises ProgramError if the exit code is not 0. Ctrl-C ends the program with a checkpoint, from which
+    options=["--resume"] goes on.
+    """
+    if shutil.which(program) is None:
+        raise Error(f"{program}: no such program; build it or name it with program=")
+    must_be_command(command, table)
+    if output is None:
+        behind = COMMANDS[command] or next((COMMANDS[name] for name, flag in (("reference", "--reference-only"), ("wear", "--wear")) if flag in options), "")
+        output = parameters_of(scene, settings or {}, program)["Output/Directory"] + behind
+    execute_stoppable([*arguments_of(scene, settings or {}, os.fspath(output), command, table), *options], ranks, program, show)
     return Run(output)
 
 
@@ -178,7 +203,7 @@ def version_of(program: str = PROGRAM) -> str | None:
 def dynamic_force(folder: str, twin: str, program: str = PROGRAM) -> None:
     """Write dynamic.csv, spectrum.csv and dynamic.json: what a defect adds to the forces of the run in a folder, beside its
     smooth twin in another."""
-    must_end_well(execute(["--dynamic-force", folder, "--smooth-twin", twin], program=program))
+    must_end_well(execute(["dynamic-force", folder, "--smooth-twin", twin], program=program))
 
 
 class Run:

@@ -63,7 +63,7 @@ from typing import TYPE_CHECKING, List, Optional, Tuple
 
 from .files import DataError, Error, frame_or_rows, input_of, is_complete, own_parameters
 from .limits import Limit
-from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, execute, must_end_well, own_line, scene_path, text_of, version_of
+from .runs import PROGRAM, ProgramError, Run, arguments_of, command, dynamic_force, environment, execute, must_be_command, must_end_well, own_line, scene_path, text_of, version_of
 from .schema import edit_distance, listing, not_among, parameters
 
 if TYPE_CHECKING:
@@ -286,20 +286,30 @@ def folder_name(values: Mapping[str, str]) -> str:
 class Member(Run):
     """One run of a study."""
 
-    def __init__(self, study: Study, root: str, name: str, settings: Mapping[str, str], program: str, options: Sequence[str] = ()):
+    def __init__(self, study: Study, root: str, name: str, settings: Mapping[str, str], program: str, options: Sequence[str] = (), command: str = "run",
+                 table: str | os.PathLike | None = None):
         super().__init__(os.path.join(root, name))
         self.name, self.state = name, ""
         self.process: subprocess.Popen | None = None
         self.kept = False  # complete before this study began
         self.without_force = ""  # why there is no dynamic.json
-        self.line = [*arguments_of(study.scene, settings, self.folder), *options]
+        self.line = [*arguments_of(study.scene, settings, self.folder, command, table), *options]
         self.ranks, self.program = study.ranks, program
-        self.scene, self.settings, self.options = study.scene, dict(settings), list(options)
+        self.scene, self.settings, self.options, self.command = study.scene, dict(settings), list(options), command
+        self.table_path = scene_path(table) if table is not None else None
         self.input = self.present_input()
 
     def present_input(self) -> dict:
         """What decides about its results, with files as they are now."""
-        return {**input_of(self.scene, self.settings), **({"options": self.options} if self.options else {})}
+        known = input_of(self.scene, self.settings)
+        if self.options:
+            known["options"] = self.options
+        if self.command != "run":
+            known["command"] = self.command
+        if self.table_path is not None:
+            with open(self.table_path, encoding="utf-8") as stream:
+                known["table"] = stream.read()
+        return known
 
     def same_input(self) -> bool:
         try:
@@ -512,7 +522,8 @@ def tabulate(study: Study, root: str, members: Members) -> bool:
     return not missing and all(run.state == COMPLETE for run, _ in members)
 
 
-def members_of(study: Study, root: str, program: str, options: Sequence[str] = ()) -> Members:
+def members_of(study: Study, root: str, program: str, options: Sequence[str] = (), command: str = "run",
+               table: str | os.PathLike | None = None) -> Members:
     """[(run, its smooth twin or None)] of a study in a folder."""
     members, twins = [], {}
     no_defect = study.without_defect.get("Defect/Shape") == "none"
@@ -527,8 +538,8 @@ def members_of(study: Study, root: str, program: str, options: Sequence[str] = (
             # Where the defect would be is where stresses are recorded, and a length is also what the axle's inertia goes by.
             if number_or_text(has.get(LENGTH, "0")) == 0 and LENGTH in values:
                 settings[LENGTH] = values[LENGTH]
-            twins[name] = Member(study, root, name, settings, program, options)
-        members.append((Member(study, root, folder_name(values), {**study.settings, **values}, program, options), twins.get(name)))
+            twins[name] = Member(study, root, name, settings, program, options, command, table)
+        members.append((Member(study, root, folder_name(values), {**study.settings, **values}, program, options, command, table), twins.get(name)))
     return members
 
 
@@ -562,7 +573,8 @@ def perform(study: Study, root: str, members: Members) -> bool:
 
 
 def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (), settings: Mapping[str, object] | None = None,
-          combination: str = "product", smooth_twin: Mapping[str, object] | None = None, output: str | os.PathLike | None = None,
+          command: str = "run", table: str | os.PathLike | None = None, combination: str = "product",
+          smooth_twin: Mapping[str, object] | None = None, output: str | os.PathLike | None = None,
           processes: int = 1, ranks: int = 1, options: Sequence[str] = (), program: str = PROGRAM,
           show: bool = False) -> pandas.DataFrame | list[dict]:
     """Run a parameter variation of a scene, as contrib/study.py does from a file.
@@ -572,12 +584,13 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
                  {("Section/Name", "Section/Other"): [(value, other), ...]}
     figures      names as in 'Figures' of a study: of summary.json, max(...), dynamic(...); by default those that a file has
     settings     {"Section/Name": value} of all runs
+    command      what the program does with the scene, and the table that it reads with it, as in run()
     combination  "product" of the values, or "zip": first with first, ...
     smooth_twin  {"Section/Name": value} that takes the defect away
     output       folder of the study, by default results/ and the name of the scene
     processes    runs at a time
     ranks        of each run
-    options      more of the program's, such as ["--reference-only"]
+    options      more of the program's, such as ["--up-to", "1000"] of "modes"
     show         print what happens, and the table
 
     Returns a table with a row for each run: the varied values as given, the figures (nan where there is none), warnings, the number of those
@@ -587,6 +600,7 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
     KeyboardInterrupt after Ctrl-C, when all runs have a checkpoint.
     """
     where = "tread.study()"
+    must_be_command(command, table)
     joined = lambda values: " | ".join(map(text_of, values))
     pairs = lambda given: joined(f"{name}={text_of(value)}" for name, value in (given or {}).items())
     lists = {(name,) if isinstance(name, str) else tuple(name): [value if not isinstance(name, str) else (value,) for value in values]
@@ -601,13 +615,13 @@ def study(scene: str | os.PathLike, vary: Mapping, *, figures: Sequence[str] = (
     entries = {**DEFAULTS, "Scene": scene, "Settings": pairs(settings), "Combination": combination, "Smooth twin": pairs(smooth_twin),
                "Processes": str(processes), "Ranks": str(ranks), **({"Figures": joined(figures)} if figures else {})}
     asked = Study(where, entries, {" & ".join(name): joined(" & ".join(map(text_of, value)) for value in values) for name, values in lists.items()})
-    for path, what in ((scene, "scene"), (program, "program; build it or name it with program=")):
+    for path, what in ((scene, "scene"), (program, "program; build it or name it with program="), *([(scene_path(table), "table")] if table is not None else [])):
         if not os.path.isfile(path):
             raise DataError(f"{path}: no such {what}")
     asked.must_name_parameters(program)
     asked.must_name_figures(program)
     root = os.fspath(output or os.path.join("results", os.path.splitext(os.path.basename(scene))[0]))
-    members = members_of(asked, root, program, options)
+    members = members_of(asked, root, program, options, command, table)
     try:
         with contextlib.redirect_stdout(None) if not show else contextlib.nullcontext():
             perform(asked, root, members)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""`--modes` of a wheel on a bar on four sleepers, against masses on springs and beams."""
+"""`tread modes` of a wheel on a bar on four sleepers, against masses on springs and beams."""
 
 from __future__ import annotations
 

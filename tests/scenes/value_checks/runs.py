@@ -35,9 +35,9 @@ class Maker:
     def path(self, name: str) -> str:
         return os.path.join(self.folder, name)
 
-    def run(self, name: str, scene: str, settings: dict, ranks: int = 1, more: tuple[str, ...] = ()) -> None:
+    def run(self, name: str, scene: str, settings: dict, ranks: int = 1, more: tuple[str, ...] = (), command: str = "run") -> None:
         start = time.monotonic()
-        ended = must_end_well(execute([*arguments_of(os.path.join(ROOT, "prm", scene), settings, self.path(name)), *more], ranks, self.program))
+        ended = must_end_well(execute([*arguments_of(os.path.join(ROOT, "prm", scene), settings, self.path(name), command), *more], ranks, self.program))
         self.keep(name, ended.stdout, time.monotonic() - start)
 
     def keep(self, name: str, screen: str, seconds: float) -> None:
@@ -70,26 +70,26 @@ def all_runs(program: str, folder: str, only: str = "") -> Runs:
         wheels = {"Further wheels/Distances (mm)": 1000, "Further wheels/Traction coefficients": 0.1, "Motion/Traction coefficient": 0.2}
         make.run("track", "tutorial/track.prm", {**BAR, **dip, **wheels})
         make.run("twin", "tutorial/track.prm", {**BAR, **dip, **wheels, "Defect/Shape": "none"})
-        make.tool("dynamic", ["--dynamic-force", make.path("track"), "--smooth-twin", make.path("twin")])
-        make.tool("sleeper", ["--sleeper-stress", make.path("track"), "--cell-size", "40", "--bottom", "ballast"])
+        make.tool("dynamic", ["dynamic-force", make.path("track"), "--smooth-twin", make.path("twin")])
+        make.tool("sleeper", ["sleeper-stress", make.path("track"), "--cell-size", "40", "--bottom", "ballast"])
     if want("modes"):
-        make.run("modes", "tutorial/track.prm", BAR, 1, ("--modes", "--up-to", "1500"))
+        make.run("modes", "tutorial/track.prm", BAR, 1, ("--up-to", "1500"), "modes")
     if want("modes_full"):
-        make.run("modes_full", "tutorial/full-wheel.prm", {"Mesh/Finest cell (mm)": 2.7, "Mesh/Fine half width (mm)": 12, "Mesh/Coarsest cell (mm)": 60}, 1, ("--modes", "--up-to", "300"))
+        make.run("modes_full", "tutorial/full-wheel.prm", {"Mesh/Finest cell (mm)": 2.7, "Mesh/Fine half width (mm)": 12, "Mesh/Coarsest cell (mm)": 60}, 1, ("--up-to", "300"), "modes")
     if want("curve"):
         make.run("curve", "curves/klingel.prm", {**CURVE, "Guidance/Kind": "springs", "Guidance/Lateral force (kN)": 4, "Guidance/Yaw moment (kN m)": 1,
                                                  "Guidance/Lateral stiffness (MN per m)": 5, "Guidance/Lateral damping (kN s per m)": 20,
                                                  "Wheelset/Axle torsional stiffness (MN m per rad)": 3.4, "Wheelset/Axle bending stiffness (MN m2)": 5})
     if want("half"):
-        make.run("half", "smooth-rolling.prm", STRAIGHT, 1, ("--reference-only",))
+        make.run("half", "smooth-rolling.prm", STRAIGHT, 1, command="reference")
         alike = {name: value for name, value in STRAIGHT.items() if name not in UNLIKE}
-        make.run("half_alike", "smooth-rolling.prm", {**alike, "Start/Tractions": "none", "Motion/Rolled distance (mm)": 45}, 2, ("--reference-only",))
+        make.run("half_alike", "smooth-rolling.prm", {**alike, "Start/Tractions": "none", "Motion/Rolled distance (mm)": 45}, 2, command="reference")
     if want("half_curve"):
         make.run("half_curve", "curves/klingel.prm", {**CURVE, "Guidance/Kind": "rigid", "Guidance/Lateral force (kN)": "balance", "Guidance/Yaw moment (kN m)": "balance",
                                                       "Wheel/Smoothing length (mm)": 2, "Rail/Smoothing length (mm)": 3},
-                 1, ("--reference-only",))
+                 1, command="reference")
     if want("half_two"):
-        make.run("half_two", "curves/two-patches.prm", UNLIKE, 1, ("--reference-only",))
+        make.run("half_two", "curves/two-patches.prm", UNLIKE, 1, command="reference")
     if want("points"):
-        make.run("points", "curves/klingel.prm", CURVE, 1, ("--contact-points", "--shift-to", "6", "--shift-step", "0.5"))
+        make.run("points", "curves/klingel.prm", CURVE, 1, ("--shift-to", "6", "--shift-step", "0.5"), "contact-points")
     return make.runs
