@@ -49,11 +49,11 @@ with tempfile.TemporaryDirectory() as folder:
     jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
     all_of, some = columns(path("rolled")), columns(path("jumped"))
     check.that("all are rolled without jumps", rolled["passages_rolled"] == n and list(all_of["passage"]) == list(range(1, n + 1)) and "jumps" not in rolled)
-    check.that("few with", jumped["passages_rolled"] < 0.7 * n and jumped["passages_rolled"] + jumped["passages_left_out"] == n)
+    check.that("few with", jumped["passages_rolled"] < 0.6 * n and jumped["passages_rolled"] + jumped["passages_left_out"] == n)
     check.that("each row says how many were left out before it", np.all(np.diff(some["passage"], prepend=0) == some["skipped"] + 1) and some["skipped"].sum() == jumped["passages_left_out"]
                and (some["skipped"] > 0).sum() == jumped["jumps"] and some["passage"][-1] == n)
     at = some["passage"].astype(int) - 1
-    for column, allowed in (("net_plastic_strain_percent", 0.03), ("equivalent_plastic_strain_percent", 0.03), ("shift_um", 0.03), ("settlement_um", 0.03)):
+    for column, allowed in (("net_plastic_strain_percent", 0.015), ("equivalent_plastic_strain_percent", 0.015), ("shift_um", 0.015), ("settlement_um", 0.003)):
         check.below(f"{column}: largest difference from all rolled, over the last", np.abs(some[column] - all_of[column][at]).max() / abs(all_of[column][-1]), allowed)
     off = abs(jumped["net_plastic_strain"] / rolled["net_plastic_strain"] - 1.)
     check.that("the estimate of the error is no less than a third of it, and no more than a tenth of the strain",
@@ -84,10 +84,12 @@ with tempfile.TemporaryDirectory() as folder:
     part = columns(path("stopped"))  # it may have ended between two passages, where there is no summary
     check.that("stopped behind a jump", part["skipped"].sum() > 0 and len(part["passage"]) < one["passages_rolled"])
     resumed = run(program, SCENE, path("stopped"), SHORT, more=["--resume"])
-    for key in ("net_plastic_strain", "net_plastic_strain_of_last_passage", "passages_rolled", "passages_left_out", "net_plastic_strain_error_estimate", "normal_force_N"):
+    for key in ("net_plastic_strain", "net_plastic_strain_of_last_passage", "passages_rolled", "passages_left_out", "normal_force_N"):
         # Regression: each start ends where forces balance to within its tolerance.
         check.relative(f"two ranks: {key}", two[key], one[key], 1e-3)
         check.relative(f"stopped and resumed: {key}", resumed[key], one[key], 3e-5)
+    for name, of in (("two ranks", two), ("stopped and resumed", resumed)):  # differences of rates, each of which is known to that
+        check.relative(f"{name}: net_plastic_strain_error_estimate", of["net_plastic_strain_error_estimate"], one["net_plastic_strain_error_estimate"], 0.02)
 
     # It ends where the steel fails.
     limit = 0.5 * (all_of["net_plastic_strain_percent"][7] + all_of["net_plastic_strain_percent"][8])

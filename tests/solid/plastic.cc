@@ -386,6 +386,51 @@ namespace
       volume =
         std::max(volume, std::abs(twice.values[0][lane] + twice.values[1][lane] + twice.values[2][lane]));
     check.below("the first cells keep their volume, strain", volume, 1e-12);
+
+    const NodalField     x        = stretched(0.05);
+    const PlasticHistory stressed = plastic.with_stresses(x.data(), there);
+    check.below("to stresses and back", largest_change(plastic.from_stresses(x.data(), stressed), there),
+                1e-12);
+    // Another shape under the same stresses: sheared and turned, at the same volume. Backstresses turn with
+    // the steel, so that it is one without them.
+    const Solid         isotropic = cube.solid({{0, steel_that_yields(false), everywhere}});
+    const PlasticCells &cells     = isotropic.plastic();
+    PlasticHistory      flowed    = isotropic.virgin();
+    for (unsigned int step = 1; step <= 40; ++step)
+      {
+        NodalField f(x.size(), Vector3{});
+        isotropic.update_internal_forces(stretched(0.05 * step / 40).data(), cube.at_rest.data(), f.data(),
+                                         flowed);
+      }
+    NodalField moved = x;
+    for (Vector3 &p : moved)
+      p = Vector3{0.8 * (p[0] + 0.1 * p[2]) + 0.6 * p[1], -0.6 * (p[0] + 0.1 * p[2]) + 0.8 * p[1], p[2], 0.};
+    const PlasticHistory under  = cells.from_stresses(moved.data(), cells.with_stresses(x.data(), flowed));
+    const auto           before = isotropic.cauchy_stress(x.data(), flowed),
+               after            = isotropic.cauchy_stress(moved.data(), under);
+    double largest = 0., change = 0.;
+    for (std::size_t c = 0; c < before.size(); ++c)
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          largest = std::max(largest, std::abs(before[c][k]));
+          change  = std::max(change, std::abs(after[c][k] - before[c][k]));
+        }
+    check.that("there are stresses", largest > 100e6);
+    check.below("another shape under the same stresses, over the largest", change / largest, 1e-9);
+    check.that("its plastic strain is another one", largest_change(under, flowed) > 0.05);
+
+    PlasticHistory sum = virgin;
+    plastic.add(sum, 2., there, PlasticCells::strain_at, PlasticCells::hourglass_at);
+    check.relative("a part of a history is added", largest_strain(solid, sum), 2. * forth, 1e-12);
+    plastic.copy(sum, virgin, PlasticCells::strain_at, PlasticCells::hourglass_at);
+    check.that("and set back", largest_change(sum, virgin) == 0.);
+    const std::vector<double> squares =
+      plastic.products(there, there, PlasticCells::strain_at, PlasticCells::hourglass_at);
+    check.relative("product with itself", *std::max_element(squares.begin(), squares.end()), forth * forth,
+                   1e-12);
+    check.that("steel that flows has the one history, other steel the other",
+               largest_change(plastic.where_flowing(there, twice, log_there), twice) == 0. &&
+                 largest_change(plastic.where_flowing(virgin, twice, log_there), log_there) == 0.);
   }
 } // namespace
 
