@@ -29,10 +29,10 @@ namespace tread
   {
     // Longer ones before those that they end with.
     for (const std::string unit :
-         {"J_per_m2", "J_per_m", "m3",    "deg",   "K",       "rad_per_s", "m_per_s2", "m_per_s",
-          "N_per_m",  "m_per_N", "per_m", "per_s", "percent", "degrees",   "bytes",    "MPa",
-          "Pa",       "Hz",      "mm2",   "mm",    "um",      "m2",        "rad",      "Nm",
-          "m",        "N",       "J",     "W",     "s"})
+         {"J_per_m2", "J_per_m", "kg_per_m3", "m3",    "deg",   "K",       "rad_per_s", "m_per_s2",
+          "m_per_s",  "N_per_m", "m_per_N",   "per_m", "per_s", "percent", "degrees",   "bytes",
+          "MPa",      "Pa",      "Hz",        "mm2",   "mm",    "um",      "m2",        "rad",
+          "Nm",       "m",       "N",         "J",     "W",     "s"})
       if (heading.size() > unit.size() + 1 &&
           heading.compare(heading.size() - unit.size() - 1, std::string::npos, "_" + unit) == 0)
         return unit;

@@ -184,6 +184,11 @@ namespace
                tests::complaint<InputError>([] {
                  TGammaDamage({15., 65.}, {0.});
                }) == "'Damage/Function T-gammas (N)' has 2 numbers, 'Function damages' has 1");
+    section.set("Regime slopes (ug per m N)", "5.3");
+    check.that("one slope for two regimes is refused",
+               tests::complaint<InputError>([&] { RegimeWearRate::make(section); }) ==
+                 "'Damage/Regime slopes (ug per m N)' has two numbers");
+    section.set("Regime slopes (ug per m N)", "5.3, 61.9");
     section.set("Regime borders (N per mm2)", "77, 10");
     check.that("borders of regimes that fall are refused", tests::complaint<InputError>([&] {
                                                              RegimeWearRate::make(section);

@@ -26,10 +26,10 @@ namespace tread
     static void declare(dealii::ParameterHandler &section)
     {
       using namespace dealii::Patterns;
-      section.declare_entry("Regime borders (N per mm2)", "10.4, 77.2", List(Double(0., 1e6), 2, 2),
+      section.declare_entry("Regime borders (N per mm2)", "10.4, 77.2", List(Double(0., 1e6), 0, 2),
                             "T-gamma over the area in contact at which wear goes from mild to severe, and "
                             "from severe to catastrophic; by default of a wheel of R8T on a rail of 900A.");
-      section.declare_entry("Regime slopes (ug per m N)", "5.3, 61.9", List(Double(0., 1e6), 2, 2),
+      section.declare_entry("Regime slopes (ug per m N)", "5.3, 61.9", List(Double(0., 1e6), 0, 2),
                             "Mass lost for each metre rolled and newton of T-gamma in the mild regime and, "
                             "from the border on, in the catastrophic one; between them it stays.");
     }
@@ -39,6 +39,7 @@ namespace tread
       const auto pair = [&](const char *name, const double unit) {
         const std::vector<double> list =
           dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(section.get(name)));
+        require(list.size() == 2, std::string("'Damage/") + name + "' has two numbers");
         return std::array<double, 2>{{unit * list[0], unit * list[1]}};
       };
       const reference::WearRegimes regimes{pair("Regime borders (N per mm2)", 1e6),

@@ -38,7 +38,7 @@ namespace tread::reference
 
   /// A wheel of R8T on a rail of 900A (Braghin, Lewis, Dwyer-Joyce and Bruni 2006, whose formula of the last
   /// regime is printed without the rate from which it goes on).
-  constexpr WearRegimes regimes_of_r8t_on_900a{{10.4e6, 77.2e6}, {5.3e-9, 61.9e-9}};
+  constexpr WearRegimes regimes_of_r8t_on_900a{{{10.4e6, 77.2e6}}, {{5.3e-9, 61.9e-9}}};
 } // namespace tread::reference
 
 #endif

@@ -23,10 +23,11 @@ namespace tread
     section.add("Jumps", jumps,
                 "true: once the rail changes alike from passage to passage, its change is extrapolated over "
                 "passages that are not rolled; doc/ratcheting.md.");
-    section.add("Rolled between jumps", rolled_between,
-                "Passages that are rolled between two jumps at least: what a jump disturbs must fade in all "
-                "but the last two, from which the change per passage is taken.",
-                Integer(3, 1000));
+    section.add(
+      "Rolled between jumps", rolled_between,
+      "Passages that are rolled between two jumps at least: by the last three what fades behind a jump "
+      "is told from what goes on.",
+      Integer(3, 1000));
     section.add("Irregularity (%)", irregularity,
                 "There is no jump while the change per passage differs by more than this, in its root mean "
                 "square over the cells, from that of the passage before.",
