@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -16,7 +17,8 @@ namespace tread
     using Key = std::array<long long, 4>;
 
     // Flat lists that deal.II can send.
-    using SentFace = std::array<long long, 15>; ///< body, left out or not, four positions in nm, edge along
+    using SentFace = std::array<long long, 16>; ///< body, left out or not, four positions in nm, edge along,
+                                                ///< corners on a side
     using SentHangingNode = std::array<long long, 12>; ///< keys of the node and its two parents
 
     /// The first two corners of a face's cell lie on an edge along the path: the first of the face's two
@@ -41,6 +43,12 @@ namespace tread
       for (const Mesh::HangingNode &h : mesh.hanging_nodes)
         hangs[h.node] = &h;
 
+      // A face whose edge lies on a plane of symmetry belongs to the cell that has the plane's face too.
+      std::set<unsigned int> on_side;
+      for (const Mesh::Face &face : mesh.faces)
+        if (face.boundary == Boundary::side)
+          on_side.insert(face.nodes.begin(), face.nodes.end());
+
       for (const Mesh::Face &face : mesh.faces)
         if (face.boundary == Boundary::contact)
           {
@@ -55,6 +63,8 @@ namespace tread
                 const Key          key  = mesh.node_key(node);
                 for (unsigned int d = 0; d < 3; ++d)
                   entry[2 + 3 * v + d] = key[1 + d];
+                if (on_side.count(node) > 0)
+                  entry[15] |= 1 << v;
                 if (!hangs[node])
                   continue;
                 const std::set<unsigned int> parents(hangs[node]->parents.begin(),
@@ -75,15 +85,26 @@ namespace tread
           }
     }
 
-    /// Beyond an edge along the path that only one face has, nothing can be touched.
-    void mark_rims(const std::vector<ContactSurfaces::Face> &faces, std::vector<ContactSurfaces::Node> &nodes)
+    /// Beyond an edge along the path that only one face has, nothing can be touched. Where one surface ends
+    /// on a plane of symmetry there is nothing beyond to be touched, but its own image: the edge there, and
+    /// those of the other surface on or beyond the plane, are no rims.
+    void mark_rims(const std::vector<ContactSurfaces::Face> &faces,
+                   const std::set<unsigned int>             &on_side,
+                   std::vector<ContactSurfaces::Node>       &nodes)
     {
       std::map<std::pair<unsigned int, unsigned int>, unsigned int> n_faces;
       for (const ContactSurfaces::Face &face : faces)
         for (const unsigned int v : {face.edge_along, face.edge_along + 2})
           ++n_faces[std::minmax(face.nodes[v], face.nodes[(v + 1) % 4])];
+      constexpr double tolerance = 1e-6; // m
+      double           least = -std::numeric_limits<double>::max(), most = -least;
+      for (const unsigned int i : on_side)
+        (nodes[i].reference[1] < 0. ? least : most) = nodes[i].reference[1];
+      const auto is_within = [&](const unsigned int i) {
+        return nodes[i].reference[1] > least + tolerance && nodes[i].reference[1] < most - tolerance;
+      };
       for (const auto &[ends, count] : n_faces)
-        if (count == 1)
+        if (count == 1 && (is_within(ends.first) || is_within(ends.second)))
           nodes[ends.first].at_rim = nodes[ends.second].at_rim = true;
     }
   } // namespace
@@ -129,13 +150,18 @@ namespace tread
     for (const auto &[node, parents] : parents_of)
       hanging_nodes.push_back({node, parents});
 
+    std::set<unsigned int> on_side;
     for (const auto &entry : sorted)
       {
         Face face;
         face.body       = entry[0];
         face.edge_along = entry[14];
         for (unsigned int v = 0; v < 4; ++v)
-          face.nodes[v] = number.at({{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}});
+          {
+            face.nodes[v] = number.at({{entry[0], entry[2 + 3 * v], entry[3 + 3 * v], entry[4 + 3 * v]}});
+            if (entry[15] >> v & 1)
+              on_side.insert(face.nodes[v]);
+          }
         if (entry[1] == 0 && std::none_of(face.nodes.begin(), face.nodes.end(),
                                           [&](const unsigned int i) { return without_parents.count(i) > 0; }))
           faces.push_back(face);
@@ -165,7 +191,7 @@ namespace tread
     for (unsigned int i = 0; i < n; ++i)
       nodes[i].reference = rows[i];
 
-    mark_rims(faces, nodes);
+    mark_rims(faces, on_side, nodes);
   }
 
 

@@ -359,6 +359,7 @@ namespace tread
           refresh_contact();
         d.contact->predict(d.state.v.data(), d.state.force.data(), unit_step, d.rank_sums);
         d.contact->solve(unit_step, d.state.force.data());
+        d.hold_guided_nodes(d.state.force);
       }
     else if (!d.rank_sums.empty())
       dealii::Utilities::MPI::sum(d.rank_sums, d.mesh.comm, d.rank_sums);

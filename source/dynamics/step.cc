@@ -181,6 +181,7 @@ namespace tread
     contact->predict(state.v.data(), state.force.data(), state.time_step, rank_sums);
     spent.communication += watch.lap();
     contact->solve(state.time_step, state.force.data());
+    hold_guided_nodes(state.force); // also where contact reaches the plane on which they are guided
     const ContactWork &work = contact->last_work();
     totals.friction.add(work.friction);
     totals.contact.add(work.normal + work.adhesion);

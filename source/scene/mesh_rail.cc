@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A rail from the user's own mesh: its surface as the scene asks for it, and what it must have.
+#include <tread/mesh/plane_strain_slice.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 
@@ -111,11 +112,12 @@ namespace tread
                                           text_in_mm(start) + " mm; tops of rails lie at z = 0, within " +
                                           text_in_mm(highest_top) + " mm: move the mesh");
     made.surfaces.half_width = std::min({running_half_width, -across.begin - inside, across.end - inside});
-    made.surfaces.rail_top   = [mesh       = made.rail_mesh, start,
+    const double fall        = is_slice(made.rail_mesh->mesh) ? 0. : 1.; // beyond the surface
+    made.surfaces.rail_top   = [mesh       = made.rail_mesh, start, fall,
                               half_width = made.surfaces.half_width](const double y) {
       const double              on_rail = std::clamp(y, -half_width, half_width);
       const FacetSurface::Facet facet   = mesh->surface.facet(start, on_rail);
-      return facet.z + facet.smooth_above - std::abs(y - on_rail);
+      return facet.z + facet.smooth_above - fall * std::abs(y - on_rail);
     };
     note_doubts_about_cells(*own, made.surfaces, made.path_begin - distance_behind(last_wheel()),
                             made.path_begin + motion.meshed_distance(), made.path_begin, mesh.finest_cell);
@@ -173,7 +175,8 @@ namespace tread
             file + "and the wheel touch at y = " + text_in_mm(first_contact().y) +
               " mm, at the edge of the contact surface, which is known up to " +
               text_in_mm(surfaces().half_width) + " mm at both sides where the wheel begins");
-    require(std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
+    require(is_slice(rail_mesh()->mesh) ||
+              std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
             file + "has a contact surface up to " + text_in_mm(surfaces().half_width) +
               " mm at both sides where the wheel begins, and the patch under the static load is from y = " +
               from_to_in_mm(patch_extent().begin, patch_extent().end) + ": name more of it 'contact'");

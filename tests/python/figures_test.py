@@ -17,7 +17,7 @@ from unittest import mock
 
 import numpy as np
 
-from tread import blows, comparison, contact_cases, corrugation, creep_table, crossing_force, differences, flat_force, half_space, hertz, limits, low_strain, measured_runs, plots, rail_mesh, schema, studies, subsurface, tables, vtu, wavelets
+from tread import blows, comparison, contact_cases, corrugation, creep_table, crossing_force, differences, flat_force, half_space, hertz, limits, low_strain, measured_runs, plots, rail_mesh, rolling_strip, schema, studies, subsurface, tables, vtu, wavelets
 from tread.patches import Patch, read_contact
 from tread.runs import ROOT, Run
 
@@ -832,6 +832,37 @@ class Read(InFolder):
         dip = {"Defect/Shape": "dip", "Defect/Position (mm)": "20", "Defect/Length (mm)": "10"}
         shown = plots.shown_rows(np.arange(0., 61., 5.), dip)  # from a quarter of 40 mm before 20 mm on
         self.assertEqual(shown.tolist(), [x >= 10. for x in np.arange(0., 61., 5.)])
+
+
+class RollingStrip(InFolder):
+    def test_limits_of_a_line_contact(self):
+        # Tresca's first yield, in the plane, is at 0.3 of the peak (Johnson 1985, 4.3); elastic shakedown at twice the largest shear stress along
+        # the surface, a quarter of the peak, whatever the criterion (Johnson 1962).
+        x, z = np.meshgrid(np.linspace(-1., 1., 41), np.linspace(0.02, 1.2, 60))
+        xx, _, zz, xz = rolling_strip.line_contact_stress(x, z)
+        self.assertAlmostEqual(np.hypot(0.5 * (xx - zz), xz).max(), 0.3, delta=1e-3)
+        self.assertAlmostEqual(abs(xz).max(), 0.25, delta=1e-3)
+        self.assertAlmostEqual(rolling_strip.shakedown_limit(depths=np.array([0.5])), 4., delta=2e-3)
+        self.assertAlmostEqual(rolling_strip.first_yield(), 3.107, delta=1e-3)  # by the same stresses on the axis, at a depth of 0.70
+
+    def test_elastic_stress_and_layers(self):
+        strip = rolling_strip.strip_of(1., 60., 5, 210e3, length=60.)
+        stress = strip.stress_of(strip.strain(strip.load(rolling_strip.hertzian(1., 1.), 0.3), np.zeros((4, *strip.shape)))).reshape(4, -1)
+        near = (abs(strip.points_x) < 1.5) & (strip.points_z < 2.) & (strip.points_z > 0.4)
+        exact = rolling_strip.line_contact_stress(strip.points_x[near], strip.points_z[near], 0.3)
+        self.assertLess(abs(stress[:, near] - exact).max(), 0.02)  # of the peak pressure; held at a depth of 60 half widths
+        # Plastic strains that are alike along x: the elements' answer is that of each layer for itself.
+        layers = np.outer([1e-3, -4e-4, -6e-4, 0.], strip.points_z.reshape(strip.shape)[0] < 1.)
+        of_elements = strip.unloaded_stress(np.repeat(layers[:, None, :], strip.shape[0], axis=1))[:, strip.shape[0] // 2]
+        self.assertLess(abs(of_elements - strip.residual_stress(layers)).max(), 1e-6 * 210)
+
+    def test_shakes_down_below_the_limit(self):
+        strip = rolling_strip.strip_of(1., 8., 3, 210e3, length=6.)
+        force, none = strip.load(rolling_strip.hertzian(1., 1000.)), np.zeros((4, strip.shape[1]))
+        first, _ = strip.passage(force, none, np.zeros((4, *strip.shape)), 1000. * np.sqrt(3.) / 3.5, 23e3)
+        later, _ = strip.passage(force, first[:, 0], first, 1000. * np.sqrt(3.) / 3.5, 23e3)
+        self.assertLess(abs(later[:, 0] - first[:, 0]).max(), 0.1 * abs(first[:, 0]).max())
+        self.assertLess(strip.residual_stress(first[:, 0])[:2].min(), -20.)
 
 
 if __name__ == "__main__":

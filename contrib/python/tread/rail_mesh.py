@@ -4,7 +4,7 @@
     contrib/rail-mesh.py --output joint.msh --length 300 --width 60 --height 60 --edge 10 --gap 6 --step 0.5
 
 The bars lie along x about x = 0, where the gap is, with the crown's top at z = 0; behind the gap it is higher by the step. Without a gap there is one
-bar. Tops are named contact, bottoms support, and with --hold-ends both outer ends end; the ends at the gap are free. The ending of --output
+bar. Tops are named contact, bottoms support, with --hold-ends both outer ends end and with --hold-sides both sides symmetry; the ends at the gap are free. The ending of --output
 decides about the format: .msh (Gmsh, --version 2.2 or 4.1), .inp (Abaqus) or .k (LS-DYNA). Lengths in mm.
 """
 
@@ -20,7 +20,7 @@ from .files import Error
 import numpy
 
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))  # of a hexahedron, as Abaqus' S1 to S6
-BOUNDARIES = ("contact", "support", "end")
+BOUNDARIES = ("contact", "support", "end", "symmetry")
 
 
 class Mesh(NamedTuple):
@@ -37,7 +37,8 @@ def even_lines(begin: float, end: float, edge: float) -> list[float]:
     return [begin + (end - begin) * i / n for i in range(n + 1)]
 
 
-def bar(x: Sequence[float], y: Sequence[float], z: Sequence[float], crown_radius: float, top: float = 0., hold_ends: tuple[bool, bool] = (False, False)) -> Mesh:
+def bar(x: Sequence[float], y: Sequence[float], z: Sequence[float], crown_radius: float, top: float = 0., hold_ends: tuple[bool, bool] = (False, False),
+        hold_sides: bool = False) -> Mesh:
     """A bar with these lines, z from its bottom to 0. The crown fades out to the flat bottom."""
     grid = numpy.array([(a, b, c) for c in z for b in y for a in x])
     crown = numpy.sqrt(crown_radius**2 - grid[:, 1]**2) - crown_radius if crown_radius > 0. else 0.
@@ -48,7 +49,8 @@ def bar(x: Sequence[float], y: Sequence[float], z: Sequence[float], crown_radius
         for j in range(n_y - 1):
             for i in range(n_x - 1):
                 low = [i + n_x * (j + n_y * k), i + 1 + n_x * (j + n_y * k), i + 1 + n_x * (j + 1 + n_y * k), i + n_x * (j + 1 + n_y * k)]
-                for name, face, is_there in (("support", 0, k == 0), ("contact", 1, k == n_z - 2), ("end", 5, hold_ends[0] and i == 0), ("end", 3, hold_ends[1] and i == n_x - 2)):
+                for name, face, is_there in (("support", 0, k == 0), ("contact", 1, k == n_z - 2), ("end", 5, hold_ends[0] and i == 0), ("end", 3, hold_ends[1] and i == n_x - 2),
+                                              ("symmetry", 2, hold_sides and j == 0), ("symmetry", 4, hold_sides and j == n_y - 2)):
                     if is_there:
                         faces[name].append((len(cells), face))
                 cells.append((*low, *(corner + n_x * n_y for corner in low)))
@@ -149,16 +151,19 @@ def main() -> None:
                               ("crown-radius", 300., "0: a flat top"), ("gap", 0., "about x = 0"), ("step", 0., "by which the bar behind the gap is higher")):
         parser.add_argument(f"--{name}", type=float, default=value, metavar="MM", help=f"{what} (default {value:g})")
     parser.add_argument("--hold-ends", action="store_true", help="name the outer ends 'end': planes of symmetry")
+    parser.add_argument("--hold-sides", action="store_true", help="name the sides 'symmetry': a slice in plane strain; without a gap or --perturb")
     options = parser.parse_args()
     if options.gap < 0. or (options.step != 0. and options.gap == 0.) or (options.perturb and options.gap > 0.):
         raise Error("a step needs a gap above 0, and perturbed nodes a bar without one")
+    if options.hold_sides and (options.perturb or options.gap > 0.):
+        raise Error("sides are held of a bar without a gap whose nodes are not moved")
     half = 0.5 * options.length
     y, z = even_lines(-0.5 * options.width, 0.5 * options.width, options.edge), even_lines(-options.height, 0., options.edge)
     ends, radius = options.hold_ends, options.crown_radius
     if options.perturb:
         mesh = perturbed(even_lines(-half, half, options.edge), y, z, radius, options.perturb)
     elif options.gap == 0.:
-        mesh = bar(even_lines(-half, half, options.edge), y, z, radius, 0., (ends, ends))
+        mesh = bar(even_lines(-half, half, options.edge), y, z, radius, 0., (ends, ends), options.hold_sides)
     else:
         mesh = joined(bar(even_lines(-half, -0.5 * options.gap, options.edge), y, z, radius, 0., (ends, False)),
                       bar(even_lines(0.5 * options.gap, half, options.edge), y, z, radius, options.step, (False, ends)))
