@@ -2,6 +2,7 @@
 #include <tread/geometry/rail_profile.h>
 #include <tread/reference/errors.h>
 #include <tread/reference/fatigue.h>
+#include <tread/mesh/plane_strain_slice.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
 
@@ -90,10 +91,18 @@ namespace tread
   }
 
 
+  void require_half_space(const Scene &scene)
+  {
+    if (scene.rail_mesh() && is_slice(scene.rail_mesh()->mesh))
+      throw InputError("a rail between two planes of symmetry, in plane strain, has no half-space answer");
+  }
+
+
   reference::RollingEstimate half_space_answer(const Scene                  &scene,
                                                const reference::RollingCase &c,
                                                const unsigned int            wheel)
   {
+    require_half_space(scene);
     const std::string law = "'Contact/Friction law' " + scene.contact.friction_law;
     const std::string traction =
       (wheel == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +

@@ -43,6 +43,7 @@ namespace tread
       reference::RollingCase c = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
       c.prescribe_force        = !by_creepage;
       c.creepage               = -answer.creepage;
+      require_half_space(scene);
       const reference::RollingEstimate half_space = reference::estimate_rolling(c);
       compare(summary, answer, half_space, c.prescribe_force);
       return patch_nodes(half_space.fields, scene.first_contact().y);

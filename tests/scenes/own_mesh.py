@@ -3,6 +3,7 @@
 """Rails from mesh files: a block beside the program's own, in all formats and on cells that lie in any way; a joint; files and parameters that do not fit."""
 
 import csv
+import math
 import os
 import sys
 import tempfile
@@ -91,6 +92,23 @@ with tempfile.TemporaryDirectory() as folder:
     rail_mesh.write(rail_mesh.bar(x, y, z, 300.), path("tied.inp"))
     with open(path("tied.inp"), "a", encoding="utf-8") as file:
         file.write("*TIE, NAME=joint\nfoot, head\n")
+    # A slice between two planes of symmetry: the line contact of Hertz, alike up to the planes.
+    slices = {}
+    for ranks in (1, 3):
+        slices[ranks] = run(program, "damage/line-contact.prm", path(f"slice-{ranks}"), ["Motion/Passages=1", "Rail/Yield stress (MPa)=0", "Motion/Rolled distance (mm)=30"], ranks=ranks)
+    patch = {key: np.array(values) for key, values in table(path("slice-1"), "patch_averaged.csv").items()}
+    load = slices[1]["normal_force_N"] / 5.2e-3  # N/m
+    half_width = math.sqrt(8. * load * 0.46 * (1. - 0.3**2) / (math.pi * 210e9))
+    check.relative("line contact: largest pressure, MPa", patch["pressure_MPa"].max(), 1e-6 * 2. * load / (math.pi * half_width), 0.02)
+    line = np.round(patch["y_mm"], 1)
+    check.that("it reaches both planes", list(np.unique(line)) == [-2.6, -1.3, 0., 1.3, 2.6])
+    largest = np.array([patch["pressure_MPa"][line == y].max() for y in np.unique(line)])
+    # Regression: 4 %; nodes of the surface that leave the planes carry nothing there.
+    check.below("and is alike across: largest pressures of all lines, over their mean", np.ptp(largest) / largest.mean(), 0.06)
+    check.below("nodes stay on the planes, mm", np.abs(np.abs(patch["y_mm"][np.abs(line) == 2.6]) - 2.6).max(), 5e-4)
+    for key in ("normal_force_N", "max_pressure_Pa", "patch_area_m2"):
+        check.relative(f"on three ranks: {key}", slices[3][key], slices[1][key], 1e-6)
+
     faults = (
         ([*mesh("tied.inp")], "*TIE is not read: pieces hang together by common nodes only"),
         ([*mesh("same.msh"), "Rail/Mesh unit=m"], "where rails have"),

@@ -27,6 +27,9 @@ namespace tread
   /// Give a case the friction that the scene has at x (m) on the rail.
   void set_friction(reference::Friction &c, const Scene &scene, const double x);
 
+  /// @throws InputError where the bodies are not half-spaces even by their shape.
+  void require_half_space(const Scene &scene);
+
   /// reference::estimate_rolling() for a case of the scene. @param wheel whose traction is asked for
   /// @throws InputError, one line that names the parameters, where there is no answer
   reference::RollingEstimate half_space_answer(const Scene                  &scene,
