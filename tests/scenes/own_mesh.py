@@ -8,6 +8,8 @@ import os
 import sys
 import tempfile
 
+import numpy as np
+
 from tread import rail_mesh
 from tread.runs import arguments_of, execute, must_end_well
 from tread_runner import Check, run, table
