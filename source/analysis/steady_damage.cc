@@ -9,14 +9,14 @@ namespace tread
 {
   namespace
   {
-    constexpr double round_off = 1e-9; // m
+    constexpr double nanometre = 1e-9; // m, to which lines are told apart
 
     /// Elements by their lines along the path, from where they enter the patch to where they leave it.
     std::vector<std::vector<PatchNode>> rows_of(const std::vector<PatchNode> &elements)
     {
       std::map<std::pair<long long, long long>, std::vector<PatchNode>> rows;
       for (const PatchNode &element : elements)
-        rows[{std::llround(element.position[1] / round_off), std::llround(element.position[2] / round_off)}]
+        rows[{std::llround(element.position[1] / nanometre), std::llround(element.position[2] / nanometre)}]
           .push_back(element);
       std::vector<std::vector<PatchNode>> list;
       for (auto &[place, row] : rows)

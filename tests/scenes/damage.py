@@ -109,6 +109,12 @@ with tempfile.TemporaryDirectory() as folder:
                    1.6 * math.sqrt(7850 / 7000), 2e-3)
     check.relative("and a fifth into the wheel", columns(path("shared"), WHEEL)["max_flash_temperature_K"].max() / wheel["max_flash_temperature_K"].max(), 0.4, 2e-3)
 
+    # A coefficient of 0.3 - 0.18 T/400 C: with one slip all over the patch 26 387 N and 126.8 K (exact kernel); surfaces stretch, which is 1.4 % of the temperature of constant friction.
+    linear = run(program, HEAT, path("linear"), ["Contact/Friction temperatures (C)=0,400", "Contact/Friction temperature factors=1,0.4", "Damage/Rail temperature (C)=0", "Damage/Wheel temperature (C)=0"],
+                 command="reference")
+    check.relative("friction linear in the temperature: force, N", abs(linear["longitudinal_force_N"]), 26387., 3e-3)
+    check.relative("and flash temperature, K", linear["max_flash_temperature_K"], 126.8, 0.02)
+
     # Friction that falls with the temperature: from 0.3 at 20 degrees to a third of it at 320, so that it heats less. Beside half-space theory at the same creepage.
     falls = ["Contact/Friction temperatures (C)=20,320", "Contact/Friction temperature factors=1,0.3333333333"]
     cooler = run(program, HEAT, path("falls"), [*COARSE, "Motion/Rolled distance (mm)=24", *falls])
@@ -127,6 +133,19 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("unlike temperatures: traction of their mean", warm["traction_coefficient"], alike["traction_coefficient"], 1e-6)
     other = run(program, HEAT, path("other"), [unlike[0], "Damage/Rail temperature (C)=-20", "Damage/Wheel temperature (C)=80", *falls], command="reference")
     check.that("and not of the mean the other way round", abs(other["traction_coefficient"] / warm["traction_coefficient"] - 1.) > 0.01)
+
+    # Mirror images: slip to the other side and spin the other way round leave the mirrored surface.
+    images = []
+    for sign in (1, -1):
+        run(program, WEAR, path(f"image {sign}"), [*COARSE, "Motion/Rolled distance (mm)=10", f"Motion/Lateral creepage={1e-3 * sign}", f"Motion/Spin (1 per m)={0.3 * sign}"])
+        image = columns(path(f"image {sign}"), RAIL)
+        order = np.lexsort((np.round(sign * image["y_mm"], 3), np.round(image["x_mm"], 3)))
+        images.append({key: values[order] for key, values in image.items()})
+    check.that("mirror images: places", np.allclose(images[0]["x_mm"], images[1]["x_mm"], atol=1e-3) and np.allclose(images[0]["y_mm"], -images[1]["y_mm"], atol=1e-3))
+    work = images[0]["friction_work_J_per_m2"]
+    check.that("the two sides of the path differ", np.abs(work[images[0]["y_mm"] > 0.1].sum() / work[images[0]["y_mm"] < -0.1].sum() - 1.) > 0.1)
+    for key in ("friction_work_J_per_m2", "slip_distance_m", "max_pressure_Pa", "max_shear_Pa", "max_flash_temperature_K", "wear_depth_m"):
+        check.below(f"mirror images: {key}, largest difference over the largest", np.abs(images[0][key] - images[1][key]).max() / images[0][key].max(), 1e-4)
 
     # By half-space theory alone: a row for each line along the path.
     for scene, name in ((WEAR, "line"), (HEAT, "hot line")):
