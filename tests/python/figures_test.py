@@ -555,7 +555,7 @@ class Runs(InFolder):
                          "open(sys.argv[sys.argv.index('--output') + 1] + '/summary.json', 'w').write(json.dumps({'completed': True, 'normal_force_N': 140e3}))\n")
         os.chmod(program, 0o755)
         start = time.monotonic()
-        with mock.patch.object(measured_runs, "command", lambda arguments, ranks: [program, *arguments]), mock.patch("builtins.print"):
+        with mock.patch.object(measured_runs, "words_of", lambda arguments, ranks: [program, *arguments]), mock.patch("builtins.print"):
             summary = measured_runs.run_scene("smooth-rolling.prm", self.path("kept"))
         self.assertEqual(summary["normal_force_N"], 140e3)
         self.assertTrue(0.2 <= summary["seconds"] <= time.monotonic() - start)
