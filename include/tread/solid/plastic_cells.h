@@ -195,6 +195,10 @@ namespace tread
     template <unsigned int n>
     struct State;
 
+    /// Call work(range, batch, first) for each batch, whose values in a history begin at first.
+    template <typename Work>
+    void for_batches(const Work &work) const;
+
     /// The history with function(eigenvalue) in the place of the eigenvalues of its first six values.
     template <typename Function>
     PlasticHistory of_eigenvalues(const PlasticHistory &history, const Function &function) const;
@@ -224,18 +228,23 @@ namespace tread
 
 
   template <typename Work>
+  void PlasticCells::for_batches(const Work &work) const
+  {
+    for (const Range &range : ranges)
+      for (std::size_t b = range.begin; b < range.end; ++b)
+        work(range, b, range.history + (b - range.begin) * range.stride());
+  }
+
+
+  template <typename Work>
   void PlasticCells::for_cells(const Work &work) const
   {
     std::size_t number = 0;
-    for (const Range &range : ranges)
-      for (std::size_t b = range.begin; b < range.end; ++b)
-        for (unsigned int l = 0; l < n_lanes; ++l)
-          if (cell_of_lane[b][l] >= 0)
-            {
-              // Lanes of the batch's history start here.
-              const std::size_t first = range.history + (b - range.begin) * range.stride();
-              work(range, first, l, cell_of_lane[b][l], number++);
-            }
+    for_batches([&](const Range &range, const std::size_t b, const std::size_t first) {
+      for (unsigned int l = 0; l < n_lanes; ++l)
+        if (cell_of_lane[b][l] >= 0)
+          work(range, first, l, cell_of_lane[b][l], number++);
+    });
   }
 } // namespace tread
 
