@@ -11,20 +11,45 @@ namespace tread
 {
   namespace
   {
+    /// Of an index with parameters.
     template <typename Index>
     DamageIndexEntry index_entry()
     {
       return {Index::key, Index::about, &Index::declare, &Index::make};
+    }
+
+    template <typename Index>
+    DamageIndexEntry index_without_parameters()
+    {
+      return {Index::key, Index::about, [](dealii::ParameterHandler &) {},
+              [](const dealii::ParameterHandler &) -> std::shared_ptr<const DamageIndex> {
+                return std::make_shared<Index>();
+              }};
     }
   } // namespace
 
 
   const std::vector<DamageIndexEntry> &damage_indices()
   {
-    static const std::vector<DamageIndexEntry> indices{
-      index_entry<FrictionUsedIndex>(), index_entry<ShakedownLoadIndex>(), index_entry<SurfaceFatigueIndex>(),
-      index_entry<TGammaPerArea>(),     index_entry<RegimeWearRate>(),     index_entry<TGammaDamage>()};
+    static const std::vector<DamageIndexEntry> indices{index_without_parameters<FrictionUsedIndex>(),
+                                                       index_without_parameters<ShakedownLoadIndex>(),
+                                                       index_without_parameters<SurfaceFatigueIndex>(),
+                                                       index_without_parameters<TGammaPerArea>(),
+                                                       index_entry<RegimeWearRate>(),
+                                                       index_entry<TGammaDamage>()};
     return indices;
+  }
+
+
+  std::vector<std::pair<std::string, double>> damage_of(const DamageIndices     &indices,
+                                                        const DamageIndex::Load &load)
+  {
+    std::vector<std::pair<std::string, double>> values;
+    if (load.normal_force > 0.)
+      for (const auto &[key, index] : indices)
+        if (const std::optional<double> value = index->value(load))
+          values.emplace_back(key, *value);
+    return values;
   }
 
 

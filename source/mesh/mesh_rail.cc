@@ -65,12 +65,24 @@ namespace tread
       };
       std::vector<Entry> entries; // in the order of x
     };
+
+    /// Whether faces of symmetry along the path are there on either side.
+    bool has_both_sides(const MeshFile &mesh)
+    {
+      const MeshFile::Range across = mesh.range(1);
+      bool                  ends[2]{};
+      for (const NamedFace &face : mesh.faces)
+        if (face.boundary == Boundary::side)
+          ends[mesh.vertices[face.vertices[0]][1] > 0.5 * (across.begin + across.end)] = true;
+      return ends[0] && ends[1];
+    }
   } // namespace
 
 
   MeshRail::MeshRail(const MeshFile &file)
     : mesh(file)
     , surface(surface_of(file))
+    , between_planes(has_both_sides(file))
   {
   }
 

@@ -2,7 +2,6 @@
 // What the parameters of several sections have to say to each other.
 #include <tread/base/registry.h>
 #include <tread/contact/remembering_friction.h>
-#include <tread/mesh/plane_strain_slice.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
@@ -336,14 +335,13 @@ namespace tread
     check_window();
 
     // Around the finest cells there is room for at least one more, if the rail does not go on as its image.
-    const double beside      = std::abs(path_y());
-    const bool   is_of_slice = rail_mesh() && is_slice(rail_mesh()->mesh);
-    require(is_of_slice || beside + fine_half_width() <= rail_half_width() - finest,
+    const double beside = std::abs(path_y());
+    require(is_between_planes() || beside + fine_half_width() <= rail_half_width() - finest,
             "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
               (beside > 0. ? " about y = " + text_in_mm(path_y()) + " mm" : "") +
               " must be below the half width of the rail; at most " +
               text_in_mm(rail_half_width() - finest - beside));
-    require(is_of_slice || beside + fine_half_width() <= wheel.half_width() - finest,
+    require(is_between_planes() || beside + fine_half_width() <= wheel.half_width() - finest,
             "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width()) +
               " must be below half of the wheel's width; at most " +
               text_in_mm(wheel.half_width() - finest - beside));
@@ -666,12 +664,13 @@ namespace tread
   }
 
 
-  std::vector<std::shared_ptr<const DamageIndex>> Scene::indices_of_damage() const
+  DamageIndices Scene::indices_of_damage() const
   {
-    const Section                                   section(handler, "Damage");
-    std::vector<std::shared_ptr<const DamageIndex>> indices;
+    const Section section(handler, "Damage");
+    DamageIndices indices;
     for (const DamageIndexEntry &entry : damage_indices())
-      indices.push_back(entry.make(handler));
+      if (auto index = entry.make(handler))
+        indices.emplace_back(entry.key, std::move(index));
     return indices;
   }
 

@@ -2,7 +2,6 @@
 // What of a scene makes its answer doubtful, before anything is computed.
 #include <tread/base/format.h>
 #include <tread/geometry/measured_profile.h>
-#include <tread/mesh/plane_strain_slice.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
@@ -337,7 +336,7 @@ namespace tread
             look(islands_of(touch.patch.solution.grid, touch.patch.solution.pressure),
                  format("the patch at %.1f mm along the slices", 1e3 * position_at(touch.x()).along));
       }
-    else if (!(rail_mesh() && is_slice(rail_mesh()->mesh))) // whose patch goes on as its own image
+    else if (!is_between_planes()) // whose patch goes on as its own image
       look(shapes->islands, "the patch");
     if (narrow.empty())
       return "";

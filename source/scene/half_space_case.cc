@@ -2,7 +2,6 @@
 #include <tread/geometry/rail_profile.h>
 #include <tread/reference/errors.h>
 #include <tread/reference/fatigue.h>
-#include <tread/mesh/plane_strain_slice.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
 
@@ -93,7 +92,7 @@ namespace tread
 
   void require_half_space(const Scene &scene)
   {
-    if (scene.rail_mesh() && is_slice(scene.rail_mesh()->mesh))
+    if (scene.is_between_planes())
       throw InputError("a rail between two planes of symmetry, in plane strain, has no half-space answer");
   }
 
@@ -255,17 +254,20 @@ namespace tread
 
   void summarise_damage(Summary &summary, const Scene &scene, const std::vector<DamageIndex::Load> &loads)
   {
-    const auto indices = scene.indices_of_damage();
-    for (std::size_t k = 0; k < indices.size(); ++k)
-      {
-        std::optional<double> worst;
-        for (const DamageIndex::Load &load : loads)
-          if (indices[k] && load.normal_force > 0.)
-            if (const std::optional<double> value = indices[k]->value(load))
-              worst = std::max(worst.value_or(*value), *value);
-        if (worst)
-          summary.set(damage_indices()[k].key, *worst);
-      }
+    const DamageIndices                         indices = scene.indices_of_damage();
+    std::vector<std::pair<std::string, double>> worst;
+    for (const DamageIndex::Load &load : loads)
+      for (const auto &[key, value] : damage_of(indices, load))
+        {
+          const auto found = std::find_if(worst.begin(), worst.end(),
+                                          [&key = key](const auto &entry) { return entry.first == key; });
+          if (found == worst.end())
+            worst.emplace_back(key, value);
+          else
+            found->second = std::max(found->second, value);
+        }
+    for (const auto &[key, value] : worst)
+      summary.set(key, value);
   }
 
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A rail from the user's own mesh: its surface as the scene asks for it, and what it must have.
-#include <tread/mesh/plane_strain_slice.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 
@@ -112,7 +111,7 @@ namespace tread
                                           text_in_mm(start) + " mm; tops of rails lie at z = 0, within " +
                                           text_in_mm(highest_top) + " mm: move the mesh");
     made.surfaces.half_width = std::min({running_half_width, -across.begin - inside, across.end - inside});
-    const double fall        = is_slice(made.rail_mesh->mesh) ? 0. : 1.; // beyond the surface
+    const double fall        = made.rail_mesh->between_planes ? 0. : 1.; // beyond the surface
     made.surfaces.rail_top   = [mesh       = made.rail_mesh, start, fall,
                               half_width = made.surfaces.half_width](const double y) {
       const double              on_rail = std::clamp(y, -half_width, half_width);
@@ -175,7 +174,7 @@ namespace tread
             file + "and the wheel touch at y = " + text_in_mm(first_contact().y) +
               " mm, at the edge of the contact surface, which is known up to " +
               text_in_mm(surfaces().half_width) + " mm at both sides where the wheel begins");
-    require(is_slice(rail_mesh()->mesh) ||
+    require(is_between_planes() ||
               std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
             file + "has a contact surface up to " + text_in_mm(surfaces().half_width) +
               " mm at both sides where the wheel begins, and the patch under the static load is from y = " +

@@ -4,7 +4,6 @@
 #include <tread/geometry/slice_list.h>
 #include <tread/geometry/wheel_deviation.h>
 #include <tread/geometry/wheel_tread.h>
-#include <tread/mesh/plane_strain_slice.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
@@ -326,7 +325,7 @@ namespace tread
 
   double Scene::needed_half_width() const
   {
-    if (rail_mesh() && is_slice(rail_mesh()->mesh))
+    if (is_between_planes())
       return surfaces().half_width;
     return 1.1 * std::max(patch_extent().end - path_y(), path_y() - patch_extent().begin) + mesh.finest_cell;
   }

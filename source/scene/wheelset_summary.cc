@@ -218,7 +218,7 @@ namespace tread
                                          const double                   rail_y,
                                          const Scene                   &scene)
   {
-    const auto             indices = scene.indices_of_damage();
+    const DamageIndices    indices = scene.indices_of_damage();
     nlohmann::ordered_json list    = nlohmann::ordered_json::array();
     for (const WheelPatch &patch : patches)
       {
@@ -228,10 +228,8 @@ namespace tread
           entry[figure.key] = figure.value(patch);
         const DamageIndex::Load load = load_of(patch, scene);
         entry["t_gamma_N"]           = load.t_gamma;
-        for (std::size_t k = 0; k < indices.size(); ++k)
-          if (indices[k] && load.normal_force > 0.)
-            if (const std::optional<double> value = indices[k]->value(load))
-              entry[damage_indices()[k].key] = *value;
+        for (const auto &[key, value] : damage_of(indices, load))
+          entry[key] = value;
         list.push_back(entry);
       }
     return list;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tread
@@ -44,6 +45,13 @@ namespace tread
     /// @param section with the values of its own parameters; null: it was not asked for
     std::shared_ptr<const DamageIndex> (*make)(const dealii::ParameterHandler &section);
   };
+
+  /// Indices that were asked for, with their keys.
+  using DamageIndices = std::vector<std::pair<std::string, std::shared_ptr<const DamageIndex>>>;
+
+  /// Keys and values of those that the load says enough for; none without a normal force.
+  std::vector<std::pair<std::string, double>> damage_of(const DamageIndices     &indices,
+                                                        const DamageIndex::Load &load);
 
   /// All indices, in the order of the summary.
   const std::vector<DamageIndexEntry> &damage_indices();

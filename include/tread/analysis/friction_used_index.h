@@ -14,15 +14,6 @@ namespace tread
     static constexpr const char *about =
       "Tangential over normal force: where the load lies across the shakedown map";
 
-    static void declare(dealii::ParameterHandler &)
-    {
-    }
-
-    static std::shared_ptr<const DamageIndex> make(const dealii::ParameterHandler &)
-    {
-      return std::make_shared<FrictionUsedIndex>();
-    }
-
     std::optional<double> value(const Load &load) const override
     {
       return load.tangential_force / load.normal_force;

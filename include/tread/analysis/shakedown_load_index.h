@@ -14,15 +14,6 @@ namespace tread
     static constexpr const char *about = "Largest pressure over 'Damage/Shear strength (MPa)', p0/k: where "
                                          "the load lies along the shakedown map";
 
-    static void declare(dealii::ParameterHandler &)
-    {
-    }
-
-    static std::shared_ptr<const DamageIndex> make(const dealii::ParameterHandler &)
-    {
-      return std::make_shared<ShakedownLoadIndex>();
-    }
-
     std::optional<double> value(const Load &load) const override
     {
       return load.shear_strength > 0. ? std::optional(load.max_pressure / load.shear_strength) : std::nullopt;

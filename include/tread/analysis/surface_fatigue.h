@@ -17,15 +17,6 @@ namespace tread
       "the normal force (of a wheelset in a position half of the patch's extents) and 'Damage/Shear strength "
       "(MPa)'";
 
-    static void declare(dealii::ParameterHandler &)
-    {
-    }
-
-    static std::shared_ptr<const DamageIndex> make(const dealii::ParameterHandler &)
-    {
-      return std::make_shared<SurfaceFatigueIndex>();
-    }
-
     std::optional<double> value(const Load &load) const override
     {
       if (!(load.shear_strength > 0.))

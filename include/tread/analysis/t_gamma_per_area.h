@@ -13,15 +13,6 @@ namespace tread
     static constexpr const char *key   = "t_gamma_per_area_Pa";
     static constexpr const char *about = "T-gamma over the area in contact";
 
-    static void declare(dealii::ParameterHandler &)
-    {
-    }
-
-    static std::shared_ptr<const DamageIndex> make(const dealii::ParameterHandler &)
-    {
-      return std::make_shared<TGammaPerArea>();
-    }
-
     std::optional<double> value(const Load &load) const override
     {
       return load.area > 0. ? std::optional(load.t_gamma / load.area) : std::nullopt;

@@ -18,6 +18,10 @@ namespace tread
   {
     MeshFile     mesh;
     FacetSurface surface;
+    /// Whether it lies between two planes of symmetry along the path. Its running surface may be touched up
+    /// to them and goes on behind them as its own image: a wheel with the same section all over its width
+    /// then loads it as in plane strain.
+    bool between_planes;
 
     /// @throws InputError
     explicit MeshRail(const MeshFile &file);

@@ -31,8 +31,8 @@
 #include <tread/scene/wheelset_motion.h>
 #include <tread/track/rail_base.h>
 #include <tread/track/rail_ends.h>
-#include <tread/track/track_beyond.h>
 #include <tread/track/supports.h>
+#include <tread/track/track_beyond.h>
 
 #include <cmath>
 #include <filesystem>
@@ -196,9 +196,8 @@ namespace tread
     {
       return damage.shear_strength > 0. ? damage.shear_strength : rail.material.yield_stress / std::sqrt(3.);
     }
-    /// Indices of damage with their parameters, in the order of damage_indices(); null: not asked for.
-    /// @throws InputError
-    std::vector<std::shared_ptr<const DamageIndex>> indices_of_damage() const;
+    /// Indices of damage with their parameters, in the order of damage_indices(). @throws InputError
+    DamageIndices indices_of_damage() const;
     /// What surfaces lose, with its parameters; null: nothing.
     std::shared_ptr<const WearLaw> wear_law() const;
 
@@ -242,8 +241,8 @@ namespace tread
     /// How much longer the way along the tread may be than that along the rail, m per m: the creepage that is
     /// given, or what rolling with traction takes.
     double largest_creepage() const;
-    /// Way along the tread for which its cells are fine, m: that of the axle, and more where the creepage would
-    /// use up what is fine behind it.
+    /// Way along the tread for which its cells are fine, m: that of the axle, and more where the creepage
+    /// would use up what is fine behind it.
     double meshed_tread() const;
     /// Longest sector of a wheel that is not closed to a ring, m along the tread.
     double longest_sector() const;
@@ -265,6 +264,10 @@ namespace tread
     const std::shared_ptr<const MeshRail> &rail_mesh() const
     {
       return shapes->rail_mesh;
+    }
+    bool is_between_planes() const ///< @see MeshRail::between_planes
+    {
+      return rail_mesh() && rail_mesh()->between_planes;
     }
     /// Whether the running surface of that rail has other heights, or ends, somewhere along the path.
     bool has_uneven_mesh() const
