@@ -150,7 +150,7 @@ extern "C"
   {
     double friction_used;         /* tangential over normal force [-] */
     double shakedown_load_factor; /* largest pressure over the yield stress in shear, p0/k [-] */
-    double surface_fatigue_index; /* friction used less 2 pi a b k / (3 Fn) [-]; > 0: the surface ratchets */
+    double surface_fatigue_index; /* friction used less k/p0 [-]; > 0: the surface ratchets */
     double t_gamma_per_area;      /* frictional work over the area in contact [Pa] */
     double regime_wear_rate; /* for each metre rolled and square metre in contact [kg/m^3], by the regimes
                               * of a wheel of R8T on a rail of 900A */

@@ -226,8 +226,9 @@ namespace tread
     std::unique_ptr<Triangulation> empty_triangulation(const MPI_Comm comm, const bool whole)
     {
       if (whole)
-        return std::make_unique<Whole>(comm, Whole::none, true, Whole::partition_custom_signal);
-      return std::make_unique<InParts>(comm);
+        return std::make_unique<Whole>(comm, Whole::limit_level_difference_at_vertices, true,
+                                       Whole::partition_custom_signal);
+      return std::make_unique<InParts>(comm, InParts::limit_level_difference_at_vertices);
     }
 
     /// Reference positions of all nodes visible to this rank, m, including those of ghost cells, to which

@@ -258,9 +258,10 @@ namespace tread
     const double quarter = 0.25 * std::min(angles[1] - angles[0], angles.back() - angles[angles.size() - 2]);
     body.boundary_at = [axis, tread, bottom, quarter, closed, first = angles.front(), last = angles.back(),
                         half  = 0.5 * sector.width,
+                        side  = sector.between_planes ? Boundary::side : Boundary::free,
                         reach = sector.contact_half_width](const dealii::Point<3> &p) {
       if (std::abs(p[1]) > half * (1. - 1e-9))
-        return Boundary::free;
+        return side;
       const double r      = axis.radius(p);
       const double middle = 0.5 * (first + last);
       if (!closed && std::abs(wrap(axis.angle(p) - middle)) > 0.5 * (last - first) - quarter)

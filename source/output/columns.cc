@@ -446,8 +446,8 @@ namespace tread
          return r.skipped;
        }},
       {"settlement", "um",
-       "Of the rail's surface in the middle of the path since before the first wheel, downwards; without "
-       "load",
+       "Of the rail's surface in the middle of the path since before the first wheel, downwards, without "
+       "load: the first row's is known when the second wheel stands at the beginning",
        [](const R &r) {
          return r.settlement;
        }},
@@ -468,7 +468,7 @@ namespace tread
        [](const R &r) {
          return r.growth;
        }},
-      {"residual_von_mises", "MPa", "Largest stress there without load",
+      {"residual_von_mises", "MPa", "Largest stress there, likewise without load",
        [](const R &r) {
          return r.residual_stress;
        }},

@@ -78,7 +78,8 @@ namespace tread
 
     /// What rolling does to the steel.
     const Keys of_damage{
-      {"t_gamma_N", "Frictional power over the rolling speed: T-gamma, spin included"},
+      {"t_gamma_N",
+       "Frictional power over the rolling speed: T-gamma, spin included, summed over all patches"},
       {"max_flash_temperature_K",
        "Largest rise of temperature by the heat of friction, of rail and wheels, in all steps"},
       {"wear_volume_m3", "Volume that the rail has lost by 'Damage/Wear law', in all passages; in each the "
@@ -204,7 +205,8 @@ namespace tread
       {"inertia_error_estimate",
        "Relative error by inertia in steady rolling, about: density scale x square of the speed over that of "
        "Rayleigh waves in the slower body"},
-      {"passages", "'Motion/Passages': wheels that roll over the rail one after the other"},
+      {"passages", "Wheels that roll over the rail one after the other: 'Motion/Passages', or fewer where "
+                   "its steel failed"},
       {"passages_rolled", "Those that were rolled, and not left out by 'Ratcheting/Jumps'"},
       {"passages_left_out", "Those over which the change of the steel was extrapolated"},
       {"jumps", "How often passages were left out"},

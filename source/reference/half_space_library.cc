@@ -392,8 +392,7 @@ namespace
     const double t_gamma_per_area = answer.frictional_work / answer.area;
     const bool   is_known         = shear_strength > 0.;
     return {friction_used, is_known ? answer.max_pressure / shear_strength : nan,
-            is_known ? surface_fatigue_index(friction_used, answer.area, shear_strength, problem.normal_force)
-                     : nan,
+            is_known ? surface_fatigue_index(friction_used, answer.max_pressure, shear_strength) : nan,
             t_gamma_per_area, regimes_of_r8t_on_900a.rate(t_gamma_per_area)};
   }
 } // namespace

@@ -144,6 +144,7 @@ namespace tread
           sector.arc_begin          = arc.begin;
           sector.arc_end            = arc.end;
           sector.coarsest_cell_size = scene.mesh.coarsest_cell;
+          sector.between_planes     = scene.is_between_planes();
           try
             {
               return make_wheel_sector(sector, zone);

@@ -33,6 +33,10 @@ namespace tread
   {
     wear_law(); // which says what is wrong with its numbers
     indices_of_damage();
+    constexpr double softest = 1e6; // Pa
+    require(damage.shear_strength == 0. || damage.shear_strength >= softest,
+            "'Damage/Shear strength (MPa)' " + text_of(1e-6 * damage.shear_strength) +
+              " is below that of any metal; 0 where it is not known, or at least 1");
     if (is_positioned())
       return check_wheelset();
     require(guidance.kind == Guidance::rigid,

@@ -157,10 +157,44 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// The line contact of a slice. What would be the ellipse's other semi-axis is half its width too:
+    /// nothing varies across, and what is sized by the smaller or the mean one follows the line.
+    reference::HertzEllipse line_between_planes(const Scene &scene, const double normal_force)
+    {
+      const double width = scene.wheel.sector_width;
+      const double modulus =
+        reference::combine(
+          {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio},
+          {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio})
+          .hertz_modulus();
+      const reference::HertzLine line =
+        reference::hertz_line(scene.rolling_radius(), modulus, normal_force / width);
+      // Of bodies as thick as the sector, held at their backs (Johnson 1985, section 5.6).
+      const double nu = scene.wheel.material.elastic().poisson_ratio;
+      const double per_force =
+        (2. * std::log(2. * scene.wheel.sector_thickness / line.half_width) - nu / (1. - nu)) /
+        (dealii::numbers::PI * modulus * width);
+      reference::HertzEllipse ellipse;
+      ellipse.semi_axis_x   = line.half_width;
+      ellipse.semi_axis_y   = line.half_width;
+      ellipse.max_pressure  = line.max_pressure;
+      ellipse.mean_pressure = line.mean_pressure;
+      ellipse.approach      = per_force * normal_force;
+      ellipse.area          = 2. * line.half_width * width;
+      ellipse.stiffness     = 1. / per_force;
+      return ellipse;
+    }
+  } // namespace
+
+
   reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
   {
     if (scene.is_positioned())
       return scene.placed_wheel().ellipse(normal_force);
+    if (scene.is_between_planes())
+      return line_between_planes(scene, normal_force);
     return hertz(half_space_case(scene, normal_force, 0.));
   }
 
@@ -168,7 +202,7 @@ namespace tread
   reference::HertzEllipse hertz_over_patch(const Scene &scene, const double normal_force)
   {
     reference::HertzEllipse ellipse = hertz(scene, normal_force);
-    if (scene.is_positioned() || !scene.has_fitted_lateral_radius())
+    if (scene.is_positioned() || scene.is_between_planes() || !scene.has_fitted_lateral_radius())
       return ellipse;
     reference::RollingCase c = half_space_case(scene, normal_force, 0.);
     for (unsigned int pass = 0; pass < 30; ++pass)
@@ -299,11 +333,21 @@ namespace tread
     with_hertz("max_pressure_Pa", "maximum pressure, MPa", 1e-6, patch.max_pressure, ellipse.max_pressure);
     with_hertz("patch_area_m2", "patch area, mm2", 1e6, patch.area, ellipse.area);
     with_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, patch.semi_axis_x, ellipse.semi_axis_x);
-    with_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, patch.semi_axis_y, ellipse.semi_axis_y);
-    with_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, patch.pressure_semi_axis_x,
-               ellipse.semi_axis_x);
-    with_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, patch.pressure_semi_axis_y,
-               ellipse.semi_axis_y);
+    // By moments of the pressure of an ellipse, which a line has not.
+    if (scene.is_between_planes())
+      {
+        summary.set("semi_axis_y_m", patch.semi_axis_y);
+        summary.set("pressure_semi_axis_x_m", patch.pressure_semi_axis_x);
+        summary.set("pressure_semi_axis_y_m", patch.pressure_semi_axis_y);
+      }
+    else
+      {
+        with_hertz("semi_axis_y_m", "semi-axis b, mm", 1e3, patch.semi_axis_y, ellipse.semi_axis_y);
+        with_hertz("pressure_semi_axis_x_m", "a by moments of pressure, mm", 1e3, patch.pressure_semi_axis_x,
+                   ellipse.semi_axis_x);
+        with_hertz("pressure_semi_axis_y_m", "b by moments of pressure, mm", 1e3, patch.pressure_semi_axis_y,
+                   ellipse.semi_axis_y);
+      }
     // Of the resultant of the pressure: ahead of the axle, and from the rail's middle.
     summary.set("pressure_centre_x_m", patch.x_of_pressure);
     summary.set("pressure_centre_y_m", patch.y_of_pressure);
@@ -314,10 +358,9 @@ namespace tread
     summary.show("max_slip_m_per_s", "maximum micro-slip, m/s", 1., patch.max_slip);
     summary.show("frictional_power_W", "frictional power, W", 1., patch.frictional_power);
     summary.set("t_gamma_N", patch.frictional_power / scene.motion.speed);
-    summarise_damage(
-      summary, scene,
-      {{normal, std::hypot(answer.force[0], answer.force[1]), ellipse.area, patch.area, patch.max_pressure,
-        patch.frictional_power / scene.motion.speed, scene.shear_strength()}});
+    summarise_damage(summary, scene,
+                     {{normal, std::hypot(answer.force[0], answer.force[1]), patch.area, patch.max_pressure,
+                       patch.frictional_power / scene.motion.speed, scene.shear_strength()}});
   }
 
 

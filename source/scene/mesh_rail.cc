@@ -159,6 +159,27 @@ namespace tread
   }
 
 
+  void Scene::check_slice(const std::string &file) const
+  {
+    const FacetSurface::Range across = rail_mesh()->surface.across(path_begin(), 0.);
+    constexpr double          alike = 1e-6, level = 1e-7; // m
+    require(!wheel.is_full() && std::abs(across.end - 0.5 * wheel.sector_width) < alike &&
+              std::abs(across.begin + 0.5 * wheel.sector_width) < alike,
+            file + "lies between planes of symmetry at y = " + from_to_in_mm(across.begin, across.end) +
+              ", between which the wheel must fit: 'Wheel/Shape' sector with 'Sector width (mm)' " +
+              text_in_mm(across.end - across.begin) + ", and a rail with its middle at y = 0");
+    const auto gap = [&](const double share) {
+      return surfaces().gap(share * surfaces().half_width);
+    };
+    for (const double share : {-1., -0.5, 0.5, 1.})
+      require(std::abs(gap(share) - gap(0.)) < level,
+              file +
+                "lies between planes of symmetry, in plane strain: rail and wheel must be level across, "
+                "and their distance changes by " +
+                text_in_mm(std::abs(gap(share) - gap(0.))) + " mm");
+  }
+
+
   void Scene::check_mesh_rail() const
   {
     const FacetSurface &surface = rail_mesh()->surface;
@@ -170,6 +191,8 @@ namespace tread
               from_to_in_mm(surface.along().begin, surface.along().end) +
               "; the path and three semi-axes of the patch at both ends are from " + from_to_in_mm(from, to) +
               ": mesh a longer rail, or change 'Motion/Start (mm)' and 'Rolled distance (mm)'");
+    if (is_between_planes())
+      check_slice(file);
     require(std::abs(first_contact().y) < 0.99 * surfaces().half_width,
             file + "and the wheel touch at y = " + text_in_mm(first_contact().y) +
               " mm, at the edge of the contact surface, which is known up to " +

@@ -274,6 +274,8 @@ namespace tread
     const double y = first_contact().y, load = static_load();
     if (load <= 0.)
       return {y, y};
+    if (is_between_planes())
+      return {-surfaces().half_width, surfaces().half_width};
     const reference::RollingCase  touching = half_space_case(*this, load, 0.);
     const reference::ElasticPair  pair     = reference::combine(touching.wheel, touching.rail);
     const reference::HertzEllipse hertz    = tread::hertz(touching);

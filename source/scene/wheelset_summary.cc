@@ -170,13 +170,8 @@ namespace tread
     DamageIndex::Load load_of(const WheelPatch &patch, const Scene &scene)
     {
       const reference::PlanarResult &s = patch.solution;
-      return {s.normal_force,
-              std::hypot(s.longitudinal_force, s.lateral_force),
-              0.25 * dealii::numbers::PI * (s.x_end - s.x_begin) * (s.y_end - s.y_begin),
-              s.area,
-              s.max_pressure,
-              s.frictional_power / scene.motion.speed,
-              scene.shear_strength()};
+      return {s.normal_force, std::hypot(s.longitudinal_force, s.lateral_force), s.area,
+              s.max_pressure, s.frictional_power / scene.motion.speed,           scene.shear_strength()};
     }
   } // namespace
 

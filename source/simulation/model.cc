@@ -45,6 +45,8 @@ namespace tread
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
       }
+    for (const RollingWheel &wheel : wheels)
+      dynamics.guide_nodes(dynamics.boundary_nodes(wheel.body, Boundary::side), 1);
     for (RollingWheel &wheel : wheels)
       dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
     if (scene.track.runs_along())

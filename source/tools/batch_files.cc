@@ -8,6 +8,7 @@
 #include <tread/tools/batch_files.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -35,6 +36,8 @@ namespace tread
                                             {"element_x_m", &tread_half_space_case::element_x, false},
                                             {"element_y_m", &tread_half_space_case::element_y, false}};
     constexpr const char *order_column = "slip_order", *strength_column = "shear_strength_Pa";
+    constexpr double      least_shear_strength = 1e6,
+                     most_shear_strength       = 1e11; // Pa, softer and harder than any metal's
     const std::string answer_columns = ",longitudinal_force_N,lateral_force_N,spin_moment_Nm,max_pressure_Pa,"
                                        "adhesion_share,iterations,area_m2,"
                                        "approach_m,frictional_work_J_per_m,status,friction_used,"
@@ -69,11 +72,13 @@ namespace tread
           for (std::size_t row = 0; row < cases.size(); ++row)
             cases[row].*c.value = table.column_as_it_is(c.name)[row]; // nan is refused with its row alone
       if (table.has(strength_column))
-        strengths = table.column(strength_column);
+        strengths = table.column_as_it_is(strength_column); // nan: not known
       for (std::size_t row = 0; row < strengths.size(); ++row)
-        if (!(strengths[row] > 0.))
-          throw InputError("'" + file + "', row " + std::to_string(row + 1) + ": '" + strength_column +
-                           "' must be above 0");
+        if (!std::isnan(strengths[row]) &&
+            !(strengths[row] >= least_shear_strength && strengths[row] <= most_shear_strength))
+          throw InputError(
+            "'" + file + "', row " + std::to_string(row + 1) + ": '" + strength_column + "' " +
+            format("%g must be from %g to %g Pa", strengths[row], least_shear_strength, most_shear_strength));
       for (std::size_t row = 0; row < cases.size(); ++row)
         {
           const double order = table.has(order_column)     ? table.column(order_column)[row]

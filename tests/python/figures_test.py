@@ -335,11 +335,16 @@ class HalfSpaceRoll(unittest.TestCase):
         answers = {"status": [0, 0, 1], "longitudinal_force": [30e3, 0., 1.], "lateral_force": [0., 40e3, 1.], "frictional_work": [700., 14000., 1.],
                    "area": [140e-6, 140e-6, 1.], "max_pressure": [900e6, 1200e6, 1.], "iterations": 0, "spin_moment": 0., "adhesion_share": 0., "approach": 0.}
         found = half_space.damage(answers, normal_force=100e3, shear_strength=[0., 300e6, 300e6])
-        for name, wanted in (("friction_used", [0.3, 0.4, np.nan]), ("shakedown_load_factor", [np.nan, 4., np.nan]), ("surface_fatigue_index", [np.nan, 0.4 - 0.28, np.nan]),
+        for name, wanted in (("friction_used", [0.3, 0.4, np.nan]), ("shakedown_load_factor", [np.nan, 4., np.nan]), ("surface_fatigue_index", [np.nan, 0.4 - 0.25, np.nan]),
                              ("t_gamma_per_area", [5e6, 100e6, np.nan]), ("regime_wear_rate", [26.5e-3, 1e-3 * (55.12 + 61.9 * 22.8), np.nan])):
             np.testing.assert_allclose(found[name], wanted, rtol=1e-12, err_msg=name)
-        for wrong in ({"normal_force": 0.}, {"normal_force": 1e5, "shear_strength": -1.}):
-            with self.assertRaises(TypeError):
+        unsolved = half_space.damage(answers, normal_force=[100e3, 100e3, -1.], shear_strength=[np.nan, 300e6, 300e6])
+        np.testing.assert_equal(unsolved["friction_used"][2], np.nan)
+        np.testing.assert_allclose(unsolved["shakedown_load_factor"], [np.nan, 4., np.nan])
+        for wrong in ({"normal_force": 0.}, {"normal_force": 100.}, {"normal_force": np.inf}, {"normal_force": np.nan}, {"normal_force": [100e3, 1e3, 100e3]},
+                      {"normal_force": np.ma.masked_equal([100e3, 100e3, 7.], 7.)}, {"normal_force": 1e5, "shear_strength": -1.},
+                      {"normal_force": 1e5, "shear_strength": 300.}, {"normal_force": 1e5, "shear_strength": np.inf}):
+            with self.assertRaises(TypeError, msg=str(wrong)):
                 half_space.damage(answers, **wrong)
 
     def test_a_level_way_is_steady_rolling(self):

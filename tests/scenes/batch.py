@@ -81,7 +81,11 @@ with tempfile.TemporaryDirectory() as folder:
     out = read_table(path("strong.csv"), text=("name",))
     check.that("p0/k and the surface fatigue index of each row", strong.returncode == 0
                and np.allclose(out["shakedown_load_factor"], out["max_pressure_Pa"] / out["shear_strength_Pa"], rtol=1e-7)
-               and np.allclose(out["surface_fatigue_index"], out["friction_used"] - 2. * out["area_m2"] * out["shear_strength_Pa"] / (3. * out["normal_force_N"]), atol=1e-8))
+               and np.allclose(out["surface_fatigue_index"], out["friction_used"] - out["shear_strength_Pa"] / out["max_pressure_Pa"], atol=1e-8))
+    some = batch({**one, "shear_strength_Pa": np.array([250e6, np.nan, 350e6])}, "some.csv")
+    out = read_table(path("some.csv"), text=("name",))
+    check.that("a row whose strength is not known has the others", some.returncode == 0 and list(np.isnan(out["surface_fatigue_index"])) == [False, True, False] and not np.isnan(out["friction_used"]).any())
+    refused("a strength in MPa", batch({**one, "shear_strength_Pa": np.array([250e6, 300., 350e6])}), 1, ["row 2", "'shear_strength_Pa' 300 must be from"])
     refused("a strength of nought", batch({**one, "shear_strength_Pa": np.array([250e6, 0., 350e6])}), 1, ["row 2", "'shear_strength_Pa'"])
     refused("Young's modulus in another unit", batch({**{name: values for name, values in one.items() if not name.startswith("element")},
                                                       "young_Pa": one["young_Pa"] * [1., 1e-9, 1.]}), 2, ["1 of 3 cases", "row 2", "young", "the gap rises by"])

@@ -85,14 +85,18 @@ def _library() -> ctypes.CDLL:
     return library
 
 
+def _refuse_masked(values: Mapping[str, ArrayLike]) -> None:
+    masked = sorted(name for name, value in values.items() if np.ma.is_masked(value))
+    if masked:
+        raise TypeError(f"{', '.join(masked)}: masked values are no numbers; leave them out, or fill them")
+
+
 def _cases(settings: Mapping[str, ArrayLike], slip_order: ArrayLike, contact_sixth: bool) -> tuple[np.ndarray, tuple[int, ...]]:
     """(cases, their shape): numbers and arrays that broadcast become structs."""
     unknown = sorted(set(settings) - set(_NUMBERS))
     if unknown:
         raise TypeError(f"unknown: {', '.join(unknown)}; known are {', '.join(_NUMBERS)}")
-    masked = sorted(name for name, value in settings.items() if np.ma.is_masked(value))
-    if masked:
-        raise TypeError(f"{', '.join(masked)}: masked values are no numbers; leave them out, or fill them")
+    _refuse_masked(settings)
     settings = {"young": 210e9, "poisson": 0.3, **settings}
     arrays = np.broadcast_arrays(*[np.asarray(value, dtype=float) for value in settings.values()], np.asarray(slip_order, dtype=np.intc))
     cases = np.zeros(arrays[0].shape, _CASE)
@@ -144,15 +148,23 @@ def damage(answers: Mapping[str, ArrayLike], *, normal_force: ArrayLike, shear_s
 
     answers         of solve(), for these cases
     normal_force    theirs, N
-    shear_strength  yield stress in shear k, Pa; 0: not known, the two indices that need it are nan
+    shear_strength  yield stress in shear k, from 1e6 to 1e11 Pa; 0 or nan: not known, the two indices that need it are nan
 
     Returns {name: array}: friction_used (tangential over normal force), shakedown_load_factor (p0/k), surface_fatigue_index,
     t_gamma_per_area (Pa), regime_wear_rate (kg/m^3, of a wheel of R8T on a rail of 900A). Cases that were not solved have nan.
+    Raises TypeError for masked values, and for forces that cannot be those of the answers: pressure over area carries another.
     """
+    _refuse_masked({"normal_force": normal_force, "shear_strength": shear_strength, **answers})
     forces, strengths, *_ = np.broadcast_arrays(np.asarray(normal_force, dtype=float), np.asarray(shear_strength, dtype=float),
                                                 np.asarray(answers["status"]))
-    if not (forces > 0.).all() or not (strengths >= 0.).all():
-        raise TypeError("normal_force must be above 0, shear_strength no less than 0")
+    is_solved = np.broadcast_to(np.asarray(answers["status"]) == 0, forces.shape)
+    # The mean pressure of an ellipse is two thirds of the largest; that of other patches lies between.
+    share = forces / (np.asarray(answers["max_pressure"]) * np.asarray(answers["area"]))
+    wrong = np.flatnonzero(is_solved & ~((share > 0.3) & (share < 1.)))
+    if wrong.size:
+        raise TypeError(f"normal_force of case {wrong[0]}, {forces.reshape(-1)[wrong[0]]:g} N, is not that of its answer")
+    if not (np.isnan(strengths) | (strengths == 0.) | ((strengths >= 1e6) & (strengths <= 1e11))).all():
+        raise TypeError("shear_strength must be from 1e6 to 1e11 Pa, or 0 or nan where it is not known")
     solved, cases, damages = np.zeros(forces.shape, _ANSWER), np.zeros(forces.shape, _CASE), np.zeros(forces.shape, _DAMAGE)
     for name in _ANSWER.names:
         solved[name] = answers[name]

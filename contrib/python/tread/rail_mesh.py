@@ -153,10 +153,16 @@ def main() -> None:
     parser.add_argument("--hold-ends", action="store_true", help="name the outer ends 'end': planes of symmetry")
     parser.add_argument("--hold-sides", action="store_true", help="name the sides 'symmetry': a slice in plane strain; without a gap or --perturb")
     options = parser.parse_args()
+    if min(options.length, options.width, options.height, options.edge) <= 0. or options.crown_radius < 0.:
+        raise Error("length, width, height and edge must be above 0, the crown's radius no less")
+    if options.gap >= options.length:
+        raise Error("the gap leaves nothing of the length")
     if options.gap < 0. or (options.step != 0. and options.gap == 0.) or (options.perturb and options.gap > 0.):
         raise Error("a step needs a gap above 0, and perturbed nodes a bar without one")
     if options.hold_sides and (options.perturb or options.gap > 0.):
-        raise Error("sides are held of a bar without a gap whose nodes are not moved")
+        raise Error("--hold-sides is for a bar without --gap and without --perturb")
+    if options.hold_sides and options.crown_radius > 0.:
+        raise Error("--hold-sides is for a flat top: --crown-radius 0")
     half = 0.5 * options.length
     y, z = even_lines(-0.5 * options.width, 0.5 * options.width, options.edge), even_lines(-options.height, 0., options.edge)
     ends, radius = options.hold_ends, options.crown_radius

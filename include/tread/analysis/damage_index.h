@@ -25,7 +25,6 @@ namespace tread
     {
       double normal_force     = 0.; ///< N, above 0
       double tangential_force = 0.; ///< N
-      double ellipse_area     = 0.; ///< pi a b of the patch's semi-axes, m^2
       double area             = 0.; ///< in contact, m^2
       double max_pressure     = 0.; ///< Pa
       double t_gamma          = 0.; ///< frictional power over speed, N

@@ -13,16 +13,15 @@ namespace tread
   public:
     static constexpr const char *key = "surface_fatigue_index";
     static constexpr const char *about =
-      "Friction used less what the shakedown map allows, 2 pi a b k / (3 N), with Hertz's semi-axes under "
-      "the normal force (of a wheelset in a position half of the patch's extents) and 'Damage/Shear strength "
-      "(MPa)'";
+      "Friction used less what the shakedown map allows, the shear strength over the largest pressure, k/p0 "
+      "(of Hertz's ellipse 2 pi a b k / (3 N))";
 
     std::optional<double> value(const Load &load) const override
     {
       if (!(load.shear_strength > 0.))
         return std::nullopt;
-      return reference::surface_fatigue_index(load.tangential_force / load.normal_force, load.ellipse_area,
-                                              load.shear_strength, load.normal_force);
+      return reference::surface_fatigue_index(load.tangential_force / load.normal_force, load.max_pressure,
+                                              load.shear_strength);
     }
   };
 } // namespace tread

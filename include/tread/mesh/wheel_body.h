@@ -27,6 +27,7 @@ namespace tread
     double coarsest_cell_size = 0.025; ///< upper bound of the coarse cells' edge (m)
     double contact_half_width = std::numeric_limits<double>::infinity(); ///< tread faces with |y| up to this
                                                                          ///< are in reach of the rail (m)
+    bool between_planes = false; ///< whether its sides lie on planes of symmetry
 
     /// Radius of the tread at y minus running radius (m); zero at y = 0; null: a cylinder. The shift fades
     /// linearly to zero at the inner face.

@@ -4,17 +4,17 @@
 
 namespace tread::reference
 {
-  /// Surface fatigue index: how far the friction used lies above what the shakedown map of an elliptic patch
-  /// allows for its load, beyond 0 the surface is expected to ratchet (Ekberg, Kabo and Andersson 2002, with
-  /// the boundary of Johnson 1989 for friction that is large and a patch that slides).
-  /// @param friction_used tangential over normal force [-]; @param area pi a b of the semi-axes, m^2; @param
-  /// shear_strength yield stress in shear, Pa; @param normal_force N
+  /// Surface fatigue index: how far the friction used lies above what the shakedown map allows at the largest
+  /// pressure, beyond 0 the surface is expected to ratchet (Ekberg, Kabo and Andersson 2002, who write k/p0
+  /// as 2 pi a b k / (3 N) for Hertz's ellipse, with the boundary of Johnson 1989 for friction that is large
+  /// and a patch that slides).
+  /// @param friction_used tangential over normal force [-]; @param max_pressure p0, Pa; @param shear_strength
+  /// k, yield stress in shear, Pa
   inline double surface_fatigue_index(const double friction_used,
-                                      const double area,
-                                      const double shear_strength,
-                                      const double normal_force)
+                                      const double max_pressure,
+                                      const double shear_strength)
   {
-    return friction_used - 2. * area * shear_strength / (3. * normal_force);
+    return friction_used - shear_strength / max_pressure;
   }
 } // namespace tread::reference
 

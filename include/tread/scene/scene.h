@@ -446,6 +446,8 @@ namespace tread
     void check_surfaces() const;
     /// What check_surfaces() asks of a rail from a mesh file.
     void check_mesh_rail() const;
+    /// @param file names the mesh
+    void check_slice(const std::string &file) const;
     /// The change of its running surface, for messages.
     std::string uneven_in_words() const;
     void        check_defect() const;

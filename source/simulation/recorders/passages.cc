@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 #include <string>
 
 namespace tread
@@ -23,13 +25,22 @@ namespace tread
       return std::abs(p[0] - 0.5 * (scene.path_begin() + scene.path_end())) <= half_length;
     }
 
-    PassageGrowth make_growth(Model &model)
+    std::vector<unsigned int> cells_in_middle(const Model &model)
+    {
+      std::vector<unsigned int> cells;
+      for (unsigned int c = 0; c < model.mesh.cells.size(); ++c)
+        if (model.solid.plastic().contains(c) && model.mesh.cells[c].body == rail_body &&
+            is_in_middle_of(model.scene, model.mesh.nodes[model.mesh.cells[c].nodes[0]]))
+          cells.push_back(c);
+      return cells;
+    }
+
+    PassageGrowth make_growth(Model &model, const std::vector<unsigned int> &in_middle)
     {
       const Mesh       &mesh = model.mesh;
       std::vector<char> judged(mesh.cells.size(), false), of_rail(mesh.nodes.size(), false);
-      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        judged[c] = model.solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
-                    is_in_middle_of(model.scene, mesh.nodes[mesh.cells[c].nodes[0]]);
+      for (const unsigned int c : in_middle)
+        judged[c] = true;
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
         of_rail[i] = mesh.node_bodies[i] == rail_body;
       std::function<bool(const dealii::Point<3> &)> uniform;
@@ -43,18 +54,30 @@ namespace tread
   } // namespace
 
 
+  Passages::Middle Passages::Middle::operator-(const Middle &other) const
+  {
+    Middle difference{settlement - other.settlement, shift - other.shift, stress};
+    for (std::size_t k = 0; k < stress.size(); ++k)
+      for (unsigned int d = 0; d < 6; ++d)
+        difference.stress[k][d] -= other.stress[k][d];
+    return difference;
+  }
+
+
   Passages::Passages(Model &model, const EndOfWay &end_of_way, const Solution &solution)
     : model(model)
     , end_of_way(end_of_way)
     , solution(solution)
-    , growth(make_growth(model))
+    , judged(cells_in_middle(model))
+    , growth(make_growth(model, judged))
   {
+    at_first_start.stress.resize(judged.size());
+    of_load.stress.resize(judged.size());
   }
 
 
-  void Passages::measure_rail(Passage &passage) const
+  Passages::Middle Passages::measure_middle() const
   {
-    using dealii::Utilities::MPI::max;
     const Scene     &scene      = model.scene;
     const Mesh      &mesh       = model.mesh;
     const State     &state      = model.dynamics.state;
@@ -74,23 +97,38 @@ namespace tread
           shifted.add(state.position(i)[0] - p[0]);
           n_nodes += 1.;
         }
-    const std::vector<std::array<double, 6>> stress =
-      model.solid.cauchy_stress(state.positions().data(), state.history);
-    const std::vector<double> strains = model.solid.plastic().equivalent_plastic_strain(state.history);
-    double                    strain = 0., residual = 0.;
-    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      if (model.solid.plastic().contains(c) && mesh.cells[c].body == rail_body &&
-          is_in_middle_of(scene, mesh.nodes[mesh.cells[c].nodes[0]]))
-        {
-          strain   = std::max(strain, strains[c]);
-          residual = std::max(residual, von_mises(stress[c]));
-        }
     n_nodes =
       dealii::Utilities::MPI::sum(n_nodes, model.comm); // 0: not a number, instead of a settlement of 0
-    passage.settlement      = settled.value(model.comm) / n_nodes;
-    passage.shift           = shifted.value(model.comm) / n_nodes;
-    passage.plastic_strain  = max(strain, model.comm);
-    passage.residual_stress = max(residual, model.comm);
+    Middle middle{settled.value(model.comm) / n_nodes, shifted.value(model.comm) / n_nodes, {}};
+    const std::vector<std::array<double, 6>> stress =
+      model.solid.cauchy_stress(state.positions().data(), state.history);
+    for (const unsigned int c : judged)
+      middle.stress.push_back(stress[c]);
+    return middle;
+  }
+
+
+  void Passages::note(const Middle &left, Passage &passage) const
+  {
+    double residual = 0.;
+    for (const std::array<double, 6> &stress : left.stress)
+      residual = std::max(residual, von_mises(stress));
+    passage.settlement      = left.settlement;
+    passage.shift           = left.shift;
+    passage.residual_stress = dealii::Utilities::MPI::max(residual, model.comm);
+  }
+
+
+  void Passages::start()
+  {
+    if (passages.empty())
+      at_first_start = measure_middle();
+    else if (passages.size() == 1)
+      {
+        const Middle left = measure_middle() - at_first_start;
+        note(left, passages.front());
+        of_load = of_load - left;
+      }
   }
 
 
@@ -100,7 +138,21 @@ namespace tread
     passage.number  = (passages.empty() ? 0. : passages.back().number) + skipped + 1.;
     passage.skipped = skipped;
     growth.note(passage.number);
-    measure_rail(passage);
+    const std::vector<double> strains =
+      model.solid.plastic().equivalent_plastic_strain(model.dynamics.state.history);
+    double strain = 0.;
+    for (const unsigned int c : judged)
+      strain = std::max(strain, strains[c]);
+    passage.plastic_strain = dealii::Utilities::MPI::max(strain, model.comm);
+    const Middle at_end    = measure_middle();
+    if (passages.empty())
+      {
+        of_load            = at_end;
+        passage.settlement = passage.shift = passage.residual_stress =
+          std::numeric_limits<double>::quiet_NaN(); // until the next wheel stands at the beginning
+      }
+    else
+      note(at_end - of_load, passage);
     const Vector3      force              = end_of_way.force_on(model.wheels.front());
     const EnergyLedger energy             = model.dynamics.ledger();
     passage.net_strain                    = growth.net_strain();
@@ -113,9 +165,11 @@ namespace tread
     passage.energy_residual_of_dissipated = energy.of_dissipated(energy.residual());
     passages.push_back(passage);
     folder.write_table("passages.csv", passage_columns(), passages);
-    progress.say(format("passage %.0f of %u: settlement %.2f um, largest plastic strain %.3f %%, net %.3f %%",
-                        passage.number, model.scene.motion.passages, 1e6 * passage.settlement,
-                        100. * passage.plastic_strain, 100. * passage.net_strain));
+    progress.say(
+      format("passage %.0f of %u: ", passage.number, model.scene.motion.passages) +
+      (std::isfinite(passage.settlement) ? format("settlement %.2f um, ", 1e6 * passage.settlement) : "") +
+      format("largest plastic strain %.3f %%, net %.3f %%", 100. * passage.plastic_strain,
+             100. * passage.net_strain));
   }
 
 
@@ -145,27 +199,37 @@ namespace tread
       return;
     Summary     &summary = report.summary;
     const double strain = growth.net_strain(), per_passage = growth.rate();
+    const auto   left_out = [this] {
+      return growth.n_jumps() > 0
+                 ? format("; %u passages left out in %u jumps", growth.n_skipped(), growth.n_jumps())
+                 : std::string();
+    };
     summary.set("passages_rolled", passages.size());
     summary.set("net_plastic_strain", strain);
     summary.set("net_plastic_strain_of_last_passage", per_passage);
+    if (growth.n_jumps() > 0)
+      {
+        summary.set("passages_left_out", growth.n_skipped());
+        summary.set("jumps", growth.n_jumps());
+        summary.set("net_plastic_strain_error_estimate", growth.error_of_strain());
+      }
     if (!(strain > 0.))
-      return; // nothing has yielded anywhere
+      {
+        report.lines += "the rail's steel has not yielded in the middle of the path" + left_out() + "\n";
+        return;
+      }
     const dealii::Point<3> place = growth.place();
     const double           depth = model.scene.depth_in_rail(place);
     summary.set("net_plastic_strain_y_m", place[1]);
     summary.set("net_plastic_strain_depth_m", depth);
     report.lines +=
       format("net plastic strain of the rail %.3f %% after %.0f passages (y = %.2f mm, depth %.2f mm), "
-             "%.3g %% in the last one",
+             "at most %.3g %% more in the last one",
              100. * strain, passages.back().number, 1e3 * place[1], 1e3 * depth, 100. * per_passage);
     if (growth.n_jumps() > 0)
       {
-        summary.set("passages_left_out", growth.n_skipped());
-        summary.set("jumps", growth.n_jumps());
-        summary.set("net_plastic_strain_error_estimate", growth.error_of_strain());
         report.lines +=
-          format("; %u passages left out in %u jumps, off by %.3g %% at most by its own estimate",
-                 growth.n_skipped(), growth.n_jumps(), 100. * growth.error_of_strain());
+          left_out() + format(", off by about %.3g %% by its own estimate", 100. * growth.error_of_strain());
         constexpr double too_much = 0.1;
         if (growth.error_of_strain() > too_much * strain)
           report.warnings.push_back(
@@ -178,7 +242,9 @@ namespace tread
                                 "'Ratcheting/Irregularity (%)'");
     if (growth.has_failed())
       {
-        summary.set("passages_to_failure", passages.back().number);
+        const auto number = static_cast<unsigned int>(passages.back().number);
+        summary.set("passages", number);
+        summary.set("passages_to_failure", number);
         report.lines += format("\nthe rail's steel reaches its strain at failure, %g %%, in passage %.0f",
                                100. * model.scene.ratcheting.strain_at_failure, passages.back().number);
       }
@@ -186,9 +252,33 @@ namespace tread
   }
 
 
+  void Passages::serialize(Archive &archive, Middle &middle) const
+  {
+    struct OfCell
+    {
+      CellAddress           cell;
+      std::array<double, 6> stress;
+    };
+    archive.same(middle.settlement, middle.shift);
+    std::vector<OfCell> cells;
+    for (std::size_t k = 0; k < judged.size(); ++k)
+      cells.push_back({model.mesh.cells[judged[k]].address, middle.stress[k]});
+    std::map<CellAddress, std::array<double, 6>> stored;
+    for (const OfCell &of_cell : archive.records(cells))
+      stored.emplace(of_cell.cell, of_cell.stress);
+    for (std::size_t k = 0; k < judged.size() && archive.restores(); ++k)
+      if (const auto found = stored.find(cells[k].cell); found != stored.end())
+        middle.stress[k] = found->second;
+      else
+        archive.miss();
+  }
+
+
   void Passages::serialize(Archive &archive)
   {
     growth.serialize(archive);
     archive.same(passages, skipped);
+    serialize(archive, at_first_start);
+    serialize(archive, of_load);
   }
 } // namespace tread

@@ -9,6 +9,7 @@
 #include <tread/simulation/recorders/recorder.h>
 #include <tread/simulation/recorders/solution.h>
 
+#include <array>
 #include <vector>
 
 namespace tread
@@ -32,19 +33,39 @@ namespace tread
       return !passages.empty();
     }
 
+    /// A wheel stands at the beginning of the path, in equilibrium. Collective.
+    void start() override;
     void finish(Report &report) override;
     void serialize(Archive &archive) override;
 
   private:
-    /// Means of the surface's line of the path, and the largest stress and strain below it.
-    void measure_rail(Passage &passage) const;
+    /// The rail in the middle of the path.
+    struct Middle
+    {
+      double settlement = 0., shift = 0.; ///< means over the surface's line of the path, m
+      /// Of the cells that are judged, in the order of the mesh, Pa.
+      std::vector<std::array<double, 6>> stress;
 
-    Model               &model;
-    const EndOfWay      &end_of_way;
-    const Solution      &solution;
-    PassageGrowth        growth;
-    std::vector<Passage> passages;
-    unsigned int         skipped = 0; ///< before the one that rolls
+      Middle operator-(const Middle &other) const;
+    };
+    /// Collective.
+    Middle measure_middle() const;
+    /// Write what is left without the load. Collective.
+    void note(const Middle &left, Passage &passage) const;
+    void serialize(Archive &archive, Middle &middle) const;
+
+    Model                    &model;
+    const EndOfWay           &end_of_way;
+    const Solution           &solution;
+    std::vector<unsigned int> judged; ///< cells in the middle of the path that may yield
+    PassageGrowth             growth;
+    std::vector<Passage>      passages;
+    unsigned int              skipped = 0; ///< before the one that rolls
+
+    // A wheel at an end of a short path loads its middle. It does so alike in all passages, so that what a
+    // wheel at the beginning finds more than the first one did is what the first passage has left, and all
+    // else at that passage's end was the load.
+    Middle at_first_start, of_load; ///< of_load: all of the first passage's end, until the next one begins
   };
 } // namespace tread
 
