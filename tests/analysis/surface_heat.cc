@@ -89,6 +89,31 @@ namespace
     check.relative("semicircle of flux: largest rise", largest, exact, 1.5e-3); // 60 intervals
   }
 
+  /// Long after any flux a half-space knows only how much heat it took, here nearly at the time t_0 of its
+  /// centre: effusivity times rise is Q / sqrt(pi (t - t_0)). So the integral over the depth, Q, is found
+  /// from the surface alone.
+  void heat_taken(tests::Check &check)
+  {
+    const double                   interval = 1e-5;
+    const reference::SurfaceHeat   heat(interval);
+    reference::SurfaceHeat::Memory memory{};
+    double                         taken = 0., moment = 0., t = 0.;
+    for (unsigned int n = 0; n < 60; ++n, t += interval)
+      {
+        const double flux = 1. + std::sin(0.9 * n) + (n % 5 == 0);
+        heat.flow(memory, flux);
+        taken += flux * interval;
+        moment += flux * interval * (t + 0.5 * interval);
+      }
+    for (unsigned int n = 0; n < 1900; ++n, t += interval)
+      {
+        const double rise = heat.flow(memory, 0.);
+        if (n >= 700 && n % 300 == 100)
+          check.relative("heat taken up, from the rise " + std::to_string(n) + " intervals later",
+                         rise * std::sqrt(pi * (t + interval - moment / taken)), taken, 1e-3);
+      }
+  }
+
   void wear(tests::Check &check)
   {
     WearLaw::Sliding sliding;
@@ -203,6 +228,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   constant_flux(check);
   band(check);
   ellipse(check);
+  heat_taken(check);
   wear(check);
   fatigue(check);
   indices(check);
