@@ -39,7 +39,7 @@ def left_behind(folder):
         here = (fields["body"].ravel()[corners].mean(1) < 0.5) & (abs(where[:, 0]) < MIDDLE) & (where[:, 2] > -DEEPEST)
         rows.append(np.column_stack([-where[here, 2], *(value[here] for value in values)]))
     table = np.concatenate(rows)
-    depth = np.round(table[:, 0], 2)
+    depth = np.round(table[:, 0], 3)
     layers = np.unique(depth)
     return layers, np.array([table[depth == layer, 1:].mean(0) for layer in layers]).T
 
@@ -99,7 +99,7 @@ def main():
         share = lambda values: f"{100. * abs(values[inner]).max():.1f}"
         columns.append([cell, number(half_width), f"{peak:.0f}", f"{np.sqrt(3.) * peak / YIELD:.3f}", f"{100. * ripple:.2f}", share(off[0]), share(off[1]), share(off_endless[0]),
                         share(off_endless[1]), " / ".join(number(w) for w in work), str(n)])
-    depths, stress, own, endless, off = found[next(iter(found))]
+    depths, stress, own, endless, off = list(found.values())[-1]  # of the finest cells
     for i in np.flatnonzero(depths < 17.):
         rows.append([f"{depths[i]:.2f}"] + [text for k in (0, 1) for text in (f"{endless[k, i]:.1f}", f"{own[k, i]:.1f}", f"{stress[k, i]:.1f}", f"{100. * off[k, i]:+.1f}")])
     note = "\n\nOne rank. " + provenance("benchmarks/shakedown.py" + (" --fine" if arguments.fine else ""), summaries)

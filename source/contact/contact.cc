@@ -49,6 +49,7 @@ namespace tread
     , friction(std::move(friction))
     , inverse_mass(surfaces.nodes.size(), 0.)
     , face_size(0.)
+    , first_ranks(std::make_unique<FirstRanks>(comm))
     , strips(problem)
   {
     // The smallest slave face sets the scale of search distances.
@@ -357,8 +358,9 @@ namespace tread
     if (parameters.reproducible)
       strips = Strips(problem);
     else
-      strips = begin_of_strip.size() == n_ranks + 1 ? Strips(problem, begin_of_strip, involved.size(), comm)
-                                                    : Strips(problem, impulse, involved.size(), comm);
+      strips = begin_of_strip.size() == n_ranks + 1
+                 ? Strips(problem, begin_of_strip, involved.size(), *first_ranks)
+                 : Strips(problem, impulse, involved.size(), *first_ranks);
 
     // Nodes that the sweeps of this rank's strip move, and others whose positions it needs.
     std::vector<char> swept(involved.size(), false), needed(involved.size(), false);

@@ -86,7 +86,7 @@ namespace tread
           largest[1] = std::max(largest[1], new_normal);
         }
     };
-    for (result.sweeps = 1; result.sweeps <= parameters.max_sweeps; ++result.sweeps)
+    for (result.sweeps = 1; strips.sweeps() && result.sweeps <= parameters.max_sweeps; ++result.sweeps)
       {
         largest[0] = largest[1] = 0.;
         sweep(strips.begin, strips.end_lower);

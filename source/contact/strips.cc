@@ -23,6 +23,7 @@ namespace tread
     , first_acting(0)
     , end_acting(end)
     , comm(MPI_COMM_SELF)
+    , sweeping(MPI_COMM_SELF)
     , begin_of_strip({0, end})
   {
   }
@@ -31,10 +32,11 @@ namespace tread
   Strips::Strips(const ContactProblem       &problem,
                  const std::vector<Vector3> &impulse,
                  const unsigned int          n_nodes,
-                 const MPI_Comm              comm)
+                 FirstRanks                 &ranks,
+                 const unsigned int          least_work)
     : Strips(problem)
   {
-    this->comm                 = comm;
+    comm                       = ranks.all();
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
     const unsigned int n       = problem.constraints.size();
     // Sweeps look at those without an impulse twice, and at the others some more times.
@@ -43,7 +45,7 @@ namespace tread
     for (unsigned int j = 0; j < n; ++j)
       work[j + 1] = work[j] + (problem.constraints[j].end - problem.constraints[j].begin) *
                                 (dot(impulse[j], problem.constraints[j].normal) > 0. ? more_sweeps : 1);
-    for (unsigned int n_strips = n_ranks;; --n_strips)
+    for (unsigned int n_strips = std::clamp(work[n] / std::max(1u, least_work), 1u, n_ranks);; --n_strips)
       {
         begin_of_strip.assign(n_ranks + 1, n);
         for (unsigned int strip = 0; strip < n_strips; ++strip)
@@ -51,7 +53,10 @@ namespace tread
             std::lower_bound(work.begin(), work.end(), std::uint64_t(work[n]) * strip / n_strips) -
             work.begin();
         if (divide(problem, n_nodes))
-          return;
+          {
+            let_sweep(ranks);
+            return;
+          }
       }
   }
 
@@ -59,13 +64,23 @@ namespace tread
   Strips::Strips(const ContactProblem            &problem,
                  const std::vector<unsigned int> &begin_of_strip,
                  const unsigned int               n_nodes,
-                 const MPI_Comm                   comm)
+                 FirstRanks                      &ranks)
     : Strips(problem)
   {
-    this->comm           = comm;
+    comm                 = ranks.all();
     this->begin_of_strip = begin_of_strip;
     if (!divide(problem, n_nodes))
       throw std::invalid_argument("these strips are too thin for the pairs");
+    let_sweep(ranks);
+  }
+
+
+  void Strips::let_sweep(FirstRanks &ranks)
+  {
+    // Those that begin where all end are empty.
+    const auto empty = std::lower_bound(begin_of_strip.begin(), begin_of_strip.end(), begin_of_strip.back());
+    n_sweeping       = std::max<std::ptrdiff_t>(1, empty - begin_of_strip.begin());
+    sweeping         = ranks.first(n_sweeping);
   }
 
 
@@ -177,8 +192,8 @@ namespace tread
 
   void Strips::largest(double (&values)[2]) const
   {
-    if (begin_of_strip.size() > 2)
-      MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_DOUBLE, MPI_MAX, comm);
+    if (n_sweeping > 1)
+      MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_DOUBLE, MPI_MAX, sweeping);
   }
 
 

@@ -240,6 +240,9 @@ namespace tread
       {"element_updates_per_s", "The same over the wall time of internal forces"},
       {"cells_and_nodes_bytes", "Memory of mesh, cells and nodes on all ranks"},
       {"ranks", "Processes of MPI"},
+      {"imbalance_of_cells", "Largest number of cells of a rank over the mean"},
+      {"ranks_of_contact",
+       "So many of the ranks share the sweeps over the patch, as many as have enough to do"},
       {"version", "Of the program"},
       {"files",
        "Files that the run has read: a list with the parameter that names each ('parameter file' for the "

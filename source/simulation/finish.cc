@@ -61,7 +61,11 @@ namespace tread
     summary.set("element_updates", updates);
     summary.set("element_updates_per_s", updates / std::max(1e-9, internal_forces));
     summary.set("cells_and_nodes_bytes", model.memory_of_cells_and_nodes());
-    summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    summary.set("ranks", n_ranks);
+    summary.set("imbalance_of_cells",
+                n_ranks * double(max(model.mesh.cells.size(), comm)) / model.mesh.n_global_cells);
+    summary.set("ranks_of_contact", max(model.contact.n_sweeping_ranks(), comm));
     summary.set("version", version());
     summary.set("files", as_json(scene.files_read()));
   }

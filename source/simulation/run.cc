@@ -104,10 +104,12 @@ namespace tread
                             simulation->model.mesh.n_global_cells /
                               simulation->model.dynamics.ideal_gain_of_levels()};
       simulation->announce_steps(progress);
+      MPI_Pcontrol(1); // for profilers: here the steps begin
       try
         {
           while ((end = simulation->roll(folder, checkpoint, progress, pace)) == End::of_window)
             move_window();
+          MPI_Pcontrol(0); // and here they end
           if (end == End::complete || end == End::left_surface)
             {
               if (simulation->history.has_begun())

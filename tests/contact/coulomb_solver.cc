@@ -245,18 +245,22 @@ namespace
     unsigned int cold = 0, warm = 0, most = 0;               ///< sweeps: sums, largest number of a cold start
     double       change         = 0.;                        ///< of the last sweep, the largest
     double       impulses_apart = 0., velocities_apart = 0.; ///< shared among the ranks or not; share, m/s
-    unsigned int fewest = n_constraints;                     ///< constraints that a rank has
+    unsigned int fewest              = n_constraints;        ///< constraints that a rank has
+    bool         strips_are_of_first = true; ///< those that have one sweep, two where so many are enough
   };
 
   /// The same problem shared among the ranks.
   void compare_with_shared(const RandomProblem &r,
                            const FrictionLaw   &friction,
                            const Solution      &alone,
+                           const bool           on_two,
                            Found               &found)
   {
+    const unsigned int   half = r.problem.entries.size() / 2;
     std::vector<char>    slips;
     std::vector<Vector3> velocity = r.velocity, impulse(n_constraints, Vector3{});
-    Strips               strips(r.problem, impulse, velocity.size(), MPI_COMM_WORLD);
+    FirstRanks           ranks(MPI_COMM_WORLD);
+    Strips               strips(r.problem, impulse, velocity.size(), ranks, on_two ? half : 1);
     solve_coulomb(r.problem, friction, solver_parameters(), strips, r.offset, velocity, impulse, slips);
     strips.gather(impulse);
     double largest = 0., apart = 0.;
@@ -272,8 +276,14 @@ namespace
                 std::max(found.velocities_apart, size(velocity[node] - alone.velocity[node]));
             }
       }
-    found.impulses_apart = std::max(found.impulses_apart, apart / largest);
-    found.fewest         = std::min(found.fewest, strips.end - strips.begin);
+    found.impulses_apart          = std::max(found.impulses_apart, apart / largest);
+    const unsigned int own        = strips.end - strips.begin,
+                       ranks_with = dealii::Utilities::MPI::sum(own > 0 ? 1u : 0u, MPI_COMM_WORLD);
+    found.strips_are_of_first =
+      found.strips_are_of_first && strips.sweeps() == (own > 0) &&
+      (!on_two || ranks_with == std::min(2u, dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)));
+    if (!on_two)
+      found.fewest = std::min(found.fewest, own);
   }
 
   /// Whether the velocities that came back hold the impulses' effect.
@@ -324,6 +334,7 @@ namespace
     check.below(name + "impulse not against slip, share", worst.direction, allowed);
     check.below(name + "shared among the ranks, impulses apart, share", found.impulses_apart, allowed);
     check.below(name + "shared among the ranks, velocities apart, m/s", found.velocities_apart, allowed);
+    check.that(name + "as many ranks sweep as there is work for", found.strips_are_of_first);
     check.that(name + "each rank has a share of the constraints", found.fewest >= 150 / n_ranks);
     check.that(name + "all states occur",
                worst.n_open > 0 && (mu == 0. || worst.n_stick > 0) && worst.n_slip > 0);
@@ -345,7 +356,8 @@ namespace
         found.cold += solution.sweeps;
         found.most   = std::max(found.most, solution.sweeps);
         found.change = std::max(found.change, solution.change);
-        compare_with_shared(r, friction, solution, found);
+        compare_with_shared(r, friction, solution, false, found);
+        compare_with_shared(r, friction, solution, true, found);
         found.worst.penetration =
           std::max(found.worst.penetration, velocities_hold_impulses(r, solution) ? 0. : 1.);
         found.warm += sweeps_of_next_step(r, friction, solution);
@@ -360,7 +372,8 @@ namespace
   void few_constraints(Check &check, std::mt19937 &random)
   {
     const RandomProblem few = make_problem(6, random);
-    const Strips        one(few.problem, std::vector<Vector3>(6, Vector3{}), 12, MPI_COMM_WORLD);
+    FirstRanks          ranks(MPI_COMM_WORLD);
+    const Strips        one(few.problem, std::vector<Vector3>(6, Vector3{}), 12, ranks, 1);
     const unsigned int  own = one.end - one.begin;
     check.that("a few constraints are one rank's", dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD) == 6 &&
                                                      dealii::Utilities::MPI::max(own, MPI_COMM_WORLD) >= 3);

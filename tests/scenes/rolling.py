@@ -158,6 +158,8 @@ with tempfile.TemporaryDirectory() as folder:
         one_of_levels = run(program, "smooth-rolling.prm", path("levels-1"), levels)
         two_of_levels = run(program, "smooth-rolling.prm", path("levels-2"), levels, 2)
         same("levels of time steps, 2 ranks against 1", two_of_levels, one_of_levels, 1e-8)
+        check.that(f"one rank has all cells and sweeps alone, three share: imbalance {several['imbalance_of_cells']:.2f}, {several['ranks_of_contact']} sweep",
+                   one["imbalance_of_cells"] == one["ranks_of_contact"] == 1 and 1. < several["imbalance_of_cells"] < 1.5 and several["ranks_of_contact"] in (2, 3))
         dry = execute_often(arguments_of(SCENE, levels, path("dry")) + ["--dry-run"], program)
         gain = float(re.search(r"cell updates fall to 1/([\d.]+)", dry.stdout)[1])
         check.that("levels: most cells wait", gain > 1.5)

@@ -216,8 +216,15 @@ namespace tread
     void visit_impulses(
       const std::function<void(unsigned int node, double normal, double tangential)> &visit) const;
 
+    /// How many ranks share the sweeps over the patch.
+    unsigned int n_sweeping_ranks() const
+    {
+      return strips.n_strips();
+    }
+
     /// Number of steps in which the sweeps ended before the tolerance was reached, without those of the
     /// start.
+
     std::uint64_t n_unconverged_steps() const
     {
       return unconverged_steps;
@@ -303,6 +310,7 @@ namespace tread
     double                                face_size;
 
     ContactProblem                         problem;
+    std::unique_ptr<FirstRanks>            first_ranks;
     Strips                                 strips;
     std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
     std::vector<unsigned int>              near_contact;     ///< surface nodes (@see nodes_near)
