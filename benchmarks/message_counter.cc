@@ -9,18 +9,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <set>
 #include <vector>
 
 namespace
 {
   struct Counts
   {
-    long long messages = 0, bytes = 0, waits = 0, collectives = 0, collective_bytes = 0;
+    long long messages = 0, bytes = 0, waits = 0, collectives = 0, doublings = 0, collective_bytes = 0;
   };
-  Counts        counts;
-  std::set<int> neighbours; ///< that were sent to
-  bool          counts_now = false;
+  Counts counts;
+  bool   counts_now = false;
 
   long long bytes_of(const int n, MPI_Datatype type)
   {
@@ -29,19 +27,31 @@ namespace
     return static_cast<long long>(n) * size;
   }
 
-  void sent(const int n, MPI_Datatype type, const int to)
+  void sent(const int n, MPI_Datatype type)
   {
     if (!counts_now)
       return;
     ++counts.messages;
     counts.bytes += bytes_of(n, type);
-    neighbours.insert(to);
   }
 
-  void all_together(const long long bytes)
+  /// From one rank to twice as many, and so on.
+  int doublings_of(MPI_Comm comm)
   {
-    counts.collectives += counts_now;
-    counts.collective_bytes += counts_now ? bytes : 0;
+    int n_ranks, n = 0;
+    PMPI_Comm_size(comm, &n_ranks);
+    while ((1 << n) < n_ranks)
+      ++n;
+    return n;
+  }
+
+  void all_together(MPI_Comm comm, const long long bytes)
+  {
+    if (!counts_now)
+      return;
+    ++counts.collectives;
+    counts.doublings += doublings_of(comm);
+    counts.collective_bytes += bytes;
   }
 } // namespace
 
@@ -55,7 +65,7 @@ extern "C"
 
   int MPI_Send(const void *data, int n, MPI_Datatype type, int to, int tag, MPI_Comm comm)
   {
-    sent(n, type, to);
+    sent(n, type);
     return PMPI_Send(data, n, type, to, tag, comm);
   }
 
@@ -67,7 +77,7 @@ extern "C"
                 MPI_Comm     comm,
                 MPI_Request *request)
   {
-    sent(n, type, to);
+    sent(n, type);
     return PMPI_Isend(data, n, type, to, tag, comm, request);
   }
 
@@ -92,25 +102,25 @@ extern "C"
 
   int MPI_Barrier(MPI_Comm comm)
   {
-    all_together(0);
+    all_together(comm, 0);
     return PMPI_Barrier(comm);
   }
 
   int MPI_Bcast(void *data, int n, MPI_Datatype type, int root, MPI_Comm comm)
   {
-    all_together(bytes_of(n, type));
+    all_together(comm, bytes_of(n, type));
     return PMPI_Bcast(data, n, type, root, comm);
   }
 
   int MPI_Reduce(const void *give, void *take, int n, MPI_Datatype type, MPI_Op op, int root, MPI_Comm comm)
   {
-    all_together(bytes_of(n, type));
+    all_together(comm, bytes_of(n, type));
     return PMPI_Reduce(give, take, n, type, op, root, comm);
   }
 
   int MPI_Allreduce(const void *give, void *take, int n, MPI_Datatype type, MPI_Op op, MPI_Comm comm)
   {
-    all_together(bytes_of(n, type));
+    all_together(comm, bytes_of(n, type));
     return PMPI_Allreduce(give, take, n, type, op, comm);
   }
 
@@ -122,7 +132,7 @@ extern "C"
                     MPI_Datatype type_taken,
                     MPI_Comm     comm)
   {
-    all_together(bytes_of(n, type));
+    all_together(comm, bytes_of(n, type));
     return PMPI_Allgather(give, n, type, take, n_taken, type_taken, comm);
   }
 
@@ -135,7 +145,7 @@ extern "C"
                      MPI_Datatype type_taken,
                      MPI_Comm     comm)
   {
-    all_together(bytes_of(n, type));
+    all_together(comm, bytes_of(n, type));
     return PMPI_Allgatherv(give, n, type, take, n_taken, places, type_taken, comm);
   }
 
@@ -154,7 +164,7 @@ extern "C"
     long long bytes = 0;
     for (int rank = 0; rank < n_ranks; ++rank)
       bytes += bytes_of(n[rank], type);
-    all_together(bytes);
+    all_together(comm, bytes);
     return PMPI_Alltoallv(give, n, places, type, take, n_taken, places_taken, type_taken, comm);
   }
 
@@ -163,15 +173,15 @@ extern "C"
     int rank, n_ranks;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
     PMPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-    const long long own[] = {counts.messages, counts.bytes,       static_cast<long long>(neighbours.size()),
-                             counts.waits,    counts.collectives, counts.collective_bytes};
-    constexpr int   n     = sizeof own / sizeof *own;
+    const long long        own[] = {counts.messages,    counts.bytes,     counts.waits,
+                                    counts.collectives, counts.doublings, counts.collective_bytes};
+    constexpr int          n     = sizeof own / sizeof *own;
     std::vector<long long> all(n * n_ranks);
     PMPI_Gather(own, n, MPI_LONG_LONG, all.data(), n, MPI_LONG_LONG, 0, MPI_COMM_WORLD);
     if (const char *path = std::getenv("TREAD_MESSAGES"); path && rank == 0)
       if (std::FILE *file = std::fopen(path, "w"))
         {
-          std::fputs("rank,messages,bytes,neighbours,waits,collectives,collective_bytes\n", file);
+          std::fputs("rank,messages,bytes,waits,collectives,doublings,collective_bytes\n", file);
           for (int r = 0; r < n_ranks; ++r)
             {
               std::fprintf(file, "%d", r);

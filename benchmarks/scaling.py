@@ -19,7 +19,7 @@ from tread.tables import fill, markdown, number, provenance
 
 # The same contact in ever more cells of 0.33 mm around it. The start is left rough: what counts is the pace.
 SIZE_SCENE = "verification/half-space-0.33-mu0.30.prm"
-SIZE_CHANGES = {"Motion/Rolled distance (mm)": 1, "Motion/Creepage": 0.0029, "Start/Tolerance": 0.1}
+SIZE_CHANGES = {"Motion/Rolled distance (mm)": 1, "Motion/Creepage": 0.0029, "Start/Tolerance": 0.01}
 SIZES = ({"Mesh/Fine layers": 1, "Mesh/Cells per level": 1}, {"Mesh/Fine layers": 8}, {"Mesh/Fine layers": 20},
          {"Mesh/Fine layers": 40}, {"Mesh/Fine layers": 32, "Mesh/Fine half width (mm)": 20},
          {"Mesh/Fine layers": 64, "Mesh/Fine half width (mm)": 22})

@@ -447,7 +447,8 @@ namespace tread
        }},
       {"settlement", "um",
        "Of the rail's surface in the middle of the path since before the first wheel, downwards, without "
-       "load: the first row's is known when the second wheel stands at the beginning",
+       "load: the first row's is known when the second wheel stands at the beginning, and never where the "
+       "steel failed before",
        [](const R &r) {
          return r.settlement;
        }},

@@ -168,6 +168,9 @@ namespace tread
             file + "lies between planes of symmetry at y = " + from_to_in_mm(across.begin, across.end) +
               ", between which the wheel must fit: 'Wheel/Shape' sector with 'Sector width (mm)' " +
               text_in_mm(across.end - across.begin) + ", and a rail with its middle at y = 0");
+    require(
+      wheel.lateral_position == 0.,
+      "'Wheel/Lateral position (mm)' must be 0 on a rail between planes of symmetry, which hold the wheel");
     const auto gap = [&](const double share) {
       return surfaces().gap(share * surfaces().half_width);
     };

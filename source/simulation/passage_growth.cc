@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <tuple>
 
 namespace tread
 {
@@ -54,6 +55,14 @@ namespace tread
         return mean;
       }
     };
+
+    /// Rows of all ranks in an order that does not depend on these, as sums by rows do.
+    template <typename Row, typename Key>
+    std::vector<Row> in_order(std::vector<Row> rows, const Key &key)
+    {
+      std::sort(rows.begin(), rows.end(), [&](const Row &a, const Row &b) { return key(a) < key(b); });
+      return rows;
+    }
 
     /// By the keys that plastic cells have.
     std::map<Archive::Key, CrossSection> sections_of_cells(const Mesh &mesh)
@@ -219,8 +228,9 @@ namespace tread
     // Nodes: displacements by line.
     struct Moved
     {
-      Line   line;
-      double by[3];
+      Line      line;
+      long long x; ///< nm
+      double    by[3];
     };
     std::vector<Moved> nodes;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
@@ -229,10 +239,12 @@ namespace tread
           const Archive::Key key = mesh.node_key(i);
           const Vector3     &x   = residue.places[i];
           nodes.push_back({{{key[2], key[3]}},
+                           key[1],
                            {x[0] - mesh.nodes[i][0], x[1] - mesh.nodes[i][1], x[2] - mesh.nodes[i][2]}});
         }
     std::map<Line, std::pair<Vector3, double>> by_line;
-    for (const Moved &node : gathered(nodes, mesh.comm))
+    for (const Moved &node :
+         in_order(gathered(nodes, mesh.comm), [](const Moved &n) { return std::tuple(n.line, n.x); }))
       {
         auto &[sum, n] = by_line.try_emplace(node.line, Vector3{}, 0.).first->second;
         sum += Vector3{node.by[0], node.by[1], node.by[2], 0.};
@@ -257,7 +269,8 @@ namespace tread
       if (cell.key[0] == rail_body && uniform({1e-9 * cell.key[1], 1e-9 * cell.key[2], 1e-9 * cell.key[3]}))
         middle.push_back(cell);
     std::map<Line, Mean> means;
-    for (const CellHistory &cell : gathered(middle, mesh.comm))
+    for (const CellHistory &cell :
+         in_order(gathered(middle, mesh.comm), [](const CellHistory &c) { return c.key; }))
       means[{{cell.key[2], cell.key[3]}}].add(cell.values);
     const std::map<Archive::Key, CrossSection> sections = sections_of_cells(mesh);
     for (CellHistory cell : own)
@@ -443,6 +456,8 @@ namespace tread
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (moved[i])
         state.set_position(i, last.places[i]);
+    mesh.distribute_hanging_nodes(
+      state.x_damped.data()); // as a step begins, and a run that goes on from here
     keep_places();
   }
 

@@ -346,6 +346,8 @@ class HalfSpaceRoll(unittest.TestCase):
                       {"normal_force": 1e5, "shear_strength": 300.}, {"normal_force": 1e5, "shear_strength": np.inf}):
             with self.assertRaises(TypeError, msg=str(wrong)):
                 half_space.damage(answers, **wrong)
+        with self.assertRaisesRegex(TypeError, "lack area"):
+            half_space.damage({name: value for name, value in answers.items() if name != "area"}, normal_force=1e5)
 
     def test_a_level_way_is_steady_rolling(self):
         for creepage in (-1e-3, -0.03):

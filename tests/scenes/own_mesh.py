@@ -136,7 +136,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name, across, crown in (("wide.msh", lines(-5.2, 5.2, 5.2), 0.), ("crowned.msh", lines(-2.6, 2.6, 2.6), 300.), ("aside.msh", [-2.6, 0., 2.6, 5.2], 0.)):
         rail_mesh.write(rail_mesh.bar(rail_mesh.even_lines(-166.4, 166.4, 5.2), across, rail_mesh.even_lines(-62.4, 0., 5.2), crown, 0., (True, True), True), path(name))
     for settings, words in (([], "between which the wheel must fit: 'Wheel/Shape' sector with 'Sector width (mm)' 10.4"), (["Wheel/Sector width (mm)=12"], "between which the wheel must fit"),
-                            (["Wheel/Shape=full"], "between which the wheel must fit"), (["Wheel/Sector width (mm)=10.4", "Mesh/Finest cell (mm)=5.2"], "of semi-axes 5.3"),
+                            (["Wheel/Sector width (mm)=10.4", "Wheel/Lateral position (mm)=2"], "'Wheel/Lateral position (mm)' must be 0"), (["Wheel/Shape=full"], "between which the wheel must fit"), (["Wheel/Sector width (mm)=10.4", "Mesh/Finest cell (mm)=5.2"], "of semi-axes 5.3"),
                             ([f"Rail/Mesh file={path('crowned.msh')}"], "must be level across"), ([f"Rail/Mesh file={path('aside.msh')}"], "at y = -2.6 to 5.2 mm, between which")):
         said = refusal("damage/line-contact.prm", [f"Rail/Mesh file={path('wide.msh')}", *settings] if "Mesh file" not in "".join(settings) else settings)
         check.that(f"a slice is refused: {said[-1] if said else ''}", any(words in line for line in said))

@@ -78,11 +78,11 @@ def press_ctrl_c(process, history, rows):
     process.send_signal(signal.SIGINT)
 
 
-def run_stopped(program, scene, output, settings, rows):
-    """Run a scene on one rank until its history has more than so many lines, then press Ctrl-C."""
+def run_stopped(program, scene, output, settings, rows, of="history.csv"):
+    """Run a scene on one rank until one of its tables has more than so many lines, then press Ctrl-C. With passages.csv it ends between two."""
     process = subprocess.Popen(command(arguments_of(scene, settings, output), 1, program), env=environment(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    press_ctrl_c(process, os.path.join(output, "history.csv"), rows)
+    press_ctrl_c(process, os.path.join(output, of), rows)
     process.wait(timeout=120)
 
 

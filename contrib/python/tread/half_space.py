@@ -155,6 +155,8 @@ def damage(answers: Mapping[str, ArrayLike], *, normal_force: ArrayLike, shear_s
     Raises TypeError for masked values, and for forces that cannot be those of the answers: pressure over area carries another.
     """
     _refuse_masked({"normal_force": normal_force, "shear_strength": shear_strength, **answers})
+    if missing := [name for name in _ANSWER.names if name not in answers]:
+        raise TypeError(f"answers lack {', '.join(missing)}: give all that solve() returned")
     forces, strengths, *_ = np.broadcast_arrays(np.asarray(normal_force, dtype=float), np.asarray(shear_strength, dtype=float),
                                                 np.asarray(answers["status"]))
     is_solved = np.broadcast_to(np.asarray(answers["status"]) == 0, forces.shape)

@@ -20,7 +20,7 @@ namespace tread
         "Wear coefficient", "1e-4", Double(1e-12, 1.),
         "Of 'Wear law' Archard: volume times hardness over normal force and distance. Measured "
         "ones of rail steel differ by a factor of a hundred with slip, pressure and lubrication.");
-      section.declare_entry("Hardness (MPa)", "2800", Double(1., 1e5),
+      section.declare_entry("Hardness (MPa)", "2800", Double(100., 1e5),
                             "Of 'Wear law' Archard, of the softer body.");
     }
 

@@ -35,6 +35,21 @@ namespace tread
       return cells;
     }
 
+    /// Nodes of the rail's surface in the middle of the path, as near to its line as there are any.
+    std::vector<unsigned int> nodes_on_line(const Model &model)
+    {
+      const Scene              &scene = model.scene;
+      const double              half  = 0.5 * scene.mesh.finest_cell * (1. + 1e-6);
+      std::vector<unsigned int> nodes;
+      for (const unsigned int i : model.mesh.boundary_nodes(rail_body, Boundary::contact))
+        if (const dealii::Point<3> &p = model.mesh.nodes[i];
+            model.mesh.shared_nodes.is_owned(i) && is_in_middle_of(scene, p) &&
+            (scene.is_positioned() ? scene.placed_wheel().is_on_path(p, scene.mesh.finest_cell)
+                                   : std::abs(p[1] - scene.path_y()) <= half))
+          nodes.push_back(i);
+      return nodes;
+    }
+
     PassageGrowth make_growth(Model &model, const std::vector<unsigned int> &in_middle)
     {
       const Mesh       &mesh = model.mesh;
@@ -69,37 +84,27 @@ namespace tread
     , end_of_way(end_of_way)
     , solution(solution)
     , judged(cells_in_middle(model))
+    , on_line(nodes_on_line(model))
     , growth(make_growth(model, judged))
   {
     at_first_start.stress.resize(judged.size());
+    at_last_end.stress.resize(judged.size());
     of_load.stress.resize(judged.size());
   }
 
 
   Passages::Middle Passages::measure_middle() const
   {
-    const Scene     &scene      = model.scene;
-    const Mesh      &mesh       = model.mesh;
-    const State     &state      = model.dynamics.state;
-    constexpr double on_line    = 1e-6;
-    const auto       is_on_path = [&](const dealii::Point<3> &p) {
-      return scene.is_positioned() ? scene.placed_wheel().is_on_path(p, scene.mesh.finest_cell)
-                                         : std::abs(p[1]) < on_line && std::abs(p[2]) < on_line;
-    };
+    const State            &state = model.dynamics.state;
     ReproducibleSum<double> settled, shifted;
-    double                  n_nodes = 0.;
-    for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      if (const dealii::Point<3> &p = mesh.nodes[i]; mesh.node_bodies[i] == rail_body &&
-                                                     mesh.shared_nodes.is_owned(i) &&
-                                                     is_in_middle_of(scene, p) && is_on_path(p))
-        {
-          settled.add(p[2] - state.position(i)[2]);
-          shifted.add(state.position(i)[0] - p[0]);
-          n_nodes += 1.;
-        }
-    n_nodes =
-      dealii::Utilities::MPI::sum(n_nodes, model.comm); // 0: not a number, instead of a settlement of 0
-    Middle middle{settled.value(model.comm) / n_nodes, shifted.value(model.comm) / n_nodes, {}};
+    for (const unsigned int i : on_line)
+      {
+        const dealii::Point<3> &p = model.mesh.nodes[i];
+        settled.add(p[2] - state.position(i)[2]);
+        shifted.add(state.position(i)[0] - p[0]);
+      }
+    const double n_nodes = dealii::Utilities::MPI::sum<double>(on_line.size(), model.comm);
+    Middle       middle{settled.value(model.comm) / n_nodes, shifted.value(model.comm) / n_nodes, {}};
     const std::vector<std::array<double, 6>> stress =
       model.solid.cauchy_stress(state.positions().data(), state.history);
     for (const unsigned int c : judged)
@@ -123,11 +128,11 @@ namespace tread
   {
     if (passages.empty())
       at_first_start = measure_middle();
-    else if (passages.size() == 1)
+    else if (skipped == 0)
       {
         const Middle left = measure_middle() - at_first_start;
-        note(left, passages.front());
-        of_load = of_load - left;
+        note(left, passages.back());
+        of_load = at_last_end - left;
       }
   }
 
@@ -144,15 +149,12 @@ namespace tread
     for (const unsigned int c : judged)
       strain = std::max(strain, strains[c]);
     passage.plastic_strain = dealii::Utilities::MPI::max(strain, model.comm);
-    const Middle at_end    = measure_middle();
+    at_last_end            = measure_middle();
     if (passages.empty())
-      {
-        of_load            = at_end;
-        passage.settlement = passage.shift = passage.residual_stress =
-          std::numeric_limits<double>::quiet_NaN(); // until the next wheel stands at the beginning
-      }
+      passage.settlement = passage.shift = passage.residual_stress =
+        std::numeric_limits<double>::quiet_NaN(); // until the next wheel stands at the beginning
     else
-      note(at_end - of_load, passage);
+      note(at_last_end - of_load, passage);
     const Vector3      force              = end_of_way.force_on(model.wheels.front());
     const EnergyLedger energy             = model.dynamics.ledger();
     passage.net_strain                    = growth.net_strain();
@@ -165,11 +167,9 @@ namespace tread
     passage.energy_residual_of_dissipated = energy.of_dissipated(energy.residual());
     passages.push_back(passage);
     folder.write_table("passages.csv", passage_columns(), passages);
-    progress.say(
-      format("passage %.0f of %u: ", passage.number, model.scene.motion.passages) +
-      (std::isfinite(passage.settlement) ? format("settlement %.2f um, ", 1e6 * passage.settlement) : "") +
-      format("largest plastic strain %.3f %%, net %.3f %%", 100. * passage.plastic_strain,
-             100. * passage.net_strain));
+    progress.say(format("passage %.0f of %u: largest plastic strain %.3f %%, net %.3f %%", passage.number,
+                        model.scene.motion.passages, 100. * passage.plastic_strain,
+                        100. * passage.net_strain));
   }
 
 
@@ -237,7 +237,8 @@ namespace tread
                    "'Ratcheting/Change in a jump (%%)'",
                    100. * growth.error_of_strain() / strain));
       }
-    else if (model.scene.ratcheting.jumps)
+    else if (model.scene.ratcheting.jumps && !growth.has_failed() &&
+             passages.size() > 3. * model.scene.ratcheting.rolled_between)
       report.warnings.push_back("no passages were left out: the change per passage was never regular, see "
                                 "'Ratcheting/Irregularity (%)'");
     if (growth.has_failed())
@@ -279,6 +280,7 @@ namespace tread
     growth.serialize(archive);
     archive.same(passages, skipped);
     serialize(archive, at_first_start);
+    serialize(archive, at_last_end);
     serialize(archive, of_load);
   }
 } // namespace tread

@@ -57,15 +57,16 @@ namespace tread
     Model                    &model;
     const EndOfWay           &end_of_way;
     const Solution           &solution;
-    std::vector<unsigned int> judged; ///< cells in the middle of the path that may yield
+    std::vector<unsigned int> judged;  ///< cells in the middle of the path that may yield
+    std::vector<unsigned int> on_line; ///< nodes of the surface there on the line of the path, each once
     PassageGrowth             growth;
     std::vector<Passage>      passages;
     unsigned int              skipped = 0; ///< before the one that rolls
 
-    // A wheel at an end of a short path loads its middle. It does so alike in all passages, so that what a
-    // wheel at the beginning finds more than the first one did is what the first passage has left, and all
-    // else at that passage's end was the load.
-    Middle at_first_start, of_load; ///< of_load: all of the first passage's end, until the next one begins
+    // A wheel at an end of a short path loads its middle, and does so alike in all passages. What a wheel at
+    // the beginning finds more than the first one did is therefore what the passages before have left, and
+    // all else at the last one's end was the load.
+    Middle at_first_start, at_last_end, of_load;
   };
 } // namespace tread
 
