@@ -17,7 +17,7 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 from tread.commands import command_parser, run_command
-from tread.files import is_complete, read_summary
+from tread.files import Error, is_complete, read_summary
 from tread.measured_runs import shipped, steps_seconds
 from tread.runs import PROGRAM, ROOT, arguments_of, command, environment, must_end_well
 from tread.tables import fill, markdown, number, provenance
@@ -36,7 +36,7 @@ CORES = 2
 def counter() -> str:
     found = glob.glob(os.path.join(os.path.dirname(PROGRAM), "..", "benchmarks", "libmessage_counter.so"))
     if not found:
-        raise SystemExit("benchmarks/messages.py: there is no libmessage_counter.so beside the program: build the benchmarks")
+        raise Error("there is no libmessage_counter.so beside the program: build the benchmarks")
     return os.path.abspath(found[0])
 
 

@@ -583,9 +583,6 @@ namespace tread
       solve_coulomb(problem, *friction, parameters.solver, strips, offset, velocity, impulse, slips,
                     given_ratio, pair_friction, time_step);
 
-    if (result.change > parameters.solver.tolerance)
-      ++unconverged_steps;
-
     bool slid_enough = false;
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
@@ -598,7 +595,12 @@ namespace tread
       }
     if (!pair_friction.coefficient.empty())
       age_friction(time_step);
-    if (strips.gather(impulse, slid_enough) > 0.)
+    // All that sweep know the same change; the others know none.
+    const bool unconverged = result.change > parameters.solver.tolerance;
+    const auto found =
+      static_cast<int>(strips.gather(impulse, (unconverged ? 2. : 0.) + (slid_enough ? 1. : 0.)));
+    unconverged_steps += found / 2;
+    if (found % 2 > 0)
       time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
 
     work = ContactWork();

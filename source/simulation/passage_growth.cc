@@ -456,8 +456,8 @@ namespace tread
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (moved[i])
         state.set_position(i, last.places[i]);
-    mesh.distribute_hanging_nodes(
-      state.x_damped.data()); // as a step begins, and a run that goes on from here
+    // As a step begins, and a run that goes on from here.
+    mesh.distribute_hanging_nodes(state.x_damped.data());
     keep_places();
   }
 
