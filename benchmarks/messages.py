@@ -102,6 +102,7 @@ def main() -> None:
                 own = sum(step_of(one, run, ranks, arguments.own_latency, arguments.own_bandwidth).values())
                 here = [f"{1e6 * own:.0f}", f"{1e6 * steps_seconds(run) / run['steps']:.0f}"] if ranks <= CORES and growth == 1. else ["", ""]
                 rows.append([label, number(growth * run["cells"]), str(ranks), *(f"{1e6 * part:.0f}" for part in parts.values()), f"{1e6 * whole:.0f}", f"{pace[label] / whole / ranks:.2f}", *here])
+    rows.sort(key=lambda row: row[0] == TEN_TIMES)
     note = "\n\n" + provenance("benchmarks/messages.py", summaries)
     fill("performance.md", "messages", markdown(["scene", "cells", "ranks", "largest share of cells over the mean", "ranks that sweep", "messages a step", "kB", "waits",
                                                  "collective operations a step", "doublings in them", "kB given to them"], count_rows) + note)
