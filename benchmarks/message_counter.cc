@@ -2,8 +2,8 @@
 // What a program sends and where it waits: a library that is loaded before MPI (LD_PRELOAD) and counts the
 // calls of each rank through MPI's profiling interface, from MPI_Pcontrol(1) to MPI_Pcontrol(0): over the
 // time steps. Written to the file TREAD_MESSAGES when MPI ends, a line for each rank: messages and bytes sent
-// to single ranks, neighbours, waits for them, collective operations and the bytes that each rank gives to
-// them.
+// to single ranks, waits for them, collective operations, the doublings from one rank to all of theirs, and
+// the bytes that each rank gives to them.
 #include <mpi.h>
 
 #include <algorithm>

@@ -12,6 +12,12 @@
 
 namespace tread
 {
+  reference::Elastic elastic_of(const MaterialSection &material)
+  {
+    return {material.elastic().young_modulus, material.elastic().poisson_ratio};
+  }
+
+
   reference::RollingCase half_space_case(const Scene &scene,
                                          const double normal_force,
                                          const double traction_coefficient)
@@ -22,8 +28,8 @@ namespace tread
     c.normal_force = normal_force;
     c.speed        = scene.motion.speed;
     set_friction(c, scene, scene.path_end());
-    c.wheel = {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio};
-    c.rail  = {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio};
+    c.wheel                         = elastic_of(scene.wheel.material);
+    c.rail                          = elastic_of(scene.rail.material);
     c.prescribe_force               = true;
     c.traction_coefficient          = traction_coefficient;
     c.lateral_creepage              = scene.motion.lateral_creepage;
@@ -165,10 +171,7 @@ namespace tread
     {
       const double width = scene.wheel.sector_width;
       const double modulus =
-        reference::combine(
-          {scene.wheel.material.elastic().young_modulus, scene.wheel.material.elastic().poisson_ratio},
-          {scene.rail.material.elastic().young_modulus, scene.rail.material.elastic().poisson_ratio})
-          .hertz_modulus();
+        reference::combine(elastic_of(scene.wheel.material), elastic_of(scene.rail.material)).hertz_modulus();
       const reference::HertzLine line =
         reference::hertz_line(scene.rolling_radius(), modulus, normal_force / width);
       // Of bodies as thick as the sector, held at their backs (Johnson 1985, section 5.6).

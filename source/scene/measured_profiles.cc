@@ -37,9 +37,6 @@ namespace tread
     if (!scene.rail.measured_head.empty())
       add("rail", "Rail/Measured head", scene.rail.measured_head, ProfileBody::rail,
           scene.rail.head_placement);
-    const auto elastic_of = [](const MaterialSection &material) {
-      return reference::Elastic{material.elastic().young_modulus, material.elastic().poisson_ratio};
-    };
     modulus =
       reference::combine(elastic_of(scene.wheel.material), elastic_of(scene.rail.material)).hertz_modulus();
     constexpr double usual_pressure = 1e9; // Pa, of a wheel whose patches are not known yet

@@ -45,10 +45,11 @@ namespace tread
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
       }
-    for (const RollingWheel &wheel : wheels)
-      dynamics.guide_nodes(dynamics.boundary_nodes(wheel.body, Boundary::side), 1);
     for (RollingWheel &wheel : wheels)
-      dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
+      {
+        dynamics.guide_nodes(dynamics.boundary_nodes(wheel.body, Boundary::side), 1);
+        dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
+      }
     if (scene.track.runs_along())
       {
         rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());

@@ -71,12 +71,12 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("in steel that yields there is, from the first wheel on", np.all(first["residual_von_mises_MPa"] > 100.) and np.all(np.diff(first["settlement_um"]) > 0.) and first["settlement_um"][0] > 1.)
 
     # Passages that are rolled beside those that are left out.
-    n = 48
+    n = 60
     rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={n}"])
     jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
     all_of, some = columns(path("rolled")), columns(path("jumped"))
     check.that("all are rolled without jumps", rolled["passages_rolled"] == n and list(all_of["passage"]) == list(range(1, n + 1)) and "jumps" not in rolled)
-    check.that("few with", jumped["passages_rolled"] < 0.65 * n and jumped["passages_rolled"] + jumped["passages_left_out"] == n)
+    check.that("few with", jumped["passages_rolled"] < 0.6 * n and jumped["passages_rolled"] + jumped["passages_left_out"] == n)
     check.that("each row says how many were left out before it", np.all(np.diff(some["passage"], prepend=0) == some["skipped"] + 1) and some["skipped"].sum() == jumped["passages_left_out"]
                and (some["skipped"] > 0).sum() == jumped["jumps"] and some["passage"][-1] == n)
     at = some["passage"].astype(int) - 1
@@ -104,9 +104,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("behind those left out: net strain, %", still["net_plastic_strain_percent"][-1], still["net_plastic_strain_percent"][last - 1], 1e-3)
     check.below("change in a passage behind them, %", still["net_plastic_strain_of_passage_percent"][last:].max(), 1e-6)
 
-    # To the same bytes: stopped behind a jump, in a passage and between two, and on to the end on other ranks.
+    # To the same bytes: on two ranks; stopped behind a jump, in a passage and between two, and on to the end on other ranks.
     bits = SHORT + ["Scene/Reproducible=true"]
     one = run(program, SCENE, path("one"), bits)
+    two = run(program, SCENE, path("two"), bits, ranks=2)
     run_stopped(program, SCENE, path("stopped"), bits, 16 * 10)
     run_stopped(program, SCENE, path("between"), bits, 9, "passages.csv")
     resumed = {}
@@ -116,7 +117,7 @@ with tempfile.TemporaryDirectory() as folder:
         resumed[name] = run(program, SCENE, path(name), bits, more=["--resume"], ranks=ranks)
     with open(os.path.join(path("one"), "passages.csv"), "rb") as stream:
         bytes_of_one = stream.read()
-    for name, of in resumed.items():
+    for name, of in (("two", two), *resumed.items()):
         check.that(f"{name}: the mesh does not depend on the ranks", of["cells"] == one["cells"])
         with open(os.path.join(path(name), "passages.csv"), "rb") as stream:
             check.that(f"{name}: passages.csv to the last byte", stream.read() == bytes_of_one)

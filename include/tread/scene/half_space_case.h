@@ -24,6 +24,9 @@ namespace tread
   /// traction coefficient if a torque drives or the creepage is to be predicted.
   reference::RollingCase half_space_case(const Scene &scene, unsigned int wheel = 0);
 
+  /// What half-space theory knows of a material.
+  reference::Elastic elastic_of(const MaterialSection &material);
+
   /// Give a case the friction that the scene has at x (m) on the rail.
   void set_friction(reference::Friction &c, const Scene &scene, const double x);
 
