@@ -85,9 +85,10 @@ namespace tread
           const Vector3      arm    = state.position(i) - motion.middle,
                         off_axle    = arm - dot(motion.axle, arm) * motion.axle,
                         v           = motion.velocity + cross(motion.turning, arm);
-          sum.add(0.5 * (1. / inverse_mass[i] - true_mass[i]) * dot(v, v) +
-                  0.5 * motion.compensation * parameters.density_scale * true_mass[i] *
-                    dot(off_axle, off_axle));
+          const double nominal      = carriers[carrier]->angular_velocity();
+          // What moves rigidly with it, and the potential that holds it on its circle.
+          sum.add(0.5 * (1. / inverse_mass[i] - true_mass[i]) *
+                  (dot(v, v) + nominal * nominal * dot(off_axle, off_axle)));
         }
     return sum.value(mesh.comm);
   }

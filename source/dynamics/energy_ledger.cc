@@ -10,9 +10,9 @@ namespace tread
   namespace
   {
     /// Sum of of_run(run, factor)(i) over the nodes i of all ranks that do not hang, each of them once: those
-    /// of a run are on the same wheel or on none and move in time steps of the same factor. Collective.
+    /// of a run are on the same wheel or on none and move in time steps of the same factor: this rank's own.
     template <typename OfRun>
-    double sum_by_runs(const NodeLevels &levels, const MPI_Comm comm, const OfRun &of_run)
+    ReproducibleSum<double> sum_by_runs(const NodeLevels &levels, const OfRun &of_run)
     {
       ReproducibleSum<double> sum;
       for (unsigned int level = 0; level <= levels.max_level(); ++level)
@@ -23,7 +23,7 @@ namespace tread
               for (unsigned int i = run.begin; i < run.end; ++i)
                 sum.add(of_node(i));
             }
-      return sum.value(comm);
+      return sum;
     }
   } // namespace
 
@@ -72,11 +72,13 @@ namespace tread
 
   double ExplicitDynamics::power_of(const NodalField &forces) const
   {
-    return sum_by_runs(levels, mesh.comm, [&](const Run &, const double) {
-      return [&](const unsigned int i) {
-        return dot(state.v[i], forces[i]);
-      };
-    });
+    return sum_by_runs(levels,
+                       [&](const Run &, const double) {
+                         return [&](const unsigned int i) {
+                           return dot(state.v[i], forces[i]);
+                         };
+                       })
+      .value(mesh.comm);
   }
 
 
@@ -112,7 +114,7 @@ namespace tread
   }
 
 
-  double ExplicitDynamics::kinetic_energy(NodalField forces) const
+  ReproducibleSum<double> ExplicitDynamics::kinetic_energy_of_nodes(NodalField forces) const
   {
     // The product of the velocities half a step before and after now: central differences keep its sum with
     // the strain energy. What is not the cells' adds as much to the work.
@@ -120,32 +122,29 @@ namespace tread
     for (const auto &part : parts)
       part->add_spring_forces(forces);
     mesh.shared_nodes.sum(forces.data());
-    double energy = sum_by_runs(levels, mesh.comm, [&](const Run &, const double factor) {
+    return sum_by_runs(levels, [&](const Run &, const double factor) {
       return [&, back = 0.5 * factor * state.time_step](const unsigned int i) {
         const double of_forces = back * dot(forces[i], state.v[i]);
         return inverse_mass[i] > 0. ? of_forces + 0.5 / inverse_mass[i] * dot(state.v[i], state.v[i])
                                     : of_forces;
       };
     });
-    for (const auto &part : parts)
-      energy += part->kinetic_energy(state.time_step);
-    return energy;
   }
 
 
-  StrainEnergy ExplicitDynamics::strain_energy() const
+  StrainEnergySums ExplicitDynamics::strain_energy_sums() const
   {
     const NodalField x    = state.positions();
     StrainEnergySums sums = solid.strain_energy_sums(x.data(), state.history);
     sums.hourglass.add(matched_surface.energy(x.data()));
-    return {sums.strain.value(mesh.comm), sums.hourglass.value(mesh.comm)};
+    return sums;
   }
 
 
-  double ExplicitDynamics::body_potential() const
+  ReproducibleSum<double> ExplicitDynamics::potential_of_nodes() const
   {
     // Evaluated at the instant of the velocities, half a step back, up to which work is counted.
-    const double potential = sum_by_runs(levels, mesh.comm, [&](const Run &run, const double factor) {
+    return sum_by_runs(levels, [&](const Run &run, const double factor) {
       double  of_arm = 0.;
       Vector3 middle{}, axle{};
       if (run.carrier >= 0)
@@ -163,7 +162,26 @@ namespace tread
         return true_mass[i] * (parameters.gravity * before[2] + of_arm * dot(off_axle, off_axle));
       };
     });
-    return potential + sum_of_parts([&](const Part &part) { return part.potential(state.time_step); });
+  }
+
+
+  ExplicitDynamics::Energies ExplicitDynamics::energies(const NodalField &forces) const
+  {
+    const StrainEnergySums strain = strain_energy_sums();
+    const auto [kinetic, potential, of_strain, hourglass, external_work, gross_work, friction, contact,
+                damping, plastic, contact_on_nodes, window] =
+      values_of(std::array{kinetic_energy_of_nodes(forces), potential_of_nodes(), strain.strain,
+                           strain.hourglass, totals.external_work, totals.gross_work, totals.friction,
+                           totals.contact, totals.damping, totals.plastic, totals.contact_on_nodes,
+                           totals.window},
+                mesh.comm);
+    double of_nodes_and_parts = kinetic;
+    for (const auto &part : parts)
+      of_nodes_and_parts += part->kinetic_energy(state.time_step);
+    return {of_nodes_and_parts,
+            potential + sum_of_parts([&](const Part &part) { return part.potential(state.time_step); }),
+            {of_strain, hourglass},
+            {external_work, gross_work, friction, contact, damping, plastic, contact_on_nodes, window}};
   }
 
 
@@ -171,16 +189,17 @@ namespace tread
   {
     const NodalField forces = cell_forces();
     NodalField       unused;
+    const Energies   of_all = energies(forces);
     EnergyLedger     now;
-    now.damping  = totals.damping.value(mesh.comm) + damping_since_sample(damping_forces(forces, unused));
-    now.plastic  = totals.plastic.value(mesh.comm);
-    now.friction = totals.friction.value(mesh.comm);
-    now.contact  = totals.contact.value(mesh.comm);
-    now.window           = totals.window.value(mesh.comm);
-    now.contact_on_nodes = totals.contact_on_nodes.value(mesh.comm);
-    now.external_work    = totals.external_work.value(mesh.comm);
-    now.gross_work       = totals.gross_work.value(mesh.comm);
-    const double fall    = start_potential - body_potential();
+    now.damping          = of_all.totals.damping + damping_since_sample(damping_forces(forces, unused));
+    now.plastic          = of_all.totals.plastic;
+    now.friction         = of_all.totals.friction;
+    now.contact          = of_all.totals.contact;
+    now.window           = of_all.totals.window;
+    now.contact_on_nodes = of_all.totals.contact_on_nodes;
+    now.external_work    = of_all.totals.external_work;
+    now.gross_work       = of_all.totals.gross_work;
+    const double fall    = start_potential - of_all.potential;
     now.external_work += fall;
     now.gross_work += std::abs(fall);
     now.external_work +=
@@ -189,12 +208,11 @@ namespace tread
     now.springs = sum_of_parts([](const Part &part) { return part.spring_energy(); }) - start_springs;
     now.dampers = sum_of_parts([](const Part &part) { return part.dissipated(); }) - start_dissipated;
     now.damping += now.dampers;
-    now.kinetic               = kinetic_energy(forces) - start_kinetic;
-    const StrainEnergy energy = strain_energy();
-    now.strain                = energy.strain - start_strain.strain;
-    now.hourglass             = energy.hourglass - start_strain.hourglass;
-    now.stored_strain         = energy.strain;
-    now.stored_hourglass      = energy.hourglass;
+    now.kinetic          = of_all.kinetic - start_kinetic;
+    now.strain           = of_all.strain.strain - start_strain.strain;
+    now.hourglass        = of_all.strain.hourglass - start_strain.hourglass;
+    now.stored_strain    = of_all.strain.strain;
+    now.stored_hourglass = of_all.strain.hourglass;
     return now;
   }
 } // namespace tread

@@ -29,7 +29,6 @@ namespace tread
     , solid(solid)
     , matched_surface(mesh, solid)
     , parameters(parameters)
-    , true_mass(mesh.nodes.size())
     , inverse_mass(mesh.nodes.size(), 0.)
     , fixed(mesh.nodes.size(), false)
     , carried(mesh.nodes.size(), false)
@@ -37,6 +36,16 @@ namespace tread
   {
     if (solid.reproducible())
       quanta = {solid.force_quantum(), Quantum(on_hubs), Quantum(moments), Quantum(loss), Quantum(stiffness)};
+    true_mass = nodal_masses([](const unsigned int) { return 1.; });
+    if (solid.may_add_mass())
+      added_mass = nodal_masses([&](const unsigned int c) { return solid.added_share(c); });
+    set_node_levels();
+  }
+
+
+  std::vector<double> ExplicitDynamics::nodal_masses(
+    const std::function<double(unsigned int)> &factor_of_cell) const
+  {
     NodalField mass(mesh.nodes.size(), Vector3{});
     const auto cell_masses = solid.cell_masses(mesh);
     // In two parts, each of which sums exactly: cells of all sizes weigh up to 1e7 kg and have digits to
@@ -45,15 +54,33 @@ namespace tread
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       for (unsigned int a = 0; a < 8; ++a)
         {
-          const double part = large.round(cell_masses[c][a]);
-          mass[mesh.cells[c].nodes[a]] += Vector3{part, small.round(cell_masses[c][a] - part), 0., 0.};
+          const double of_node = factor_of_cell(c) * cell_masses[c][a], part = large.round(of_node);
+          mass[mesh.cells[c].nodes[a]] += Vector3{part, small.round(of_node - part), 0., 0.};
         }
+    // A hanging node is condensed on each rank that holds cells at it, so its sum is zero everywhere.
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());
+    std::vector<double> masses(mass.size());
     for (unsigned int i = 0; i < mass.size(); ++i)
-      true_mass[i] = mass[i][0] + mass[i][1];
-    // A hanging node is condensed on each rank that holds cells at it, so its sum is zero everywhere.
-    set_node_levels();
+      masses[i] = mass[i][0] + mass[i][1];
+    return masses;
+  }
+
+
+  std::vector<ExplicitDynamics::MassOfBody> ExplicitDynamics::masses_of_bodies() const
+  {
+    std::vector<double> sums(2 * mesh.body_names.size(), 0.);
+    for (unsigned int i = 0; i < true_mass.size(); ++i)
+      if (mesh.shared_nodes.is_owned(i))
+        {
+          sums[2 * mesh.node_bodies[i]] += true_mass[i];
+          sums[2 * mesh.node_bodies[i] + 1] += added_mass.empty() ? 0. : added_mass[i];
+        }
+    dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
+    std::vector<MassOfBody> masses(mesh.body_names.size());
+    for (std::size_t body = 0; body < masses.size(); ++body)
+      masses[body] = {sums[2 * body], sums[2 * body + 1]};
+    return masses;
   }
 
 
@@ -106,7 +133,8 @@ namespace tread
     std::vector<double> inverse(mesh.nodes.size(), 0.);
     for (unsigned int i = 0; i < inverse.size(); ++i)
       if (!fixed[i] && !carried[i] && true_mass[i] > 0.) // hanging nodes have none
-        inverse[i] = 1. / (parameters.density_scale * true_mass[i]);
+        inverse[i] =
+          1. / (parameters.density_scale * true_mass[i] + (added_mass.empty() ? 0. : added_mass[i]));
     return inverse;
   }
 
@@ -167,17 +195,18 @@ namespace tread
       part->start();
     set_inertia();
     prepare_step();
-    totals              = LedgerTotals();
-    start_kinetic       = kinetic_energy(cell_forces());
-    start_potential     = body_potential();
-    start_strain        = strain_energy();
-    start_external_work = sum_of_parts([](const Part &part) { return part.external_work(); });
-    start_gross_work    = sum_of_parts([](const Part &part) { return part.gross_work(); });
-    start_springs       = sum_of_parts([](const Part &part) { return part.spring_energy(); });
-    start_dissipated    = sum_of_parts([](const Part &part) { return part.dissipated(); });
-    last_damping_step   = state.n_steps;
-    last_damping_power  = 0.;
-    damping_is_sampled  = false;
+    totals                  = LedgerTotals();
+    const Energies at_start = energies(cell_forces());
+    start_kinetic           = at_start.kinetic;
+    start_potential         = at_start.potential;
+    start_strain            = at_start.strain;
+    start_external_work     = sum_of_parts([](const Part &part) { return part.external_work(); });
+    start_gross_work        = sum_of_parts([](const Part &part) { return part.gross_work(); });
+    start_springs           = sum_of_parts([](const Part &part) { return part.spring_energy(); });
+    start_dissipated        = sum_of_parts([](const Part &part) { return part.dissipated(); });
+    last_damping_step       = state.n_steps;
+    last_damping_power      = 0.;
+    damping_is_sampled      = false;
   }
 
 

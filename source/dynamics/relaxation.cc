@@ -221,8 +221,8 @@ namespace tread
       {
         const double ratio = d.solid.cell_frequencies()[c] / frequency_of_cells;
         for (unsigned int a = 0; a < 8; ++a)
-          mass[mesh.cells[c].nodes[a]][0] +=
-            d.quanta.stiffness.round(ratio * ratio * d.parameters.density_scale * cell_masses[c][a]);
+          mass[mesh.cells[c].nodes[a]][0] += d.quanta.stiffness.round(
+            ratio * ratio * (d.parameters.density_scale + d.solid.added_share(c)) * cell_masses[c][a]);
       }
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());

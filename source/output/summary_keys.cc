@@ -202,6 +202,15 @@ namespace tread
       {"steps", "Time steps of the shortest level, of all passages"},
       {"time_step_s", "Of the shortest level, at the end"},
       {"density_scale", "'Scene/Density scale'"},
+      {"added_mass_rail_kg",
+       "Mass that 'Time stepping/Least step (us)' added to the fastest cells of the rail, the largest of "
+       "all windows of fine cells"},
+      {"added_mass_rail_share", "The same over the mass of the rail's cells"},
+      {"added_mass_wheels_kg", "The same of all wheels' cells"},
+      {"added_mass_wheels_share", "The same over the mass of these cells"},
+      {"added_mass_error_estimate",
+       "Inertia of what was added at a wheel and in the rail, at 1 kHz, over the stiffness of the contact: "
+       "about the relative error of the contact force there"},
       {"inertia_error_estimate",
        "Relative error by inertia in steady rolling, about: density scale x square of the speed over that of "
        "Rayleigh waves in the slower body"},

@@ -29,6 +29,14 @@ namespace tread
     summary.set("density_scale", scene.general.density_scale);
     summary.set("inertia_error_estimate", scene.inertia_error_estimate());
     summary.set("passages", scene.motion.passages);
+    if (scene.time_stepping.least_step > 0.)
+      {
+        summary.set("added_mass_rail_kg", added_mass.rail);
+        summary.set("added_mass_rail_share", added_mass.rail_share);
+        summary.set("added_mass_wheels_kg", added_mass.wheels);
+        summary.set("added_mass_wheels_share", added_mass.wheels_share);
+        summary.set("added_mass_error_estimate", added_mass.error_estimate);
+      }
 
     const double                  distance = model.position() - scene.path_begin();
     const reference::HertzEllipse ellipse =
@@ -132,7 +140,7 @@ namespace tread
     const Quality judged = quality(energy);
     judged.add_to(summary);
     report.warnings = judged.warnings();
-    if (scene.mesh.window)
+    if (scene.has_window())
       {
         summary.set("windows", window.number + 1);
         summary.set("window_loss_J", energy.window);

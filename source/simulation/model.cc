@@ -2,6 +2,7 @@
 // From a scene to what rolls.
 #include <tread/analysis/seat_modes.h>
 #include <tread/base/format.h>
+#include <tread/dynamics/parts/added_mass.h>
 #include <tread/dynamics/parts/nodes.h>
 #include <tread/dynamics/parts/rail_base.h>
 #include <tread/dynamics/parts/supports.h>
@@ -27,7 +28,7 @@ namespace tread
            make_bodies(scene, fine_window(scene, window.number, window.tread)),
            scene.time_stepping.levels - 1,
            cell_cost(scene),
-           scene.mesh.window)
+           scene.has_window())
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
     , contact(mesh, contact_parameters(scene), scene.friction_law())
@@ -48,7 +49,10 @@ namespace tread
     for (RollingWheel &wheel : wheels)
       {
         dynamics.guide_nodes(dynamics.boundary_nodes(wheel.body, Boundary::side), 1);
-        dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
+        const CarriesBody &carrier =
+          dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
+        if (solid.may_add_mass())
+          dynamics.add<AddedMassOnWheel>(carrier);
       }
     if (scene.track.runs_along())
       {
@@ -56,6 +60,8 @@ namespace tread
         dynamics.add<RailOnBase>(*rail_base, rail_body);
       }
     dynamics.attach_contact(contact);
+    if (window.number == 0)
+      check_added_mass();
     add_friction_that_varies();
     if (scene.motion.lateral_creepage != 0. || scene.motion.spin != 0.)
       contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
@@ -72,6 +78,55 @@ namespace tread
 
 
   Model::~Model() = default;
+
+
+  void AddedMass::raise_to(const AddedMass &other)
+  {
+    for (double AddedMass::*const value : {&AddedMass::rail, &AddedMass::rail_share, &AddedMass::wheels,
+                                           &AddedMass::wheels_share, &AddedMass::error_estimate})
+      this->*value = std::max(this->*value, other.*value);
+  }
+
+
+  double added_mass_error_estimate(const Scene &scene, const double mass)
+  {
+    constexpr double omega = 2. * dealii::numbers::PI * 1e3; // rad/s
+    return mass * omega * omega / hertz(scene, scene.static_load()).stiffness;
+  }
+
+
+  AddedMass Model::added_mass() const
+  {
+    AddedMass result;
+    if (!solid.may_add_mass())
+      return result;
+    const auto masses    = dynamics.masses_of_bodies();
+    double     of_wheels = 0.;
+    for (const RollingWheel &wheel : wheels)
+      {
+        of_wheels += masses[wheel.body].own;
+        result.wheels += masses[wheel.body].added;
+      }
+    result.rail         = masses[rail_body].added;
+    result.rail_share   = result.rail / masses[rail_body].own;
+    result.wheels_share = result.wheels / of_wheels;
+    result.error_estimate =
+      added_mass_error_estimate(scene, (result.rail + result.wheels) / scene.n_wheels());
+    return result;
+  }
+
+
+  void Model::check_added_mass() const
+  {
+    constexpr double largest_error = 0.1;
+    const AddedMass  added         = added_mass();
+    require(added.error_estimate <= largest_error,
+            format("'Time stepping/Least step (us)' %g adds %.3g kg to the rail's cells and %.3g kg to the "
+                   "wheel's: its inertia is about %.3g %% of the contact force at 1 kHz; at most %g %% is "
+                   "allowed ('tread run --dry-run' prints what other steps add)",
+                   1e6 * scene.time_stepping.least_step, added.rail, added.wheels,
+                   100. * added.error_estimate, 100. * largest_error));
+  }
 
 
   void Model::add_supports()

@@ -43,6 +43,13 @@ namespace tread
         frequencies[c] = element->highest_frequency_bound(
           HexahedronIntegrals(mesh.corners(c)), materials[mesh.cells[c].body],
           surface_layer.stiffening_of(c, parameters.surface_damping));
+        if (const double limit = parameters.highest_frequency; limit > 0. && frequencies[c] > limit)
+          {
+            added_shares.resize(n_cells);
+            added_shares[c] =
+              parameters.density_scale * (frequencies[c] * frequencies[c] / (limit * limit) - 1.);
+            frequencies[c] = limit;
+          }
         highest_cell_frequency = std::max(highest_cell_frequency, frequencies[c]);
       }
     highest_cell_frequency = dealii::Utilities::MPI::max(highest_cell_frequency, mesh.comm);
@@ -131,6 +138,7 @@ namespace tread
   std::size_t Solid::memory_consumption() const
   {
     std::size_t bytes = plastic_cells.memory_consumption() + frequencies.size() * sizeof(frequencies[0]) +
+                        added_shares.size() * sizeof(added_shares[0]) +
                         levels_of_cells.size() * sizeof(levels_of_cells[0]);
     for (const Group &group : groups)
       bytes += group.cells->memory_consumption();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The time step: not above the stability limit (1e5 steps at Courant number 0.95 keep their energy), not far
 // below it (true highest frequency by power iteration), and a run beyond the limit is stopped with advice.
+#include <tread/base/format.h>
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/dynamics/parts/nodes.h>
 #include <tread/solid/fully_integrated.h>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -127,12 +129,60 @@ namespace
           check.absolute(what, ratio, 0.5 * (1. + lower), 0.5 * (1. - lower) + 1e-6);
         }
   }
+
+  /// Mass added to the cells that would need a shorter step than a given one: how much, and that it is
+  /// enough.
+  void check_added_mass(tests::Check &check)
+  {
+    const Mesh            mesh(MPI_COMM_SELF, {graded_block()});
+    const ElasticMaterial steel;
+    const Solid           untouched(mesh, {steel}, SolidParameters());
+    const auto           &frequencies = untouched.cell_frequencies();
+    for (const double factor : {1.3, 3.})
+      {
+        SolidParameters solid_parameters;
+        solid_parameters.highest_frequency =
+          *std::max_element(frequencies.begin(), frequencies.end()) / factor;
+        DynamicsParameters parameters;
+        parameters.damping_steps = 0.;
+        const Solid      solid(mesh, {steel}, solid_parameters);
+        ExplicitDynamics dynamics(mesh, solid, parameters);
+        dynamics.start();
+        double       own = 0., added = 0.;
+        unsigned int n_untouched = 0;
+        const auto   masses      = untouched.cell_masses(mesh);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          {
+            const double mass   = std::accumulate(masses[c].begin(), masses[c].end(), 0.),
+                         excess = std::pow(frequencies[c] / solid_parameters.highest_frequency, 2) - 1.;
+            own += mass;
+            added += std::max(0., excess) * mass;
+            n_untouched += excess <= 0.;
+          }
+        const auto        of_body = dynamics.masses_of_bodies()[0];
+        const std::string name    = format("step times %g: ", factor);
+        check.that(name + "some cells are slow enough", factor > 2. || n_untouched > 0);
+        check.relative(name + "mass of the body, kg", of_body.own, own, 1e-12);
+        check.relative(name + "mass added, kg", of_body.added, added, 1e-12);
+        std::vector<double> inertia;
+        for (const double inverse : dynamics.inverse_masses())
+          inertia.push_back(inverse > 0. ? 1. / inverse : 0.);
+        const double exact = 2. / highest_frequency(mesh, solid, inertia);
+        check.below(name + "step over the limit of the mesh", dynamics.critical_time_step() / exact,
+                    1. + 1e-6);
+        // Frequencies are rounded up to three digits.
+        check.below(name + "step that was wanted over the step",
+                    2. / (solid_parameters.highest_frequency * dynamics.critical_time_step()), 1.01);
+      }
+  }
 } // namespace
 
 
 void run_test(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
+
+  check_added_mass(check);
 
   check_bound(check, tests::make_box("cubes", Point<3>(), Point<3>(.03, .03, .03), {{6, 6, 6}}), "cubes",
               0.75);

@@ -7,9 +7,11 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+#include <vector>
 
 namespace tread
 {
@@ -126,6 +128,21 @@ namespace tread
       return all.value();
     }
 
+    /// Append what is to be summed over the ranks, and, of a sum that was put there, its value. @param bins
+    /// of all ranks, moved to what comes behind
+    void put_into(std::vector<double> &sent)
+    {
+      carry();
+      sent.insert(sent.end(), bins, bins + n_bins);
+    }
+    double value_from(const double *&of_all) const
+    {
+      ReproducibleSum all(unit);
+      std::copy(of_all, of_all + n_bins, all.bins);
+      of_all += n_bins;
+      return all.value();
+    }
+
     /// Store or restore this rank's share of a sum over the ranks.
     template <typename Archive>
     void serialize(Archive &archive)
@@ -160,6 +177,22 @@ namespace tread
     double unit;
     T      bins[n_bins] = {};
   };
+
+
+  /// What value(comm) gives for each of these sums, in one operation of all ranks. Collective.
+  template <std::size_t n>
+  std::array<double, n> values_of(std::array<ReproducibleSum<double>, n> sums, const MPI_Comm comm)
+  {
+    std::vector<double> bins;
+    for (ReproducibleSum<double> &sum : sums)
+      sum.put_into(bins);
+    dealii::Utilities::MPI::sum(bins, comm, bins);
+    std::array<double, n> values;
+    const double         *next = bins.data();
+    for (std::size_t k = 0; k < n; ++k)
+      values[k] = sums[k].value_from(next);
+    return values;
+  }
 
 
   /// Sum of term(i) for i below n over all ranks, with 50 bits below the largest of all terms, the same for

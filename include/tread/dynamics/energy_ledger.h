@@ -61,6 +61,12 @@ namespace tread
     }
   };
 
+  /// The same as LedgerTotals, of all ranks, J.
+  struct LedgerSums
+  {
+    double external_work, gross_work, friction, contact, damping, plastic, contact_on_nodes, window;
+  };
+
   /// What steps add to the ledger, J: this rank's shares of what it has by these names.
   struct LedgerTotals
   {

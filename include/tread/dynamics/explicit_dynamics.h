@@ -52,7 +52,7 @@ namespace tread
     template <typename P, typename... Arguments>
     P &add(Arguments &&...arguments)
     {
-      auto part = std::make_unique<P>(PartOf{mesh, solid, parameters, quanta, true_mass, state},
+      auto part = std::make_unique<P>(PartOf{mesh, solid, parameters, quanta, true_mass, added_mass, state},
                                       std::forward<Arguments>(arguments)...);
       P   &made = *part;
       add(std::move(part));
@@ -182,6 +182,13 @@ namespace tread
     {
       return true_mass;
     }
+    /// Mass of a body, kg, and what its fastest cells were given besides to slow them down.
+    struct MassOfBody
+    {
+      double own = 0., added = 0.;
+    };
+    /// By body. Collective.
+    std::vector<MassOfBody> masses_of_bodies() const;
 
     const Mesh    &mesh;
     const Solid   &solid;
@@ -198,6 +205,9 @@ namespace tread
     /// The same of a cell's centre before it was deformed.
     std::string place_of_worst_cell(const bool is_worst, const unsigned int cell) const;
 
+    /// Masses of the cells, each times a factor, by node: condensed and summed over the ranks, the same on
+    /// any number of them, kg. Collective.
+    std::vector<double> nodal_masses(const std::function<double(unsigned int)> &factor_of_cell) const;
     /// Set the time step, the inverse masses and the pairs in contact.
     void set_inertia();
     /// Energy that the mass added by density scaling has by the rigid motion of carried bodies, and the
@@ -259,9 +269,17 @@ namespace tread
     void hold_guided_nodes(NodalField &field) const;
     /// Kinetic energy from the velocities half a step back and the change that the cells' forces cause in
     /// half a step.
-    double       kinetic_energy(NodalField cell_forces) const;
-    double       body_potential() const;
-    StrainEnergy strain_energy() const;
+    ReproducibleSum<double> kinetic_energy_of_nodes(NodalField cell_forces) const; ///< of this rank's own
+    ReproducibleSum<double> potential_of_nodes() const;                            ///< of this rank's own
+    StrainEnergySums        strain_energy_sums() const;                            ///< of this rank's cells
+    /// What the energies of nodes, cells and parts are at present, J. Collective.
+    struct Energies
+    {
+      double       kinetic, potential;
+      StrainEnergy strain;
+      LedgerSums   totals;
+    };
+    Energies energies(const NodalField &cell_forces) const;
     /// Forces of the cells, before hanging nodes pass theirs to their parents.
     NodalField cell_forces() const;
     /// Contribution of damping to the forces of the cells of all ranks on nodes that do not hang, N. @param
@@ -364,6 +382,7 @@ namespace tread
     NodalField          force_before;            ///< of the cells of a level, on nodes that share them
     NodalField          given_to_owners;         ///< of these forces, what is one rank's alone
     std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
+    std::vector<double> added_mass;              ///< @see PartOf
     std::vector<LoadOfShared>                          loads_of_shared;
     BodyLoads                                          next_loads; ///< of level 0 in its next step
     std::vector<char>                                  fixed, carried;

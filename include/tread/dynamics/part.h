@@ -37,7 +37,9 @@ namespace tread
     const DynamicsParameters  &parameters;
     const Quanta              &quanta;
     const std::vector<double> &true_mass; ///< of nodes, condensed and summed: kg; 0: it hangs
-    const State               &state;     ///< as it is at present
+    /// Of the same nodes what the fastest cells were given to slow them down, kg; empty: none was
+    const std::vector<double> &added_mass;
+    const State               &state; ///< as it is at present
   };
 
   /// What a part is told of the step in which it acts.

@@ -30,6 +30,22 @@ namespace tread
     double       tread  = 0.;
   };
 
+  /// Mass that 'Time stepping/Least step (us)' adds to the fastest cells: kg, its share of that of the
+  /// bodies' cells, and an estimate of what it does to the contact force.
+  struct AddedMass
+  {
+    double rail = 0., rail_share = 0., wheels = 0., wheels_share = 0.;
+    /// Force that the added mass takes at 1 kHz to follow the approach that an equal force makes in the
+    /// contact.
+    double error_estimate = 0.;
+
+    /// The larger of both.
+    void raise_to(const AddedMass &other);
+  };
+
+  /// The same for a mass (kg) at a wheel and at the rail under it. @see AddedMass
+  double added_mass_error_estimate(const Scene &scene, const double mass);
+
   /// What rolls: wheels and rail with their mesh, contact, and all that acts on nodes, made from a scene.
   /// What is asked of it here is asked between two steps.
   struct Model
@@ -73,7 +89,8 @@ namespace tread
       return {wheels.front().position(scene), wheels.front().rates(scene)};
     }
     /// Of all ranks, bytes. Collective.
-    double memory_of_cells_and_nodes() const;
+    double    memory_of_cells_and_nodes() const;
+    AddedMass added_mass() const; ///< Collective.
     /// @throws std::runtime_error if contact is about to leave the faces meshed for it. Collective.
     void check_rim() const;
 
@@ -90,6 +107,8 @@ namespace tread
     const std::optional<double> between_pieces; ///< of a rail of slices, y (m)
 
   private:
+    /// @throws InputError if mass was added to more than the few finest cells. Collective.
+    void check_added_mass() const;
     void add_supports();
     void add_friction_that_varies();
   };

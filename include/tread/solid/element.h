@@ -29,6 +29,9 @@ namespace tread
     double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
     /// Factor on the inertia of the cells (quasi-static scenes).
     double density_scale = 1.;
+    /// Cells that would vibrate faster than this (rad/s) get as much mass as it takes that they do not; 0:
+    /// none.
+    double highest_frequency = 0.;
     /// Cells of level l are slow enough for time steps of 2^l times the smallest; 0: all in one level.
     unsigned int max_level = 0;
     /// Whether forces are rounded, so that their sums at the nodes do not depend on the order of the cells.

@@ -144,6 +144,19 @@ namespace tread
     /// The value that cell_levels() would give for a cell with another largest level.
     unsigned int level_up_to(const unsigned int max_level, const unsigned int cell) const;
 
+    /// Mass that a cell was given to slow it down, over its own unscaled one. @see
+    /// SolidParameters::highest_frequency
+    double added_share(const unsigned int cell) const
+    {
+      return added_shares.empty() ? 0. : added_shares[cell];
+    }
+
+    /// Whether any rank may have cells with added mass.
+    bool may_add_mass() const
+    {
+      return parameters.highest_frequency > 0.;
+    }
+
     /// Unscaled masses, kg, before hanging nodes are condensed and ranks are summed, by node and cell. They
     /// are computed anew and not stored.
     std::vector<std::array<double, 8>> cell_masses(const Mesh &mesh) const;
@@ -199,6 +212,7 @@ namespace tread
     std::vector<ElasticMaterial> materials;
     std::vector<Group>           groups; ///< of all cells but those of plastic zones
     std::vector<double>          frequencies;
+    std::vector<double>          added_shares; ///< by cell; empty: no cell has added mass
     std::vector<unsigned int>    levels_of_cells;
     double                       highest_cell_frequency = 0.; ///< of all ranks, rad/s
     std::size_t                  n_cells;

@@ -19,5 +19,13 @@ namespace tread
       "are evaluated in every second, fourth, ... step only. 1: all cells in every step. More levels pay "
       "where much of the mesh is coarse; results are then at least 2^(levels - 1) steps apart.",
       Integer(1, 6));
+    section.add(
+      "Least step (us)", least_step,
+      "Time step that the fastest cells are given mass for, where they would need a shorter one. For dynamic "
+      "scenes whose "
+      "few finest cells set the step: what is added is in the summary, by body, with an estimate of what it "
+      "does to the "
+      "contact force, which `--dry-run` prints for several steps. 0: all cells have their own density.",
+      Double(0., 100.));
   }
 } // namespace tread

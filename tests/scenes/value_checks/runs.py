@@ -68,8 +68,9 @@ def all_runs(program: str, folder: str, only: str = "") -> Runs:
     if want("track"):
         dip = {"Defect/Shape": "dip", "Defect/Position (mm)": -30, "Defect/Length (mm)": 24, "Defect/Depth (mm)": 0.1, "Defect/Repeated at (mm)": -3, "Output/History interval (mm)": 0.25}
         wheels = {"Further wheels/Distances (mm)": 1000, "Further wheels/Traction coefficients": 0.1, "Motion/Traction coefficient": 0.2}
-        make.run("track", "tutorial/track.prm", {**BAR, **dip, **wheels})
-        make.run("twin", "tutorial/track.prm", {**BAR, **dip, **wheels, "Defect/Shape": "none"})
+        heavy = {"Time stepping/Least step (us)": 0.45}
+        make.run("track", "tutorial/track.prm", {**BAR, **dip, **wheels, **heavy})
+        make.run("twin", "tutorial/track.prm", {**BAR, **dip, **wheels, **heavy, "Defect/Shape": "none"})
         make.tool("dynamic", ["dynamic-force", make.path("track"), "--smooth-twin", make.path("twin")])
         make.tool("sleeper", ["sleeper-stress", make.path("track"), "--cell-size", "40", "--bottom", "ballast"])
     if want("modes"):

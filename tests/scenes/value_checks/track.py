@@ -42,6 +42,33 @@ def extremes_of_the_supports(runs: Runs, expect: Expect, layer: str) -> None:
 
 
 @compared
+def mass_of_the_finest_cells(runs: Runs, expect: Expect) -> None:
+    """Cubes of the finest size in two layers under both paths: a cube's step is the time that a pressure wave takes to cross it."""
+    from tread import hertz
+
+    from .straight import pair_modulus
+    summary, number = runs.of(RUN), lambda name: runs.number(RUN, name)
+    wanted, courant, damping = 1e-6 * number("Time stepping/Least step (us)"), number("Time stepping/Courant number"), number("Solid/Stiffness damping (time steps)")
+    expect.near("step, us", 1e6 * summary["time_step_s"], 1e6 * wanted, relative=0.02)
+    cell, width, path = (1e-3 * number(name) for name in ("Mesh/Finest cell (mm)", "Mesh/Fine half width (mm)", "Motion/Rolled distance (mm)"))
+    young, poisson, density = 1e9 * number("Rail/Young's modulus (GPa)"), number("Rail/Poisson's ratio"), number("Rail/Density (kg per m3)")
+    wave = math.sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)) / density)
+    own_step = courant * cell / wave / math.sqrt(1 + 2 * damping)
+    n_wheels = 2
+    cubes = n_wheels * number("Mesh/Fine layers") * 2 * width / cell * path / cell
+    kg = cubes * density * cell**3 * ((wanted / own_step)**2 - 1)
+    expect.that(f"rail, kg: {summary['added_mass_rail_kg']:.4f}, of a path without its ends {kg:.4f}", kg < summary["added_mass_rail_kg"] < 2.5 * kg)
+    expect.near("wheels, kg", summary["added_mass_wheels_kg"], summary["added_mass_rail_kg"], relative=0.3)
+    expect.near("rail, share", 1e3 * summary["added_mass_rail_share"], 1e3 * summary["added_mass_rail_kg"] / (0.08 * 0.15 * 1e-3 * number("Rail/Length (mm)") * density), relative=0.01)
+    expect.that("wheels, share: cells of a sector or a wheel", 1e-5 < summary["added_mass_wheels_share"] < 0.01)
+    load, curvature_x, curvature_y = static_load(runs), 0.5 / 0.46, 0.5 / 0.3
+    a, b = hertz.semi_axes(curvature_x, hertz.ratio_of_semi_axes(curvature_x, curvature_y), load, pair_modulus(runs, RUN))
+    spring = 1.5 * load / hertz.approach(a, b, load, pair_modulus(runs, RUN))
+    expect.near("inertia at 1 kHz over the contact's stiffness, %", 100 * summary["added_mass_error_estimate"],
+                100 * (summary["added_mass_rail_kg"] + summary["added_mass_wheels_kg"]) / n_wheels * (2e3 * math.pi)**2 / spring, relative=5e-3)
+
+
+@compared
 def supports_carry_the_wheels(runs: Runs, expect: Expect) -> None:
     """At the start, and the springs' compression by the rail's sinking: the ballast's and the pad's in a row."""
     history = runs.of("twin", "history.csv")

@@ -11,6 +11,7 @@ namespace tread
   {
     double       courant_number = 0.95;
     unsigned int levels         = 1;
+    double       least_step     = 0.; ///< s, which the fastest cells are given mass for; 0: none
 
     void declare(dealii::ParameterHandler &handler);
   };
