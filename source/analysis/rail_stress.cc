@@ -118,16 +118,43 @@ namespace tread
   }
 
 
+  std::vector<StressStrip::CellRow> StressStrip::cell_rows(const std::vector<double> &plastic_strain) const
+  {
+    std::vector<CellRow> rows;
+    for (const Member &m : members)
+      rows.push_back({{m.x_begin, m.x_end, m.y, m.depth, m.at_surface ? 1. : 0., m.peak.stress, m.peak.time,
+                       m.peak.wheel_x, plastic_strain.empty() ? 0. : plastic_strain[m.cell]}});
+    return rows;
+  }
+
+
+  std::vector<StressStrip::NodeRow> StressStrip::node_rows() const
+  {
+    std::vector<NodeRow> rows;
+    for (const SurfaceMember &m : surface)
+      rows.push_back({{m.x, m.y, m.peak.stress, m.peak.time, m.peak.wheel_x}});
+    return rows;
+  }
+
+
+  void StressStrip::take_over(const StressStrip &before)
+  {
+    const auto gathered = [this](const auto &own, const auto &so_far) {
+      auto rows = so_far;
+      for (const auto &list : dealii::Utilities::MPI::all_gather(comm, own))
+        rows.insert(rows.end(), list.begin(), list.end());
+      return rows;
+    };
+    cells_before = gathered(before.cell_rows({}), before.cells_before);
+    nodes_before = gathered(before.node_rows(), before.nodes_before);
+  }
+
+
   std::vector<StripColumn> StressStrip::columns(const ExplicitDynamics &dynamics) const
   {
-    const std::vector<double> strain =
-      dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history);
-    std::vector<std::array<double, 9>> own;
-    for (const Member &m : members)
-      own.push_back({{m.x_begin, m.x_end, m.y, m.depth, m.at_surface ? 1. : 0., m.peak.stress, m.peak.time,
-                      m.peak.wheel_x, strain.empty() ? 0. : strain[m.cell]}});
-    std::vector<std::array<double, 9>> all;
-    for (const auto &list : dealii::Utilities::MPI::gather(comm, own, 0))
+    std::vector<CellRow> all = cells_before;
+    for (const auto &list : dealii::Utilities::MPI::gather(
+           comm, cell_rows(dynamics.solid.plastic().equivalent_plastic_strain(dynamics.state.history)), 0))
       all.insert(all.end(), list.begin(), list.end());
     std::sort(all.begin(), all.end()); // equal peaks: the same cell on any number of ranks
 
@@ -160,11 +187,8 @@ namespace tread
           }
       }
 
-    std::vector<std::array<double, 5>> own_nodes;
-    for (const SurfaceMember &m : surface)
-      own_nodes.push_back({{m.x, m.y, m.peak.stress, m.peak.time, m.peak.wheel_x}});
-    std::vector<std::array<double, 5>> nodes;
-    for (const auto &list : dealii::Utilities::MPI::gather(comm, own_nodes, 0))
+    std::vector<NodeRow> nodes = nodes_before;
+    for (const auto &list : dealii::Utilities::MPI::gather(comm, node_rows(), 0))
       nodes.insert(nodes.end(), list.begin(), list.end());
     std::sort(nodes.begin(), nodes.end());
     for (const auto &[x, y, stress, time, wheel_x] : nodes)
@@ -210,6 +234,7 @@ namespace tread
     };
     store(members);
     store(surface);
+    archive.same(cells_before, nodes_before);
   }
 
 

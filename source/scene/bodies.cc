@@ -191,7 +191,7 @@ namespace tread
 
   FineWindow fine_window(const Scene &scene, const unsigned int number, const double tread)
   {
-    if (!scene.mesh.window)
+    if (!scene.has_window())
       return {};
     const double margin = scene.window_margin(), length = scene.window_length(),
                  begin   = scene.path_begin() + number * length,

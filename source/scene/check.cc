@@ -78,6 +78,9 @@ namespace tread
     contact.check();
     check_friction_by_temperature();
     motion.check();
+    require(time_stepping.least_step == 0. || general.density_scale == 1.,
+            "'Time stepping/Least step (us)' cannot be had with 'Scene/Density scale' " +
+              text_of(general.density_scale) + ", which makes the steps of all cells longer");
     require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     check_suspension();
     check_guidance_springs();
@@ -364,7 +367,7 @@ namespace tread
 
   void Scene::check_window() const
   {
-    if (!mesh.window)
+    if (!has_window())
       return;
     const double a = hertz(*this, static_load()).semi_axis_x, least = 1.25 * a + 2. * mesh.finest_cell;
     require(window_margin() >= least * (1. - 1e-9),
@@ -375,10 +378,18 @@ namespace tread
               std::max(window_length(), mesh.window_length) >= shortest * mesh.finest_cell * (1. - 1e-9),
             "'Mesh/Window length (mm)' " + text_in_mm(mesh.window_length) + " must be at least four cells, " +
               text_in_mm(shortest * mesh.finest_cell));
+    const std::string keeps = keeps_mesh();
+    require(keeps.empty(), "'Mesh/Window' cannot be had with " + keeps + ": its mesh must stay");
+  }
+
+
+  std::string Scene::keeps_mesh() const
+  {
     const auto yields = [](const MaterialSection &material) {
       return material.yield_stress > 0. || !material.plastic_zones.empty();
     };
     for (const auto &[what, is_there] : std::initializer_list<std::pair<const char *, bool>>{
+           {"a wheelset in a position ('Wheelset')", is_positioned()},
            {"several wheels", n_wheels() > 1},
            {"several passages", motion.passages > 1},
            {"'Motion/Longest distance (mm)'", motion.longest_distance > 0.},
@@ -388,7 +399,9 @@ namespace tread
            {"section 'Peak stress'", peak_stress.is_wanted()},
            {"'Output/Cells'", !output.cells.empty()},
            {"'Scene/Reproducible'", general.reproducible}})
-      require(!is_there, std::string("'Mesh/Window' cannot be had with ") + what + ": its mesh must stay");
+      if (is_there)
+        return what;
+    return "";
   }
 
 
@@ -703,6 +716,10 @@ namespace tread
       list.push_back("density of the cells times " + text_of(scale) +
                      ": for steady rolling only, with an inertia error of about " +
                      text_of(std::round(1e4 * inertia_error_estimate()) / 100.) + " %");
+    if (time_stepping.least_step > 0.)
+      list.push_back("mass added to cells that would need steps below " +
+                     text_of(1e6 * time_stepping.least_step) +
+                     " us: above some kHz the contact force is not the true one");
     if (mass_damping > 0.)
       list.push_back("mass damping of " + text_of(mass_damping) +
                      " per s: motion of the cells on top of the rigid bodies' fades by half in " +

@@ -43,6 +43,14 @@ namespace tread
     p.density_scale            = scene.general.density_scale;
     p.max_level                = scene.time_stepping.levels - 1;
     p.reproducible             = scene.general.reproducible;
+    if (scene.time_stepping.least_step > 0.)
+      {
+        // dt = courant 2 / (omega sqrt(1 + 2 beta / dt)), and frequencies are rounded up by 1 % at most.
+        constexpr double rounding = 1.01;
+        p.highest_frequency =
+          2. * scene.time_stepping.courant_number /
+          (rounding * scene.time_stepping.least_step * std::sqrt(1. + 2. * scene.solid.stiffness_damping));
+      }
     return p;
   }
 
@@ -131,11 +139,13 @@ namespace tread
   }
 
 
-  StripExtent strip_extent(const Scene &scene)
+  StripExtent strip_extent(const Scene &scene, const unsigned int window)
   {
     const double patch = hertz(scene, scene.static_load()).semi_axis_x;
-    return {scene.path_begin() - patch,
-            scene.meshed_end() + patch,
+    // Of a window what its finest cells feel of the wheel, which its neighbours feel too at the borders.
+    const double begin = scene.path_begin() + (scene.has_window() ? window * scene.window_length() : 0.);
+    return {begin - patch,
+            (scene.has_window() ? begin + scene.window_length() : scene.meshed_end()) + patch,
             scene.is_positioned() ? scene.placed_wheel().origin(scene.placed_wheel().main_patch())[1]
                                   : scene.first_contact().y,
             scene.output.strip_half_width,

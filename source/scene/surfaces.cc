@@ -419,15 +419,29 @@ namespace tread
   }
 
 
-  unsigned int Scene::n_windows() const
+  bool Scene::has_window() const
+  {
+    // Windows on supports are long, and a change costs as much as a seventh of one: from four on it pays.
+    constexpr double pays = 4.;
+    return mesh.window == WindowUse::always ||
+           (mesh.window == WindowUse::automatic && track.has_supports() && keeps_mesh().empty() &&
+            motion.rolled_distance >= pays * longest_window());
+  }
+
+
+  double Scene::longest_window() const
   {
     // A change takes as long as three millimetres of rolling with the true density (0.63 mm, 25 000 cells),
     // and on a track of many spans as long as twenty. @see doc/performance.md
     const double semi_axes = (track.has_supports() ? 12. : 2.5) * std::pow(general.density_scale, 0.25);
-    const double length =
-      mesh.window_length > 0. ? mesh.window_length : semi_axes * hertz(*this, static_load()).semi_axis_x;
+    return mesh.window_length > 0. ? mesh.window_length : semi_axes * hertz(*this, static_load()).semi_axis_x;
+  }
+
+
+  unsigned int Scene::n_windows() const
+  {
     constexpr double tiny = 1e-9; // of a window
-    return mesh.window ? std::max(1., std::ceil(motion.rolled_distance / length - tiny)) : 1;
+    return has_window() ? std::max(1., std::ceil(motion.rolled_distance / longest_window() - tiny)) : 1;
   }
 
 

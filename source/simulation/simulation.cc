@@ -44,6 +44,7 @@ namespace tread
     , scene(scene)
     , comm(comm)
     , model(scene, comm, window)
+    , added_mass(model.added_mass())
     , end_of_way(record<EndOfWay>(model))
     , solution(record<Solution>(model))
     , history(record<History>(model))
@@ -58,8 +59,8 @@ namespace tread
       scene.damage.record ? &record<SurfaceDamageRecorder>(model) : nullptr;
     if (scene.has_impacts())
       record<ImpactRecord>(scene.static_load(), scene.recorded_supports());
-    if (scene.output.strip_half_width > 0. && !scene.mesh.window)
-      record<StripRecorder>(model);
+    if (scene.output.strip_half_width > 0.)
+      record<StripRecorder>(model, window);
     if (scene.peak_stress.is_wanted())
       record<PeakRecorder>(model);
     if (!scene.recorded_supports().empty())
@@ -89,6 +90,10 @@ namespace tread
     double end = model.end_position();
     archive.same(end);
     archive.same(went_on_at);
+    AddedMass largest = added_mass; // of all windows so far
+    archive.same(largest.rail, largest.rail_share, largest.wheels, largest.wheels_share,
+                 largest.error_estimate);
+    added_mass.raise_to(largest);
     if (end != model.end_position()) // resumed for a longer way
       {
         forget_solution();
@@ -106,7 +111,7 @@ namespace tread
 
   bool Simulation::at_end_of_window() const
   {
-    return scene.mesh.window && window.number + 1 < scene.n_windows() &&
+    return scene.has_window() && window.number + 1 < scene.n_windows() &&
            model.position() >= scene.path_begin() + (window.number + 1) * scene.window_length();
   }
 
@@ -125,6 +130,8 @@ namespace tread
     Archive found(comm, kept.stored_by_all());
     model.dynamics.serialize_parts(found);
     serialize_records(found);
+    for (std::size_t k = 0; k < recorders.size(); ++k)
+      recorders[k]->take_over(*before.recorders[k]);
     model.dynamics.go_on_from(before.model.dynamics);
     checked_position = before.checked_position;
     seconds_before   = before.seconds_before;

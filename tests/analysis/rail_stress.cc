@@ -129,9 +129,47 @@ namespace
     take(dynamics, second, 2.);
     strip.sample(dynamics, {}, 20.);
     resumed.sample(dynamics, {}, 20.);
-    const auto columns = strip.columns(dynamics), again = resumed.columns(dynamics);
+    // What a strip over the rear felt of the first field, and one over the front, which goes on from it, of
+    // the second.
+    const auto part = [&](const double begin, const double end) {
+      StripExtent of_part = extent;
+      of_part.x_begin     = begin;
+      of_part.x_end       = end;
+      return StressStrip(dynamics.mesh, dynamics.solid, nullptr, 0, ElasticMaterial(), of_part);
+    };
+    constexpr double border = 0.03, over = 5e-3;
+    StressStrip rear = part(-1., border + over), front = part(border - over, 1.), of_first = part(-1., 1.),
+                of_second = part(-1., 1.);
+    of_second.sample(dynamics, {}, 20.);
+    take(dynamics, first, 1.);
+    of_first.sample(dynamics, {}, 10.);
+    rear.sample(dynamics, {}, 10.);
+    front.take_over(rear);
+    take(dynamics, second, 2.);
+    front.sample(dynamics, {}, 20.);
+
+    const auto columns = strip.columns(dynamics), again = resumed.columns(dynamics),
+               both = front.columns(dynamics), at_first = of_first.columns(dynamics),
+               at_second = of_second.columns(dynamics);
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
+
+    check.that("a strip that goes on from another has the columns of both", both.size() == columns.size());
+    double merged = 0.;
+    for (unsigned int i = 0; i < both.size(); ++i)
+      for (const StressPeak StripColumn::*peak : {&StripColumn::largest, &StripColumn::at_surface})
+        {
+          // Cells that lie across the ends of the parts belong to neither.
+          const double x = both[i].x, here = (both[i].*peak).stress, one = (at_first[i].*peak).stress,
+                       two = (at_second[i].*peak).stress;
+          if (std::abs(std::abs(x - border) - over) < coarse)
+            continue;
+          merged = std::max(merged, std::abs(here / (x > border + over   ? two
+                                                     : x < border - over ? one
+                                                                         : std::max(one, two)) -
+                                             1.));
+        }
+    check.below("and the largest stresses of both, share", merged, 1e-12);
 
     check.that("a column for each cell at the surface along the path", columns.size() == 24);
     double place = 0., surface = 0., largest = 0., resumption = 0.;

@@ -55,10 +55,20 @@ namespace tread
     /// One column for each surface cell along the path, beginning at the rear; on rank 0. Collective.
     std::vector<StripColumn> columns(const ExplicitDynamics &dynamics) const;
 
+    /// Keep what cells of another mesh of the same body felt, besides what this one's will. Collective.
+    void take_over(const StressStrip &before);
+
     /// Store or restore the maxima. Collective.
     void serialize(Archive &archive);
 
   private:
+    /// Of a cell: from and to which x it lies, y, depth, whether at the surface, largest stress, its time,
+    /// the wheel's x then, present plastic strain; of a node at the surface x, y, and the same of its stress.
+    using CellRow = std::array<double, 9>;
+    using NodeRow = std::array<double, 5>;
+    std::vector<CellRow> cell_rows(const std::vector<double> &plastic_strain) const; ///< of this rank
+    std::vector<NodeRow> node_rows() const;                                          ///< of this rank
+
     struct Member
     {
       unsigned int cell;
@@ -77,9 +87,11 @@ namespace tread
 
     MPI_Comm                   comm;
     StressRecovery             recovery;
-    std::vector<Member>        members; ///< cells of this rank
-    std::vector<SurfaceMember> surface; ///< nodes of this rank
-    std::vector<char>          wanted;  ///< by cell of the mesh
+    std::vector<Member>        members;      ///< cells of this rank
+    std::vector<SurfaceMember> surface;      ///< nodes of this rank
+    std::vector<char>          wanted;       ///< by cell of the mesh
+    std::vector<CellRow>       cells_before; ///< of other meshes and all ranks
+    std::vector<NodeRow>       nodes_before;
   };
 
   /// Stress and plastic strain of a cell at one instant.

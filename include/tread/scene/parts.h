@@ -49,7 +49,7 @@ namespace tread
   Mesh::CellCost cell_cost(const Scene &scene);
   /// The cells of the rail whose largest stress is recorded, down to a depth below the maximum of the shear
   /// stress.
-  StripExtent strip_extent(const Scene &scene);
+  StripExtent strip_extent(const Scene &scene, const unsigned int window);
 
   /// Depth below the surface of the rail or of the first wheel, m, in the reference configuration.
   std::function<double(const dealii::Point<3> &)> depth_in(const Scene &scene, const unsigned int body);
@@ -61,9 +61,9 @@ namespace tread
   double temperature_before_friction(const Scene &scene);
   /// Factor of the friction coefficient at a rise of temperature (K) by friction over that.
   std::function<double(double)> factor_by_rise(const Scene &scene);
-  WheelHubParameters      hub_parameters(const Scene &scene);
-  DynamicsParameters      dynamics_parameters(const Scene &scene);
-  ContactParameters       contact_parameters(const Scene &scene);
+  WheelHubParameters            hub_parameters(const Scene &scene);
+  DynamicsParameters            dynamics_parameters(const Scene &scene);
+  ContactParameters             contact_parameters(const Scene &scene);
   /// Coordinate x half a spacing ahead of a support, or the end of the rail if it comes first.
   double mid_span_beside(const Scene &scene, const int number);
 } // namespace tread

@@ -365,8 +365,12 @@ namespace tread
     {
       return {defect.position + mesh.fine_from, defect.position + mesh.fine_to};
     }
+    /// Whether cells are fine only about the wheel, by 'Mesh/Window'.
+    bool has_window() const;
+    /// What needs a mesh that stays during the run; "": nothing does.
+    std::string keeps_mesh() const;
     /// How often the window of fine cells stands somewhere else, the way that the wheel rolls in each, and
-    /// the fine cells before and behind it (m). @pre mesh.window
+    /// the fine cells before and behind it (m). 1 without a window
     unsigned int n_windows() const;
     double       window_length() const;
     double       window_margin() const;
@@ -456,6 +460,7 @@ namespace tread
     void        check_mesh() const;
     void        check_sector() const;
     void        check_window() const;
+    double      longest_window() const; ///< m, of which a window may be less so that all are equal
     void        check_friction_by_temperature() const;
     void        check_track() const;
     void        check_overhang() const;

@@ -39,7 +39,7 @@ namespace tread
   bool estimate_without_mesh(const Scene &scene, const MPI_Comm comm);
 
   /// Print the cost of a run without running it or writing anything. Collective.
-  void estimate(const Model &model);
+  void estimate(const Scene &scene, const MPI_Comm comm);
 
   /// Roll a scene to its end, one simulation after the other where a window of fine cells moves with the
   /// wheel. @param folder of the results; @param resume from its last checkpoint.
@@ -145,6 +145,7 @@ namespace tread
     const Scene &scene;
     MPI_Comm     comm;
     Model        model;
+    AddedMass    added_mass; ///< the largest of all windows so far
 
     std::vector<std::unique_ptr<Recorder>> recorders; ///< in the order in which they are asked
     EndOfWay                              &end_of_way;

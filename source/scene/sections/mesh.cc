@@ -3,6 +3,18 @@
 
 namespace tread
 {
+  template <>
+  const std::vector<Choice<WindowUse>> &choices()
+  {
+    static const std::vector<Choice<WindowUse>> list{
+      {WindowUse::automatic, "automatic",
+       "so on supports, where the way is as long as four windows and nothing needs a mesh that stays."},
+      {WindowUse::always, "true", "always."},
+      {WindowUse::never, "false", "cells are fine along the whole path."}};
+    return list;
+  }
+
+
   void MeshSection::declare(dealii::ParameterHandler &handler)
   {
     using dealii::Patterns::Double;
@@ -48,16 +60,17 @@ namespace tread
                 Double(0., 100.));
     section.add("Longest row (mm)", longest_row,
                 "Largest length of the coarse cells of a full section beside the path.", Double(1., 1000.));
-    section.add(
+    section.choose(
       "Window", window,
       "Keep cells fine only about the wheel: when it has rolled 'Window length', the run goes on with a "
       "mesh whose fine cells are further on, on rail and wheel. Cost then grows with the way alone. "
-      "Energy that fine cells had and others do not carry is the ledger's window loss.");
-    section.add(
-      "Window length (mm)", window_length,
-      "Way between two changes, at most. 0: 2.5 semi-axes of the patch, 12 on supports, and longer by the fourth root "
-      "of 'Scene/Density scale'.",
-      Double(0., 1e5));
+      "Energy that fine cells had and others do not carry is the ledger's window loss.",
+      "The summary's 'windows' says how often it stood somewhere.");
+    section.add("Window length (mm)", window_length,
+                "Way between two changes, at most. 0: 2.5 semi-axes of the patch, 12 on supports, and longer "
+                "by the fourth root "
+                "of 'Scene/Density scale'.",
+                Double(0., 1e5));
     section.add(
       "Window margin (mm)", window_margin,
       "Length of the finest cells before and behind the wheel at a change. 0: 1.75 semi-axes and two "

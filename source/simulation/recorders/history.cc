@@ -23,7 +23,7 @@ namespace tread
               scene.wheelset.has_flexible_axle(),
               scene.rail.is_sliced(),
               model.between_pieces.has_value(),
-              scene.mesh.window};
+              scene.has_window()};
     }
   } // namespace
 

@@ -30,14 +30,14 @@ namespace tread
   } // namespace
 
 
-  StripRecorder::StripRecorder(const Model &model)
+  StripRecorder::StripRecorder(const Model &model, const WindowPlace &window)
     : model(model)
     , strip(model.mesh,
             model.solid,
             &model.contact.surfaces,
             rail_body,
             materials(model.scene)[rail_body],
-            strip_extent(model.scene))
+            strip_extent(model.scene, window.number))
   {
   }
 
@@ -146,7 +146,8 @@ namespace tread
         if (answer.surface.peak.value > 0.)
           rows.push_back(answer.surface);
         rows.insert(rows.end(), answer.layers.begin(), answer.layers.end());
-        report.folder.write_table(of_rail ? "peak_stress.csv" : "peak_stress_wheel.csv", peak_columns(), rows);
+        report.folder.write_table(of_rail ? "peak_stress.csv" : "peak_stress_wheel.csv", peak_columns(),
+                                  rows);
       }
     if (still_grows)
       report.warnings.push_back(

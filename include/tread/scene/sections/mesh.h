@@ -6,6 +6,16 @@
 
 namespace tread
 {
+  enum class WindowUse
+  {
+    automatic,
+    always,
+    never
+  };
+
+  template <>
+  const std::vector<Choice<WindowUse>> &choices();
+
   /// Section `Mesh`. Lengths in m.
   struct MeshSection
   {
@@ -16,7 +26,7 @@ namespace tread
     double       coarsest_cell = 22e-3;
     double       fine_from = 0., fine_to = 0.; ///< counted from the leading edge of the defect
     double       path_cell = 0., longest_row = 40e-3;
-    bool         window        = false;
+    WindowUse    window        = WindowUse::automatic;
     double       window_length = 0., window_margin = 0.; ///< 0: automatic
 
     void declare(dealii::ParameterHandler &handler);

@@ -83,6 +83,11 @@ namespace tread
     virtual void begin_passage()
     {
     }
+    /// What serialize() cannot find again because it is kept on cells: that of the same recorder before the
+    /// window of fine cells moved.
+    virtual void take_over(const Recorder & /*before*/)
+    {
+    }
     /// Write what is known at the end, and say it.
     virtual void finish(Report &)
     {

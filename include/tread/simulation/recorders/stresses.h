@@ -14,10 +14,14 @@ namespace tread
   class StripRecorder : public Recorder
   {
   public:
-    explicit StripRecorder(const Model &model);
+    StripRecorder(const Model &model, const WindowPlace &window);
 
     void add_row(const HistoryRow &row, const double seconds, RunFolder &folder) override;
     void finish(Report &report) override;
+    void take_over(const Recorder &before) override
+    {
+      strip.take_over(dynamic_cast<const StripRecorder &>(before).strip);
+    }
     void serialize(Archive &archive) override
     {
       strip.serialize(archive);
