@@ -90,7 +90,7 @@ namespace
     if (line.dry_run)
       {
         if (!tread::estimate_without_mesh(scene, comm))
-          tread::estimate(tread::Model(scene, comm, {}));
+          tread::estimate(scene, comm);
         return 0;
       }
     return tread::run(scene, comm, folder, line.resume) ? 0 : 130;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run would cost.
 #include <tread/base/format.h>
+#include <tread/scene/parts.h>
 #include <tread/simulation/doubts.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,20 +15,24 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
+#include <utility>
+#include <vector>
 
 namespace tread
 {
   namespace
   {
-    /// Time of a run over that of its internal forces. On an idle machine and two ranks it was 1.4 to 1.5 for
-    /// wheels on the track of prm/tutorial (89 000 cells) and 1.7 to 2.4 for the half-space scenes of 1.3 mm
-    /// (10 000 cells), where contact and waiting for each other weigh more. The upper part of that is
-    /// promised.
-    constexpr double all_over_forces = 2.2;
+    /// Iterations of the start: found with predicted tractions, growing with the number of cells of a patch,
+    /// and on a track, which bends. With the default tolerances.
+    double iterations_of_start(const Scene &scene)
+    {
+      constexpr double on_track = 6000., on_base = 900., of_cell = 0.63e-3; // m
+      return scene.track.has_supports() ? on_track : on_base * std::sqrt(of_cell / scene.mesh.finest_cell);
+    }
 
-    /// Steps that take as long as the start. In the same runs the start took 270 to 1200 of them; where a
-    /// wheel starts with traction on a track it takes up to 8000.
-    constexpr double relaxation_steps = 1200.;
+    /// Seconds of half-space solutions before and after a run, and of its tables.
+    constexpr double beside_steps = 0.8;
 
     /// Least memory of a cell while the mesh is made: 1.1 kB were found, that of deal.II's mesh included.
     constexpr double bytes_of_cell = 900.;
@@ -56,8 +62,8 @@ namespace tread
                    width =
                      2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
       return all_over_finest * 2. * scene.n_wheels() * scene.mesh.fine_layers * std::max(1., width / h) *
-             (scene.mesh.window ? scene.window_length() + 2. * scene.window_margin()
-                                : scene.motion.rolled_distance) /
+             (scene.has_window() ? scene.window_length() + 2. * scene.window_margin()
+                                 : scene.motion.rolled_distance) /
              std::max(h, scene.mesh.path_cell);
     }
   } // namespace
@@ -110,30 +116,172 @@ namespace tread
   }
 
 
-  void estimate(const Model &model)
+  namespace
   {
-    const Scene            &scene    = model.scene;
-    const ExplicitDynamics &dynamics = model.dynamics;
-    const MPI_Comm          comm     = model.comm;
-    const double            step     = scene.time_stepping.courant_number * dynamics.critical_time_step();
-    const std::uint64_t     steps    = model.remaining_steps();
-    // A few force evaluations tell this machine's pace.
-    NodalField       force(model.mesh.nodes.size(), Vector3{});
-    const NodalField x     = dynamics.state.positions();
-    const auto       start = MPI_Wtime();
-    unsigned int     n     = 0;
-    for (; n < 3 || MPI_Wtime() - start < 0.3; ++n)
-      model.solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data());
-    const double           seconds = dealii::Utilities::MPI::max((MPI_Wtime() - start) / n, comm);
-    const double           memory = model.memory_of_cells_and_nodes(), gain = dynamics.ideal_gain_of_levels();
-    constexpr unsigned int n_choices = 4; // of levels
-    std::array<double, n_choices> gains;
-    for (unsigned int level = 0; level < n_choices; ++level)
-      gains[level] = dynamics.ideal_gain_of_levels(level);
-    const auto time = [&](const double density_scale, const double gain_of_levels) {
-      return all_over_forces * seconds *
-             (steps * std::sqrt(scene.general.density_scale / density_scale) / gain_of_levels +
-              relaxation_steps);
+    /// What a mesh of the scene costs, found by making it and rolling for a moment.
+    struct PaceOfMesh
+    {
+      double made = 0., iteration = 0.,
+             row                   = 0.; ///< s: mesh and all that belongs to it; of the start; of a row
+      double                forces = 0., others = 0.; ///< s of a step: the due cells' forces, all else
+      double                step   = 0.;              ///< s of the motion
+      double                memory = 0., largest_process = 0.; ///< bytes, the latter of all processes so far
+      std::uint64_t         steps = 0; ///< of the whole way, as if all were on this mesh
+      std::uint64_t         cells = 0, unknowns = 0;
+      double                gain     = 1.; ///< of levels
+      unsigned int          n_levels = 1;
+      std::array<double, 4> gains{};                             ///< of so many levels
+      std::vector<std::pair<double, AddedMass>> of_longer_steps; ///< time step (s), what it adds
+    };
+
+    /// Bring a wheel onto the rail as far as some iterations do, and set it rolling.
+    void begin_to_roll(Model &model, const unsigned int iterations)
+    {
+      try
+        {
+          model.dynamics.relax(0., iterations, [](const unsigned int, const double) {});
+        }
+      catch (const std::runtime_error &) // no equilibrium so soon
+        {
+        }
+      for (RollingWheel &wheel : model.wheels)
+        {
+          wheel.hub.motion.velocity_x       = model.scene.motion.speed;
+          wheel.hub.motion.angular_velocity = model.scene.motion.speed / model.scene.rolling_radius();
+        }
+      model.dynamics.set_rigid_velocities();
+      model.contact.scale_impulses(model.scene.time_stepping.courant_number *
+                                   model.dynamics.critical_time_step());
+      model.dynamics.start();
+    }
+
+    /// Call work(n) with more and more repetitions until they take long enough to be timed. Collective.
+    /// @returns seconds of one
+    double seconds_of(const MPI_Comm comm, const unsigned int at_once, const std::function<void()> &work)
+    {
+      constexpr double long_enough = 0.3; // s
+      const double     start       = MPI_Wtime();
+      unsigned int     n           = 0;
+      double           seconds     = 0.;
+      while (n < 3 * at_once || seconds < long_enough)
+        {
+          for (unsigned int k = 0; k < at_once; ++k, ++n)
+            work();
+          seconds = dealii::Utilities::MPI::max(MPI_Wtime() - start, comm);
+        }
+      return seconds / n;
+    }
+
+    /// The masses that some longer steps would add.
+    std::vector<std::pair<double, AddedMass>> longer_steps(const Model &model, const double step)
+    {
+      std::vector<std::pair<double, AddedMass>> list;
+      const auto                                masses = model.solid.cell_masses(model.mesh);
+      const double                              own_limit =
+        2. / *std::max_element(model.solid.cell_frequencies().begin(), model.solid.cell_frequencies().end());
+      const double shortest = dealii::Utilities::MPI::min(own_limit, model.comm);
+      for (const double factor : {1.25, 1.5, 2., 2.5, 3., 4.})
+        {
+          std::vector<double> sums(4, 0.); // of the rail and of wheels: own, added
+          for (unsigned int c = 0; c < masses.size(); ++c)
+            if (const unsigned int body = model.mesh.cells[c].body;
+                body <= wheel_body(model.scene.n_wheels() - 1))
+              {
+                double own = 0.;
+                for (const double of_node : masses[c])
+                  own += of_node;
+                const double ratio = factor * shortest * model.solid.cell_frequencies()[c] / 2.;
+                sums[2 * (body != rail_body)] += own;
+                sums[2 * (body != rail_body) + 1] += own * std::max(0., ratio * ratio - 1.);
+              }
+          dealii::Utilities::MPI::sum(sums, model.comm, sums);
+          list.emplace_back(
+            factor * step,
+            AddedMass{sums[1], sums[1] / sums[0], sums[3], sums[3] / sums[2],
+                      added_mass_error_estimate(model.scene, (sums[1] + sums[3]) / model.scene.n_wheels())});
+        }
+      return list;
+    }
+
+    PaceOfMesh pace_of(const Scene &scene, const MPI_Comm comm, const WindowPlace &window)
+    {
+      PaceOfMesh   pace;
+      const double began = MPI_Wtime();
+      Model        model(scene, comm, window);
+      auto        &dynamics = model.dynamics;
+      pace.step             = scene.time_stepping.courant_number * dynamics.critical_time_step();
+      pace.made             = dealii::Utilities::MPI::max(MPI_Wtime() - began, comm);
+      pace.steps            = model.remaining_steps();
+      pace.cells            = model.mesh.n_global_cells;
+      pace.unknowns         = 3ull * (model.mesh.n_global_nodes - model.mesh.n_global_hanging_nodes);
+      pace.memory           = model.memory_of_cells_and_nodes();
+      pace.gain             = dynamics.ideal_gain_of_levels();
+      pace.n_levels         = dynamics.max_level() + 1;
+      for (unsigned int level = 0; level < pace.gains.size(); ++level)
+        pace.gains[level] = dynamics.ideal_gain_of_levels(level);
+      if (!scene.general.quasi_static && scene.time_stepping.least_step == 0.)
+        pace.of_longer_steps = longer_steps(model, pace.step);
+
+      NodalField       force(model.mesh.nodes.size(), Vector3{});
+      const NodalField x      = dynamics.state.positions();
+      const double     forces = seconds_of(
+            comm, 1, [&]() { model.solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data()); });
+      constexpr double   of_start = 0.3; // s
+      const unsigned int iterations =
+        std::min(400., std::max(50., of_start / dealii::Utilities::MPI::max(forces, comm)));
+      const double start = MPI_Wtime();
+      begin_to_roll(model, iterations);
+      pace.iteration              = dealii::Utilities::MPI::max(MPI_Wtime() - start, comm) / iterations;
+      pace.row                    = seconds_of(comm, 1, [&]() { dynamics.ledger(); });
+      const StepTimes     before  = dynamics.times();
+      const std::uint64_t so_far  = dynamics.state.n_steps;
+      const double        of_step = seconds_of(comm, 1u << dynamics.max_level(), [&]() { dynamics.step(); });
+      pace.forces = dealii::Utilities::MPI::max((dynamics.times().internal_forces - before.internal_forces) /
+                                                  (dynamics.state.n_steps - so_far),
+                                                comm);
+      pace.others = of_step - pace.forces;
+      rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      constexpr double bytes = 1024.; // of a unit on Linux
+      pace.largest_process   = dealii::Utilities::MPI::sum(bytes * double(usage.ru_maxrss), comm);
+      return pace;
+    }
+
+    /// A window in which cells are cubes of the finest size, and how many are so; none where the path is
+    /// alike all along.
+    std::pair<unsigned int, unsigned int> finest_windows(const Scene &scene)
+    {
+      unsigned int first = 0, n = 0;
+      if (scene.has_window() && scene.mesh.path_cell > 0.)
+        for (unsigned int k = 0; k < scene.n_windows(); ++k)
+          {
+            const double begin = scene.path_begin() + k * scene.window_length() - scene.window_margin(),
+                         end   = begin + scene.window_length() + 2. * scene.window_margin();
+            if (scene.cubes().begin < end && scene.cubes().end > begin && n++ == 0)
+              first = k;
+          }
+      return {first, n};
+    }
+  } // namespace
+
+
+  void estimate(const Scene &scene, const MPI_Comm comm)
+  {
+    const PaceOfMesh pace         = pace_of(scene, comm, {});
+    const auto [finest, n_finest] = finest_windows(scene);
+    const PaceOfMesh at_finest =
+      n_finest > 0 && finest > 0 ? pace_of(scene, comm, {finest, finest * scene.window_length()}) : pace;
+    const double share = n_finest / double(scene.n_windows());
+    // Steps are those of the first mesh, and of the finest one where its window stands.
+    const auto seconds = [&](const double density_scale, const double gain_of_levels) {
+      const double longer = std::sqrt(density_scale / scene.general.density_scale);
+      const auto   of     = [&](const PaceOfMesh &mesh) {
+        return mesh.steps / longer * (mesh.forces * mesh.gain / gain_of_levels + mesh.others);
+      };
+      const double rows = scene.motion.rolled_distance / scene.output.history_interval;
+      return pace.made * scene.n_windows() + iterations_of_start(scene) * pace.iteration +
+             scene.motion.passages * ((1. - share) * of(pace) + share * of(at_finest) + rows * pace.row) +
+             beside_steps;
     };
     std::vector<std::string> doubts = scene.doubts();
     if (const std::string unseen = unseen_detail(scene); !unseen.empty())
@@ -146,27 +294,28 @@ namespace tread
           std::printf("%s\n", defect.c_str());
         for (const std::string &doubt : doubts)
           std::printf("WARNING: %s\n", doubt.c_str());
-        if (scene.mesh.window)
+        if (scene.has_window())
           std::printf(
-            "window of fine cells %12u places; what follows is of the first one, without the changes\n",
+            "window of fine cells %12u places; cells, memory and time step are those of the first one\n",
             scene.n_windows());
-        std::printf("cells                %12llu\n", (unsigned long long)model.mesh.n_global_cells);
-        std::printf("unknowns             %12llu\n",
-                    3ull * (model.mesh.n_global_nodes - model.mesh.n_global_hanging_nodes));
-        std::printf("time step            %12.4g s\n", step);
-        if (dynamics.max_level() > 0)
-          std::printf("levels of time steps %12u     cell updates fall to 1/%.2f\n", dynamics.max_level() + 1,
-                      gain);
-        std::printf("steps                %12llu\n", (unsigned long long)steps);
-        std::printf("cells and nodes use  %12.0f MB\n", memory / 1e6);
+        std::printf("cells                %12llu\n", (unsigned long long)pace.cells);
+        std::printf("unknowns             %12llu\n", (unsigned long long)pace.unknowns);
+        std::printf("time step            %12.4g s\n", pace.step);
+        if (pace.n_levels > 1)
+          std::printf("levels of time steps %12u     cell updates fall to 1/%.2f\n", pace.n_levels,
+                      pace.gain);
+        std::printf("steps                %12.0f\n", (1. - share) * pace.steps + share * at_finest.steps);
+        std::printf("cells and nodes use  %12.0f MB\n", pace.memory / 1e6);
+        std::printf("all processes use    %12.0f MB at most, as far as this has come\n",
+                    std::max(pace.largest_process, at_finest.largest_process) / 1e6);
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.general.density_scale);
         std::printf(
-          "estimated time       %12.0f s on %u rank(s), about %.1f times that of the internal forces\n",
-          time(scene.general.density_scale, gain), dealii::Utilities::MPI::n_mpi_processes(comm),
-          all_over_forces);
+          "estimated time       %12.3g s on %u rank(s); a step takes %.3g ms, of which forces %.3g\n",
+          seconds(scene.general.density_scale, pace.gain), dealii::Utilities::MPI::n_mpi_processes(comm),
+          1e3 * (pace.forces + pace.others), 1e3 * pace.forces);
         std::printf("with 'Levels'        %12s", "");
-        for (unsigned int levels = 1; levels <= n_choices; ++levels)
+        for (unsigned int levels = 1; levels <= pace.gains.size(); ++levels)
           std::printf("%9u", levels);
         std::printf("   inertia error\n");
         std::vector<double> scales{scene.general.density_scale};
@@ -177,10 +326,17 @@ namespace tread
         for (const double scale : scales)
           {
             std::printf("'Density scale' %4g: s            ", scale);
-            for (const double gain_of_levels : gains)
-              std::printf("%9.0f", time(scale, gain_of_levels));
+            for (const double gain_of_levels : pace.gains)
+              std::printf("%9.1f", seconds(scale, gain_of_levels));
             std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.general.density_scale);
           }
+        if (!pace.of_longer_steps.empty())
+          std::printf("with 'Least step (us)'    kg added to the rail, to the wheels   inertia of that at 1 "
+                      "kHz over the "
+                      "contact's stiffness\n");
+        for (const auto &[step, added] : pace.of_longer_steps)
+          std::printf("  %-22.3g %12.3g %20.3g   %.2g %%\n", 1e6 * step, added.rail, added.wheels,
+                      100. * added.error_estimate);
       }
   }
 } // namespace tread

@@ -88,7 +88,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("ring: swing of the force over a turn", np.ptp(np.array(of_ring["normal_force_N"])[rolling]) / ring["normal_force_N"], 0.05)
 
     dry = must_end_well(execute([*arguments_of(SCENE, WINDOW), "--dry-run"], program=program)).stdout
-    check.that("--dry-run says that it knows the first place alone", "4 places; what follows is of the first one" in dry)
+    check.that("--dry-run says of which place it speaks", "4 places; cells, memory and time step are those of the first one" in dry)
 
     # Where the mesh must stay.
     for words, setting in (("'Damage/Record'", "Damage/Record=true"), ("Peak stress", "Peak stress/Record=true"),
