@@ -31,6 +31,15 @@ namespace tread
   }
 
 
+  double highest_frequency_for(const Scene &scene, const double time_step)
+  {
+    // dt = courant 2 / (omega sqrt(1 + 2 beta / dt)), and frequencies are rounded up by 1 % at most.
+    constexpr double rounding = 1.01;
+    return 2. * scene.time_stepping.courant_number /
+           (rounding * time_step * std::sqrt(1. + 2. * scene.solid.stiffness_damping));
+  }
+
+
   SolidParameters solid_parameters(const Scene &scene)
   {
     SolidParameters p;
@@ -44,13 +53,7 @@ namespace tread
     p.max_level                = scene.time_stepping.levels - 1;
     p.reproducible             = scene.general.reproducible;
     if (scene.time_stepping.least_step > 0.)
-      {
-        // dt = courant 2 / (omega sqrt(1 + 2 beta / dt)), and frequencies are rounded up by 1 % at most.
-        constexpr double rounding = 1.01;
-        p.highest_frequency =
-          2. * scene.time_stepping.courant_number /
-          (rounding * scene.time_stepping.least_step * std::sqrt(1. + 2. * scene.solid.stiffness_damping));
-      }
+      p.highest_frequency = highest_frequency_for(scene, scene.time_stepping.least_step);
     return p;
   }
 

@@ -177,9 +177,6 @@ namespace tread
     {
       std::vector<std::pair<double, AddedMass>> list;
       const auto                                masses = model.solid.cell_masses(model.mesh);
-      const double                              own_limit =
-        2. / *std::max_element(model.solid.cell_frequencies().begin(), model.solid.cell_frequencies().end());
-      const double shortest = dealii::Utilities::MPI::min(own_limit, model.comm);
       for (const double factor : {1.25, 1.5, 2., 2.5, 3., 4.})
         {
           std::vector<double> sums(4, 0.); // of the rail and of wheels: own, added
@@ -190,7 +187,8 @@ namespace tread
                 double own = 0.;
                 for (const double of_node : masses[c])
                   own += of_node;
-                const double ratio = factor * shortest * model.solid.cell_frequencies()[c] / 2.;
+                const double ratio =
+                  model.solid.cell_frequencies()[c] / highest_frequency_for(model.scene, factor * step);
                 sums[2 * (body != rail_body)] += own;
                 sums[2 * (body != rail_body) + 1] += own * std::max(0., ratio * ratio - 1.);
               }

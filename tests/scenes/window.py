@@ -20,6 +20,11 @@ COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9", "Motion/Ro
           "Time stepping/Levels=1"]
 WINDOW = COARSE + ["Mesh/Window=true", "Mesh/Window length (mm)=10"]
 
+# Cells of 20 mm fit the wider bar.
+TRACK = ["Rail/Block width (mm)=80", "Motion/Start (mm)=-160", "Motion/Rolled distance (mm)=40", "Rail/Ends=endless", "Mesh/Window length (mm)=10",
+         "Output/Supports=", "Output/Write volume=false"]
+LEAST_STEP = ["Time stepping/Least step (us)=0.456"]  # of which --dry-run speaks
+
 
 def differences(of, beside, column):
     """Of two histories of one scene, row for row where the wheel is at the same place, over the mean."""
@@ -86,6 +91,30 @@ with tempfile.TemporaryDirectory() as folder:
     of_ring = table(path("ring"), "history.csv")
     rolling = np.array(of_ring["position_m"]) > -0.6
     check.below("ring: swing of the force over a turn", np.ptp(np.array(of_ring["normal_force_N"])[rolling]) / ring["normal_force_N"], 0.05)
+
+    # On supports without being asked, and the strip of the largest stresses goes on over the changes.
+    fine, without_asking, slow, slow_again = (run(program, "tutorial/track.prm", path(name), TRACK + more, ranks=ranks) for name, more, ranks in
+                                                (("fine", ["Mesh/Window=false"], 1), ("automatic", [], 1), ("slow", LEAST_STEP, 1), ("slow-2", LEAST_STEP, 2)))
+    check.that("on supports without being asked: four windows", without_asking["windows"] == slow["windows"] == 4 and "windows" not in fine)
+    strips = [rows_of(path(name), "strip.csv") for name in ("fine", "automatic")]
+    check.that("strip: as many columns", len(strips[0]) == len(strips[1]) > 20)
+    for key in ("x_mm", "depth_mm", "von_mises_MPa", "surface_von_mises_MPa", "wheel_x_mm"):
+        check.below(f"strip: {key}, largest difference from all cells fine over the largest",
+                    max(abs(a[key] - b[key]) for a, b in zip(*strips)) / max(abs(row[key]) for row in strips[0]), 1e-3)
+    force = [table(path(name), "history.csv") for name in ("automatic", "slow")]
+    check.below("mass for a longer step: change of the force, RMS over the mean",
+                np.sqrt(np.mean((np.interp(force[0]["position_m"], force[1]["position_m"], force[1]["normal_force_N"]) / np.array(force[0]["normal_force_N"]) - 1.)**2)), 2e-3)
+    # What a smooth rail dissipates in 40 mm is little beside what passes through the bodies.
+    check.below("mass for a longer step: energy residual over the gross work", abs(slow["energy_residual_share"]), 1e-4)
+    check.that("the step that was wanted, which the mesh as a whole exceeds", 0.456e-6 < slow["time_step_s"] < 0.65e-6)
+    for key in ("added_mass_rail_kg", "added_mass_wheels_kg", "added_mass_rail_share", "added_mass_wheels_share", "added_mass_error_estimate"):
+        check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-9)
+    dry = must_end_well(execute([*arguments_of("tutorial/track.prm", TRACK), "--dry-run"], program=program)).stdout
+    added = [line.split()[1:3] for line in dry.splitlines() if line.startswith("  0.456 ")][0]
+    for body, kg in zip(("rail", "wheels"), added):  # in the first window, of which the summary has the largest
+        check.relative(f"--dry-run says what such a step adds, {body}, kg", float(kg), slow[f"added_mass_{body}_kg"], 0.15)
+    check.refused("a step that adds too much", program, "tutorial/track.prm", path("refused"), TRACK + ["Time stepping/Least step (us)=3"], ["Least step", "1 kHz"])
+    check.refused("a step with scaled density", program, SCENE, path("refused"), COARSE + ["Scene/Density scale=4", "Time stepping/Least step (us)=0.5"], ["Least step", "Density scale"])
 
     dry = must_end_well(execute([*arguments_of(SCENE, WINDOW), "--dry-run"], program=program)).stdout
     check.that("--dry-run says of which place it speaks", "4 places; cells, memory and time step are those of the first one" in dry)

@@ -42,6 +42,8 @@ namespace tread
   std::vector<ElasticMaterial> materials(const Scene &scene);
   std::vector<SolidSleeper>    solid_sleepers(const Scene &scene);
   SolidParameters              solid_parameters(const Scene &scene);
+  /// Highest frequency of a free cell, rad/s, with which a time step (s) is stable.
+  double highest_frequency_for(const Scene &scene, const double time_step);
   /// Cells under the contact paths that may yield, on rail and wheels.
   std::vector<PlasticZone> plastic_zones(const Scene &scene);
   /// Cost of a cell from the work of the selected element, the time step that the cell needs and the distance

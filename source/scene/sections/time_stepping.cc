@@ -25,7 +25,9 @@ namespace tread
       "scenes whose "
       "few finest cells set the step: what is added is in the summary, by body, with an estimate of what it "
       "does to the "
-      "contact force, which `--dry-run` prints for several steps. 0: all cells have their own density.",
+      "contact force, which `--dry-run` prints for several steps. The step comes out longer where no cell "
+      "can vibrate as fast in "
+      "the mesh as it would alone. 0: all cells have their own density.",
       Double(0., 100.));
   }
 } // namespace tread

@@ -21,6 +21,7 @@ KNOWN: list[tuple[str, str, str]] = [
     ("summary.json", "airborne_s", "no wheel of these runs leaves the rail: compared by tests/simulation/records.cc"),
     ("summary.json", "note", "words"),
     ("(summary.json|history.csv)", "windows|window_loss_J", "compared by tests/scenes/window.py"),
+    ("summary.json", "added_mass_(rail_kg|wheels_kg|wheels_share)", "the size alone: compared with a sum over cells by tests/dynamics/stability.cc"),
     ("summary.json", "patches/1/(element_[xy]_m|wheel_profile_radius_m)", "of elements the number is checked; a cone has no radius but that of its rounding"),
     ("summary.json", "wheel_max_von_mises_x_m|rail_max_von_mises_x_m", "known to an element, which is as much as it is"),
     ("summary.json", "cell_1_y_m", "half a cell beside the middle, on one side or the other"),
