@@ -55,7 +55,7 @@ def mass_of_the_finest_cells(runs: Runs, expect: Expect) -> None:
     cubes = n_wheels * number("Mesh/Fine layers") * 2 * width / cell * path / cell
     expect.that("rail, kg: more than a quarter of the path's finest cells' own, less than six times it: they go on beyond its ends",
                 0.25 < summary["added_mass_rail_kg"] / (cubes * density * cell**3) < 6)
-    expect.near("wheels, kg", summary["added_mass_wheels_kg"], summary["added_mass_rail_kg"], relative=0.3)
+    expect.that("wheels, kg: a little less, as their fine cells end with their sectors", 0.4 < summary["added_mass_wheels_kg"] / summary["added_mass_rail_kg"] < 1.2)
     expect.near("rail, share", 1e3 * summary["added_mass_rail_share"], 1e3 * summary["added_mass_rail_kg"] / (0.08 * 0.15 * 1e-3 * number("Rail/Length (mm)") * density), relative=0.01)
     expect.that("wheels, share: cells of a sector or a wheel", 1e-5 < summary["added_mass_wheels_share"] < 0.1)
     load, curvature_x, curvature_y = static_load(runs), 0.5 / 0.46, 0.5 / 0.3
