@@ -716,6 +716,11 @@ namespace tread
       list.push_back("density of the cells times " + text_of(scale) +
                      ": for steady rolling only, with an inertia error of about " +
                      text_of(std::round(1e4 * inertia_error_estimate()) / 100.) + " %");
+    if (mesh.window == WindowUse::automatic && has_window())
+      list.push_back(
+        format("cells are fine about the wheel alone, in %u windows one after the other ('Mesh/Window' "
+               "false: along the whole path)",
+               n_windows()));
     if (time_stepping.least_step > 0.)
       list.push_back("mass added to cells that would need steps below " +
                      text_of(1e6 * time_stepping.least_step) +

@@ -422,10 +422,11 @@ namespace tread
   bool Scene::has_window() const
   {
     // Windows on supports are long, and a change costs as much as a seventh of one: from four on it pays.
+    // Forces then differ by 0.1 to 0.2 % of their swing (doc/performance.md); of flats nobody has looked.
     constexpr double pays = 4.;
     return mesh.window == WindowUse::always ||
-           (mesh.window == WindowUse::automatic && track.has_supports() && keeps_mesh().empty() &&
-            motion.rolled_distance >= pays * longest_window());
+           (mesh.window == WindowUse::automatic && track.has_supports() && is_round() &&
+            keeps_mesh().empty() && motion.rolled_distance >= pays * longest_window());
   }
 
 

@@ -96,6 +96,7 @@ with tempfile.TemporaryDirectory() as folder:
     fine, without_asking, slow, slow_again = (run(program, "tutorial/track.prm", path(name), TRACK + more, ranks=ranks) for name, more, ranks in
                                                 (("fine", ["Mesh/Window=false"], 1), ("automatic", [], 1), ("slow", LEAST_STEP, 1), ("slow-2", LEAST_STEP, 2)))
     check.that("on supports without being asked: four windows", without_asking["windows"] == slow["windows"] == 4 and "windows" not in fine)
+    check.that("and says so", any("4 windows" in line for line in without_asking["assumptions"]) and not any("windows" in line for line in fine["assumptions"] + moving["assumptions"]))
     strips = [rows_of(path(name), "strip.csv") for name in ("fine", "automatic")]
     check.that("strip: as many columns", len(strips[0]) == len(strips[1]) > 20)
     for key in ("x_mm", "depth_mm", "von_mises_MPa", "surface_von_mises_MPa", "wheel_x_mm"):

@@ -8,7 +8,8 @@ namespace tread
   {
     static const std::vector<Choice<WindowUse>> list{
       {WindowUse::automatic, "automatic",
-       "so on supports, where the way is as long as four windows and nothing needs a mesh that stays."},
+       "so on supports under a round wheel, where the way is as long as four windows and nothing needs a "
+       "mesh that stays."},
       {WindowUse::always, "true", "always."},
       {WindowUse::never, "false", "cells are fine along the whole path."}};
     return list;
