@@ -69,17 +69,21 @@ namespace tread
 
   std::vector<ExplicitDynamics::MassOfBody> ExplicitDynamics::masses_of_bodies() const
   {
-    std::vector<double> sums(2 * mesh.body_names.size(), 0.);
+    std::vector<std::array<ReproducibleSum<double>, 2>> sums(mesh.body_names.size());
     for (unsigned int i = 0; i < true_mass.size(); ++i)
       if (mesh.shared_nodes.is_owned(i))
         {
-          sums[2 * mesh.node_bodies[i]] += true_mass[i];
-          sums[2 * mesh.node_bodies[i] + 1] += added_mass.empty() ? 0. : added_mass[i];
+          auto &[own, added] = sums[mesh.node_bodies[i]];
+          own.add(true_mass[i]);
+          if (!added_mass.empty() && !carried[i] && !fixed[i]) // else it does not act
+            added.add(added_mass[i]);
         }
-    dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    std::vector<MassOfBody> masses(mesh.body_names.size());
-    for (std::size_t body = 0; body < masses.size(); ++body)
-      masses[body] = {sums[2 * body], sums[2 * body + 1]};
+    std::vector<MassOfBody> masses;
+    for (const auto &of_body : sums)
+      {
+        const auto [own, added] = values_of(of_body, mesh.comm);
+        masses.push_back({own, added});
+      }
     return masses;
   }
 

@@ -28,7 +28,9 @@ namespace tread
     double iterations_of_start(const Scene &scene)
     {
       constexpr double on_track = 6000., on_base = 900., of_cell = 0.63e-3; // m
-      return scene.track.has_supports() ? on_track : on_base * std::sqrt(of_cell / scene.mesh.finest_cell);
+      return scene.track.has_supports() && scene.rail.ends != EndKind::endless
+               ? on_track
+               : on_base * std::sqrt(of_cell / scene.mesh.finest_cell);
     }
 
     /// Seconds of half-space solutions before and after a run, and of its tables.
@@ -277,8 +279,9 @@ namespace tread
         return mesh.steps / longer * (mesh.forces * mesh.gain / gain_of_levels + mesh.others);
       };
       const double rows = scene.motion.rolled_distance / scene.output.history_interval;
-      return pace.made * scene.n_windows() + iterations_of_start(scene) * pace.iteration +
-             scene.motion.passages * ((1. - share) * of(pace) + share * of(at_finest) + rows * pace.row) +
+      return pace.made * scene.n_windows() +
+             scene.motion.passages * (iterations_of_start(scene) * pace.iteration + (1. - share) * of(pace) +
+                                      share * of(at_finest) + rows * pace.row) +
              beside_steps;
     };
     std::vector<std::string> doubts = scene.doubts();
@@ -304,7 +307,7 @@ namespace tread
                       pace.gain);
         std::printf("steps                %12.0f\n", (1. - share) * pace.steps + share * at_finest.steps);
         std::printf("cells and nodes use  %12.0f MB\n", pace.memory / 1e6);
-        std::printf("all processes use    %12.0f MB at most, as far as this has come\n",
+        std::printf("all processes use    %12.0f MB by now; a run some 30 %% more\n",
                     std::max(pace.largest_process, at_finest.largest_process) / 1e6);
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.general.density_scale);
@@ -329,7 +332,8 @@ namespace tread
             std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.general.density_scale);
           }
         if (!pace.of_longer_steps.empty())
-          std::printf("with 'Least step (us)'    kg added to the rail, to the wheels   inertia of that at 1 "
+          std::printf("with 'Least step (us)'    kg added to the rail, to the wheels, on this mesh   inertia "
+                      "of that at 1 "
                       "kHz over the "
                       "contact's stiffness\n");
         for (const auto &[step, added] : pace.of_longer_steps)

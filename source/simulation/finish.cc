@@ -115,12 +115,18 @@ namespace tread
             "only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
             rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
       }
+    if (added_mass.error_estimate > AddedMass::largest_error)
+      warnings.push_back(format(
+        "'Time stepping/Least step (us)' added %.3g kg to the rail's cells and %.3g kg to the wheels' in "
+        "one of the windows of fine cells: its inertia is about %.3g %% of the contact force at 1 kHz",
+        added_mass.rail, added_mass.wheels, 100. * added_mass.error_estimate));
     constexpr double large_loss = 0.02;
     if (const double loss = energy.of_dissipated(energy.window); std::abs(loss) > large_loss)
       warnings.push_back(
         format("the changes of the window of fine cells %s %.1f %% of what was dissipated: a larger "
-               "'Mesh/Window margin (mm)' or 'Window length (mm)', or 'Scene/Density scale' 1",
-               loss > 0. ? "took" : "gave", 100. * std::abs(loss)));
+               "'Mesh/Window margin (mm)' or 'Window length (mm)'%s",
+               loss > 0. ? "took" : "gave", 100. * std::abs(loss),
+               scene.general.density_scale != 1. ? ", or 'Scene/Density scale' 1" : ""));
   }
 
 

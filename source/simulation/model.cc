@@ -118,14 +118,13 @@ namespace tread
 
   void Model::check_added_mass() const
   {
-    constexpr double largest_error = 0.1;
-    const AddedMass  added         = added_mass();
-    require(added.error_estimate <= largest_error,
+    const AddedMass added = added_mass();
+    require(added.error_estimate <= AddedMass::largest_error,
             format("'Time stepping/Least step (us)' %g adds %.3g kg to the rail's cells and %.3g kg to the "
                    "wheel's: its inertia is about %.3g %% of the contact force at 1 kHz; at most %g %% is "
-                   "allowed ('tread run --dry-run' prints what other steps add)",
+                   "allowed (without it --dry-run prints what several steps add)",
                    1e6 * scene.time_stepping.least_step, added.rail, added.wheels,
-                   100. * added.error_estimate, 100. * largest_error));
+                   100. * added.error_estimate, 100. * AddedMass::largest_error));
   }
 
 

@@ -38,6 +38,8 @@ namespace tread
     /// Force that the added mass takes at 1 kHz to follow the approach that an equal force makes in the
     /// contact.
     double error_estimate = 0.;
+    /// A first mesh with more is refused.
+    static constexpr double largest_error = 0.1;
 
     /// The larger of both.
     void raise_to(const AddedMass &other);

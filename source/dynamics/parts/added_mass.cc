@@ -21,8 +21,12 @@ namespace tread
     , carrier(carrier)
     , omega(carrier.angular_velocity())
   {
+    // What the carrier moves itself has no inertia of its own.
+    std::vector<char> is_carried(of.mesh.nodes.size(), false);
+    for (const unsigned int i : carrier.carried())
+      is_carried[i] = true;
     for (unsigned int i = 0; i < of.added_mass.size(); ++i)
-      if (of.mesh.node_bodies[i] == carrier.body() && of.added_mass[i] > 0.)
+      if (of.mesh.node_bodies[i] == carrier.body() && of.added_mass[i] > 0. && !is_carried[i])
         nodes.push_back({i, of.added_mass[i]});
   }
 
