@@ -332,10 +332,8 @@ namespace tread
             std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.general.density_scale);
           }
         if (!pace.of_longer_steps.empty())
-          std::printf("with 'Least step (us)'    kg added to the rail, to the wheels, on this mesh   inertia "
-                      "of that at 1 "
-                      "kHz over the "
-                      "contact's stiffness\n");
+          std::printf("with 'Least step (us)'    kg added to the rail, to the wheels, on this mesh   "
+                      "inertia of that at 1 kHz over the contact's stiffness\n");
         for (const auto &[step, added] : pace.of_longer_steps)
           std::printf("  %-22.3g %12.3g %20.3g   %.2g %%\n", 1e6 * step, added.rail, added.wheels,
                       100. * added.error_estimate);

@@ -35,10 +35,9 @@ namespace tread
   {
     before = carrier.motion();
     sums   = SumsOfAddedMass{};
-    for (const Node &node : nodes)
-      if (const unsigned int i = node.number; step.inverse_mass[i] > 0.)
+    for (const auto &[i, mass] : nodes)
+      if (step.inverse_mass[i] > 0.)
         {
-          const double  mass = node.mass;
           const Vector3 arm = step.state.position(i) - before.middle, off = off_axle(before, arm);
           step.state.force[i] -= of.quanta.force.round((mass * omega * omega) * off);
           if (!of.mesh.shared_nodes.is_owned(i))
@@ -72,13 +71,13 @@ namespace tread
     const RigidMotion       motion = carrier.motion();
     const double            back   = 0.5 * time_step;
     ReproducibleSum<double> sum;
-    for (const Node &node : nodes)
-      if (of.mesh.shared_nodes.is_owned(node.number))
+    for (const auto &[i, mass] : nodes)
+      if (of.mesh.shared_nodes.is_owned(i))
         {
-          const Vector3 arm = of.state.position(node.number) - back * of.state.v[node.number] -
+          const Vector3 arm = of.state.position(i) - back * of.state.v[i] -
                               (motion.middle - back * motion.velocity),
                         off = off_axle(motion, arm);
-          sum.add(0.5 * omega * omega * node.mass * dot(off, off));
+          sum.add(0.5 * omega * omega * mass * dot(off, off));
         }
     return sum.value(of.mesh.comm);
   }
