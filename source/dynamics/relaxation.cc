@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/soft_motions.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -28,17 +30,27 @@ namespace tread
     /// later, half as many cost more sums over the ranks.
     constexpr unsigned int iterations_between_looks = 20;
 
-    /// Iterations between two corrections by the rail as a beam: until then the cells have followed the last.
-    constexpr unsigned int iterations_between_beams = 200;
+    /// Iterations between two balances of soft motions: until then the cells have followed the last.
+    constexpr unsigned int iterations_between_balances = 200;
+
+    /// Where soft motions meet less than this share of the resistance that their stiffness says, or the
+    /// reverse, as springs open or close, their stiffness is found anew: so often at most in one iteration.
+    constexpr double       least_of_expected = 0.8;
+    constexpr unsigned int most_rounds       = 20;
+
+    /// No node moves farther than this in one round, m: several times what sleepers sink or rails bend.
+    constexpr double longest_soft_motion = 0.01;
 
     /// So often the coupling of a balanced contact is integrated anew. One or two are usual; more happen
     /// where two couplings alternate, because a pair at the border of the patch comes with one of them and
     /// goes with the other. Either is an equilibrium but for what this pair carries.
     constexpr unsigned int most_refreshes = 10;
 
-    /// The slowest motion by far is that of the whole wheel sinking into the contact. Its rigid shift is
-    /// given this many times more acceleration by the total force.
-    constexpr double lightness_of_wheel = 16.;
+    /// A slow motion is that of the whole wheel sinking into the contact. Its rigid shift is given this many
+    /// times more acceleration by the total force, and a wheel of many cells so many times more that it sinks
+    /// with this frequency into a contact of this stiffness (N/m): one of 100 kN between steel bodies of any
+    /// wheel and rail; those of small wheels are softer.
+    constexpr double least_lightness = 16., frequency_of_sinking = 0.1, stiffness_of_contact = 2e9;
 
     /// Iterations are the steps.
     constexpr double unit_step = 1.;
@@ -53,7 +65,8 @@ namespace tread
   class ExplicitDynamics::Relaxation
   {
   public:
-    explicit Relaxation(ExplicitDynamics &dynamics);
+    /// @param tolerance of the balance, share of the load
+    Relaxation(ExplicitDynamics &dynamics, const double tolerance);
     /// The contact has its friction law and its sliding again.
     ~Relaxation()
     {
@@ -80,8 +93,13 @@ namespace tread
     /// Add the contact's forces, and sum what acts on the hubs.
     void add_contact();
 
-    /// Bend parts, such as a rail as a beam, under what is out of balance, and move the bodies on them along.
-    void bend_parts();
+    /// Move soft bodies as far as what is out of balance moves them, and the carried bodies on them along.
+    /// @returns whether they were balanced before. Collective. @pre has_soft_motions()
+    bool balance_soft_motions();
+    bool has_soft_motions() const
+    {
+      return soft.has_value();
+    }
 
     /// Displace all nodes and the hubs. @param measure: find the balance.
     void advance(const bool measure);
@@ -90,7 +108,7 @@ namespace tread
     /// out of balance the first time.
     double share_out_of_balance() const
     {
-      return residual / (load > 0. ? load : std::max(first_residual, no_force));
+      return residual / scale();
     }
 
     void refresh_contact()
@@ -107,9 +125,16 @@ namespace tread
   private:
     /// @throws std::runtime_error, one line, if nodes move by more in an iteration than any start needs.
     /// Collective.
-    void check_that_nodes_stay() const;
+    void   check_that_nodes_stay() const;
+    double scale() const
+    {
+      return load > 0. ? load : std::max(first_residual, no_force);
+    }
     void set_masses();
     void set_loads();
+    void find_soft_motions();
+    /// Forces of all but contact with nodes displaced so from where they were (m); they stay there.
+    const NodalField &forces_at(const NodalField &at, const NodalField &displacement);
     /// Sum of term(i) over the nodes of a carried body, each of them once. Collective.
     template <typename Term>
     double sum_of_body(const std::size_t k, const Term &term) const
@@ -135,6 +160,7 @@ namespace tread
     }
 
     ExplicitDynamics         &d;
+    const double              tolerance;
     NodalField               &x;          ///< positions, as there is no damping time
     const NodalField          at_rest;    ///< no velocities
     NodalField                mass;       ///< in [0], N/m, as the step has no unit
@@ -148,6 +174,7 @@ namespace tread
       double hub_mass = 0.;        ///< of the nodes that the hub carries
       double hub_load = 0.;        ///< static force of all but the cells, N
       double mass = 0., load = 0.; ///< of all nodes of the body; with the hub's load
+      double lightness    = 0.;    ///< @see least_lightness; 0 without contact
       double hub_velocity = 0.;
       // Of a hub that rolls: the same about x through its middle, N m and the square of the arms times mass.
       double hub_roll_inertia = 0., roll_inertia = 0., hub_roll_velocity = 0.;
@@ -162,18 +189,19 @@ namespace tread
       };
     }
     /// Moment of all forces on hub and cells of a body that rolls the hub, N m. Collective.
-    double              roll_moment(const std::size_t k) const;
-    std::vector<OfBody> bodies;
-    double              lightness = 0.;
-    double              keep      = kept_at_first;
-    double              residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
-    std::shared_ptr<const FrictionLaw> law;                             ///< of the motion to come
-    Contact::Sliding                   sliding;                         ///< likewise
+    double                     roll_moment(const std::size_t k) const;
+    std::vector<OfBody>        bodies;
+    std::optional<SoftMotions> soft;
+    double                     keep = kept_at_first;
+    double residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
+    std::shared_ptr<const FrictionLaw> law;                ///< of the motion to come
+    Contact::Sliding                   sliding;            ///< likewise
   };
 
 
-  ExplicitDynamics::Relaxation::Relaxation(ExplicitDynamics &dynamics)
+  ExplicitDynamics::Relaxation::Relaxation(ExplicitDynamics &dynamics, const double tolerance)
     : d(dynamics)
+    , tolerance(tolerance)
     , x(d.state.x_damped)
     , at_rest(x.size(), Vector3{})
     , mass(x.size(), Vector3{})
@@ -181,10 +209,10 @@ namespace tread
     , body_force(x.size(), Vector3{})
     , previous(x.size(), Vector3{})
     , bodies(d.carriers.size())
-    , lightness(!d.carriers.empty() && d.contact ? lightness_of_wheel : 0.)
   {
     set_masses();
     set_loads();
+    find_soft_motions();
     std::fill(d.state.v.begin(), d.state.v.end(), Vector3{});
     for (CarriesBody *carrier : d.carriers)
       carrier->take(LoadsOnBody()); // those of a motion before are over
@@ -274,12 +302,43 @@ namespace tread
         OfBody &wheel  = bodies[k];
         wheel.hub_load = d.carriers[k]->load().force;
         wheel.mass     = sum_of_body(k, [&](const std::size_t i) { return mass[i][0]; });
+        if (d.contact)
+          wheel.lightness = std::max(least_lightness, frequency_of_sinking * frequency_of_sinking *
+                                                        wheel.mass / stiffness_of_contact);
         wheel.load = sum_of_body(k, [&](const std::size_t i) { return body_force[i][2]; }) + wheel.hub_load;
         wheel.roll_inertia = sum_of_body(k, [&, by_roll = by_roll(k)](const std::size_t i) {
           const Vector3 roll = by_roll(i);
           return mass[i][0] * dot(roll, roll);
         });
       }
+  }
+
+
+  void ExplicitDynamics::Relaxation::find_soft_motions()
+  {
+    std::vector<SoftBody> soft_bodies;
+    for (const auto &part : d.parts)
+      for (SoftBody &body : part->soft_bodies(d.state))
+        soft_bodies.push_back(std::move(body));
+    if (soft_bodies.empty())
+      return;
+    std::vector<char> moves(x.size());
+    for (unsigned int i = 0; i < x.size(); ++i)
+      moves[i] = inverse[i] > 0.;
+    soft.emplace(
+      d.mesh, soft_bodies, x, std::move(moves), [this](NodalField &field) { d.hold_guided_nodes(field); },
+      d.quanta.force);
+  }
+
+
+  const NodalField &ExplicitDynamics::Relaxation::forces_at(const NodalField &at,
+                                                            const NodalField &displacement)
+  {
+    for (unsigned int i = 0; i < x.size(); ++i)
+      x[i] = at[i] + displacement[i];
+    find_forces();
+    d.hold_guided_nodes(d.state.force);
+    return d.state.force;
   }
 
 
@@ -324,8 +383,7 @@ namespace tread
            k, [&](const std::size_t i) { return inverse[i] > 0. ? d.state.v[i][2] / inverse[i] : 0.; });
         const double total = momentum + wheel.hub_mass * wheel.hub_velocity;
         inertia += wheel.hub_mass * wheel.hub_velocity * wheel.hub_velocity;
-        if (lightness > 0.)
-          inertia -= lightness / (1. + lightness) * total * total / wheel.mass;
+        inertia -= wheel.lightness / (1. + wheel.lightness) * total * total / wheel.mass;
         if (!d.carriers[k]->rolls())
           continue;
         const double turning = sum_of_body(k, [&, by_roll = by_roll(k)](const std::size_t i) {
@@ -333,8 +391,8 @@ namespace tread
         });
         const double turns   = turning + wheel.hub_roll_inertia * wheel.hub_roll_velocity;
         inertia += wheel.hub_roll_inertia * wheel.hub_roll_velocity * wheel.hub_roll_velocity;
-        if (lightness > 0.)
-          inertia -= lightness / (1. + lightness) * turns * turns / wheel.roll_inertia;
+        if (d.contact)
+          inertia -= least_lightness / (1. + least_lightness) * turns * turns / wheel.roll_inertia;
       }
     inertia /= keep * keep;
     const double omega = inertia > 0. ? std::sqrt(std::max(0., change / inertia)) : 0.;
@@ -366,7 +424,7 @@ namespace tread
   }
 
 
-  void ExplicitDynamics::Relaxation::bend_parts()
+  bool ExplicitDynamics::Relaxation::balance_soft_motions()
   {
     // The carried bodies with all of their loads included.
     std::vector<MovingLoad> loads = d.loads_of_carriers();
@@ -377,22 +435,67 @@ namespace tread
         loads[k].force =
           on_nodes + d.carriers[k]->resultant(d.sums_of_carrier(k)).force[2] + bodies[k].hub_load;
       }
-    bool bent = false;
-    for (const auto &part : d.parts)
-      if (const std::vector<double> up = part->bend(d.state, loads); !up.empty())
-        {
-          bent = true;
-          for (std::size_t k = 0; k < bodies.size(); ++k)
-            d.carriers[k]->move_up(up[k]);
-          for (unsigned int i = 0; i < x.size(); ++i)
-            if (const int number = d.carrier_of(i); number >= 0)
-              x[i][2] += up[number];
-        }
-    if (!bent)
-      return;
+    const NodalField    all_forces = d.state.force; // with the contact's
+    NodalField          at = x, forces = forces_at(at, at_rest), out_of_balance = all_forces;
+    std::vector<double> up(bodies.size(), 0.);
+    bool                as_expected = false;
+    for (unsigned int round = 0; round < most_rounds && !as_expected; ++round)
+      {
+        const bool keeps_old =
+          !soft->stiffness_is_known() && !soft->find_stiffness([&](const NodalField &displacement) {
+            NodalField change = forces_at(at, displacement);
+            for (unsigned int i = 0; i < x.size(); ++i)
+              change[i] -= forces[i];
+            return change;
+          });
+        const SoftMotions::Balance balance = soft->balance(out_of_balance, loads);
+        if (balance.largest_force <= tolerance * scale())
+          {
+            if (round > 0)
+              break;
+            x             = at;
+            d.state.force = all_forces;
+            return true;
+          }
+        NodalField displacement = soft->field(balance.amplitudes);
+        double     longest      = 0.;
+        for (const Vector3 &of_node : displacement)
+          longest = std::max(longest, norm(of_node));
+        longest            = dealii::Utilities::MPI::max(longest, d.mesh.comm);
+        double share_moved = std::min(1., longest_soft_motion / longest);
+        for (Vector3 &of_node : displacement)
+          of_node *= share_moved;
+        // Springs that open or close resist otherwise than was found.
+        const NodalField &then = forces_at(at, displacement);
+        const double      resistance =
+          sum_of_free([&](const std::size_t i) { return dot(displacement[i], forces[i] - then[i]); });
+        const double share_again = share_moved * balance.work / std::abs(resistance);
+        if (share_again < 1.)
+          for (Vector3 &of_node : displacement)
+            of_node *= share_again;
+        const double found_over_met = share_again * share_moved;
+        if (found_over_met < least_of_expected || found_over_met > 1. / least_of_expected)
+          soft->forget_stiffness();
+        share_moved *= std::min(1., share_again);
+        as_expected      = keeps_old || (soft->stiffness_is_known() && share_moved >= least_of_expected);
+        NodalField moved = forces_at(at, displacement);
+        for (unsigned int i = 0; i < x.size(); ++i)
+          out_of_balance[i] += moved[i] - forces[i];
+        forces = std::move(moved);
+        at     = x;
+        for (std::size_t k = 0; k < bodies.size(); ++k)
+          up[k] += share_moved * soft->up(balance.amplitudes, loads[k].x);
+      }
+    d.state.force = all_forces;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      d.carriers[k]->move_up(up[k]);
+    for (unsigned int i = 0; i < x.size(); ++i)
+      if (const int number = d.carrier_of(i); number >= 0)
+        x[i][2] += up[number];
     d.mesh.distribute_hanging_nodes(x.data());
     if (d.contact)
       refresh_contact();
+    return false;
   }
 
 
@@ -407,9 +510,12 @@ namespace tread
         OfBody         &of_body   = bodies[k];
         CarriesBody    &carrier   = *d.carriers[k];
         const Resultant resultant = carrier.resultant(d.sums_of_carrier(k));
-        if (lightness > 0.)
-          shift[k] =
-            lightness / of_body.mass * (of_body.load + d.contact->total_impulse_on(carrier.body())[2]);
+        if (d.contact)
+          {
+            const double of_all = of_body.load + d.contact->total_impulse_on(carrier.body())[2];
+            shift[k]            = of_body.lightness / of_body.mass * of_all;
+            of_hubs             = std::max(of_hubs, std::abs(of_all));
+          }
         const double imbalance    = resultant.force[2] + of_body.hub_load;
         const double displacement = of_body.hub_velocity + imbalance / of_body.hub_mass + shift[k];
         carrier.move_up(displacement);
@@ -419,8 +525,8 @@ namespace tread
         if (!carrier.rolls())
           continue;
         const double moment = -resultant.moment[0];
-        if (lightness > 0.)
-          roll[k] = lightness / of_body.roll_inertia * roll_moment(k);
+        if (d.contact)
+          roll[k] = least_lightness / of_body.roll_inertia * roll_moment(k);
         of_body.hub_roll_velocity += moment / of_body.hub_roll_inertia + roll[k];
         rolled[k] = of_body.hub_roll_velocity;
         of_body.hub_roll_velocity *= keep;
@@ -470,8 +576,9 @@ namespace tread
     state.set_damping_time(0.);
     // Sweeps on the way to equilibrium are no steps in time.
     const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
-    Relaxation          relaxation(*this);
+    Relaxation          relaxation(*this, tolerance);
     unsigned int        iteration = 1, last_refresh = 0, n_refreshes = 0;
+    bool                soft_balance_due = false, soft_are_balanced = false; // at the last look
     for (; iteration <= max_iterations; ++iteration)
       {
         const unsigned int place   = iteration % iterations_between_looks;
@@ -482,8 +589,12 @@ namespace tread
         if (place == iterations_between_looks - 1)
           relaxation.remember_forces();
         relaxation.add_contact();
-        if (iteration % iterations_between_beams == 1)
-          relaxation.bend_parts();
+        if (relaxation.has_soft_motions() &&
+            (iteration % iterations_between_balances == 1 || soft_balance_due))
+          {
+            soft_are_balanced = relaxation.balance_soft_motions();
+            soft_balance_due  = false;
+          }
         relaxation.advance(measure);
         if (!measure)
           continue;
@@ -496,8 +607,13 @@ namespace tread
         // The iteration continues if the callback has changed the contact.
         if (share <= tolerance && !(contact && contact->refresh_due()))
           {
+            // Small forces on many nodes may add up.
+            soft_balance_due = relaxation.has_soft_motions() && !std::exchange(soft_are_balanced, false);
+            if (soft_balance_due)
+              continue;
             // Balanced with the coupling of where nodes were many iterations ago? Then not yet.
-            if (!contact || iteration <= last_refresh + iterations_between_looks ||
+            const unsigned int looks = relaxation.has_soft_motions() ? 2 : 1;
+            if (!contact || iteration <= last_refresh + looks * iterations_between_looks ||
                 n_refreshes == most_refreshes)
               break;
             relaxation.refresh_contact();

@@ -27,7 +27,7 @@ namespace tread
     /// and on a track, which bends. With the default tolerances.
     double iterations_of_start(const Scene &scene)
     {
-      constexpr double on_track = 6000., on_base = 900., of_cell = 0.63e-3; // m
+      constexpr double on_track = 3000., on_base = 900., of_cell = 0.63e-3; // m
       return scene.track.has_supports() && scene.rail.ends != EndKind::endless
                ? on_track
                : on_base * std::sqrt(of_cell / scene.mesh.finest_cell);

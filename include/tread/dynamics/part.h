@@ -59,6 +59,21 @@ namespace tread
     double force;         ///< upwards, N
   };
 
+  /// A body that is far softer as a whole than in relative motions of its cells. @see SoftMotions
+  struct SoftBody
+  {
+    enum class Shape
+    {
+      line,  ///< along x, on springs
+      ring,  ///< around the y axis through its middle, on what holds it inside
+      piece, ///< on springs
+    };
+    unsigned int              number;
+    Shape                     shape;
+    Vector3                   middle{}; ///< of a ring, m
+    std::vector<unsigned int> held{};   ///< nodes of a ring that do not move with it, of this rank
+  };
+
   /// Something that acts on nodes, or carries them: supports, a wheel's hub, absorbing ends. The integrator,
   /// its ledger, its start and its checkpoints ask all parts in the order in which they were added and know
   /// none of them by name. A part is called some ten times in a step, never for each node.
@@ -171,9 +186,8 @@ namespace tread
     virtual void balance()
     {
     }
-    /// Bend under what is out of balance, the forces of the present iteration and loads. @returns by how much
-    /// what presses at the place of each load goes up, m; nothing: this part does not bend
-    virtual std::vector<double> bend(State &, const std::vector<MovingLoad> &) const
+    /// Bodies that are to be balanced as a whole too. Collective.
+    virtual std::vector<SoftBody> soft_bodies(const State &) const
     {
       return {};
     }

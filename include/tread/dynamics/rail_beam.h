@@ -20,8 +20,7 @@ namespace tread
   using TrackBeyondBoth = std::optional<std::array<TrackBeyondParameters, 2>>;
 
   /// The rail of cells represented as a beam on its supports, with plane and rigid sections, and the track
-  /// beyond it, if there is one. Such displacement fields are far softer than relative motions of the cells,
-  /// so the relaxation, which is efficient for the latter, leaves them to this beam.
+  /// beyond it, if there is one: how it follows a load that moves.
   class RailBeam
   {
   public:
@@ -36,12 +35,9 @@ namespace tread
     {
       reference::SupportedBeam::Response rail;
       std::vector<double>                sleepers; ///< by support; solid or rigid
-      std::vector<double>                along;    ///< at evenly spaced places of the rail; none: it is held
     };
 
-    /// The displacement field that balances loads on the rail, and nodal forces (N, of this rank). The
-    /// first is collective.
-    Field balance(const Vector3 *force, std::vector<reference::SupportedBeam::Load> loads) const;
+    /// The displacement field that balances loads on the rail.
     Field balance(const std::vector<reference::SupportedBeam::Load> &loads) const;
 
     /// Add factor times the field to the values of rail and solid sleepers.
@@ -53,23 +49,12 @@ namespace tread
     }
 
   private:
-    Field respond(const std::vector<reference::SupportedBeam::Load> &loads,
-                  const std::vector<double>                         &sleeper_loads) const;
-
-    /// Number of evenly spaced places, at which what acts on nodes is gathered.
-    unsigned int n_places() const;
-    /// How a bar is displaced along itself by these forces (N) at the places.
-    std::vector<double> stretched(const std::vector<double> &forces) const;
-
     const Mesh                                     &mesh;
     const Supports                                 &supports;
-    const TrackBeyondBoth                           beyond;
-    double                                          axial_stiffness = 0.; ///< E A, N
-    unsigned int                                    n_before        = 0;  ///< supports before the cells
+    unsigned int                                    n_before = 0; ///< supports before the cells
     reference::BeamSection                          rail_section;
-    double                                          centroid_z = 0., begin = 0., end = 0.;
+    double                                          centroid_z = 0.;
     std::vector<int>                                support_of_body; ///< of a solid sleeper; -1: none
-    Quantum                                         quantum;         ///< of what nodes add to sums, N and N m
     std::unique_ptr<const reference::SupportedBeam> beam;
   };
 } // namespace tread

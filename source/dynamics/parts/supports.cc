@@ -41,14 +41,12 @@ namespace tread
   }
 
 
-  std::vector<double> RailOnSupports::bend(State &state, const std::vector<MovingLoad> &loads) const
+  std::vector<SoftBody> RailOnSupports::soft_bodies(const State &) const
   {
-    const RailBeam::Field field = beam.balance(state.force.data(), on_beam(loads, 0.));
-    beam.add(field, 1., state.x_damped.data()); // at rest
-    std::vector<double> up;
-    for (const MovingLoad &load : loads)
-      up.push_back(field.rail.deflection(load.x).real());
-    return up;
+    std::vector<SoftBody> bodies{{supports.rail_body, SoftBody::Shape::line}};
+    for (const auto &sleeper : supports.solid_sleepers)
+      bodies.push_back({sleeper.body, SoftBody::Shape::piece});
+    return bodies;
   }
 
 

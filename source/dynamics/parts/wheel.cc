@@ -3,8 +3,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace tread
 {
@@ -45,6 +47,25 @@ namespace tread
       of_all[k] = sums[k].value(of.mesh.comm);
     hub.take_out(of_all[0], of_all[1], Vector3{of_all[2], of_all[3], of_all[4], 0.});
     hub.settle_with(of.parameters.density_scale * of_all[5], of.parameters.density_scale * of_all[0]);
+  }
+
+
+  std::vector<SoftBody> WheelOnHub::soft_bodies(const State &state) const
+  {
+    // A sector has cells below its axle alone.
+    double above = std::numeric_limits<double>::lowest(), below = above;
+    for (unsigned int i = 0; i < of.mesh.nodes.size(); ++i)
+      if (of.mesh.node_bodies[i] == body_number)
+        {
+          const double z = state.position(i)[2] - hub.middle()[2];
+          above          = std::max(above, z);
+          below          = std::max(below, -z);
+        }
+    above = dealii::Utilities::MPI::max(above, of.mesh.comm);
+    below = dealii::Utilities::MPI::max(below, of.mesh.comm);
+    if (above < 0.9 * below)
+      return {};
+    return {{body_number, SoftBody::Shape::ring, hub.middle(), nodes}};
   }
 
 

@@ -72,11 +72,11 @@ namespace tread
     {
       supports.set_at_rest(state.x_damped.data());
     }
-    std::vector<double> bend(State &state, const std::vector<MovingLoad> &loads) const override;
-    std::vector<double> follow(State                                   &state,
-                               const std::vector<MovingLoad>           &loads,
-                               const std::function<void(NodalField &)> &constrain) override;
-    void                serialize(Archive &archive) override
+    std::vector<SoftBody> soft_bodies(const State &) const override;
+    std::vector<double>   follow(State                                   &state,
+                                 const std::vector<MovingLoad>           &loads,
+                                 const std::function<void(NodalField &)> &constrain) override;
+    void                  serialize(Archive &archive) override
     {
       supports.serialize(archive);
     }

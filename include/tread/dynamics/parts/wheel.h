@@ -45,7 +45,9 @@ namespace tread
     {
       return hub.gross_work();
     }
-    void balance() override
+    /// A whole wheel.
+    std::vector<SoftBody> soft_bodies(const State &state) const override;
+    void                  balance() override
     {
       hub.balance_suspension();
     }
@@ -72,7 +74,7 @@ namespace tread
     {
       return hub.position_of(arm) - hub.middle();
     }
-    void        take(const LoadsOnBody &loads_of_step) override
+    void take(const LoadsOnBody &loads_of_step) override
     {
       loads = loads_of_step;
     }
