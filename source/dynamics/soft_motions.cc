@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace tread
@@ -306,9 +307,10 @@ namespace tread
           {
             if (stiffness.m() > 0)
               return false;
-            if (least < 1.)
-              continue;
-            throw;
+            if (least >= 1.)
+              throw std::runtime_error(
+                "no equilibrium at the start: rail, sleepers or wheel resist no motion");
+            continue;
           }
         stiffness = std::move(factor);
         return true;
