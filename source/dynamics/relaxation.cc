@@ -125,7 +125,8 @@ namespace tread
   private:
     /// @throws std::runtime_error, one line, if nodes move by more in an iteration than any start needs.
     /// Collective.
-    void   check_that_nodes_stay() const;
+    void check_that_nodes_stay() const;
+    /// What forces out of balance are compared with, N.
     double scale() const
     {
       return load > 0. ? load : std::max(first_residual, no_force);

@@ -164,6 +164,15 @@ namespace tread
   }
 
 
+  template <typename Loop>
+  void SoftMotions::for_line(const double x, const Loop &loop) const
+  {
+    for (const Body &body : bodies)
+      if (body.what.shape == SoftBody::Shape::line)
+        for_motions(body, Vector3{x, 0., body.high[2], 0.}, loop);
+  }
+
+
   void SoftMotions::project(const NodalField &force, double *shares) const
   {
     for (unsigned int i = 0; i < at.size(); ++i)
@@ -191,11 +200,7 @@ namespace tread
   double SoftMotions::up(const dealii::Vector<double> &amplitudes, const double x) const
   {
     double up = 0.;
-    for (const Body &body : bodies)
-      if (body.what.shape == SoftBody::Shape::line)
-        for_motions(
-          body, Vector3{x, 0., body.high[2], 0.},
-          [&](const unsigned int motion, const Vector3 &way) { up += amplitudes[motion] * way[2]; });
+    for_line(x, [&](const unsigned int motion, const Vector3 &way) { up += amplitudes[motion] * way[2]; });
     return up;
   }
 
@@ -324,13 +329,10 @@ namespace tread
     std::vector<double> shares(n_motions, 0.);
     project(force, shares.data());
     dealii::Utilities::MPI::sum(shares, mesh.comm, shares);
-    for (const Body &body : bodies)
-      if (body.what.shape == SoftBody::Shape::line)
-        for (const MovingLoad &load : loads)
-          for_motions(body, Vector3{load.x, 0., body.high[2], 0.},
-                      [&](const unsigned int motion, const Vector3 &displacement) {
-                        shares[motion] += load.force * displacement[2];
-                      });
+    for (const MovingLoad &load : loads)
+      for_line(load.x, [&](const unsigned int motion, const Vector3 &displacement) {
+        shares[motion] += load.force * displacement[2];
+      });
     Balance balance{dealii::Vector<double>(shares.begin(), shares.end()), 0., 0.};
     stiffness.solve(balance.amplitudes);
     for (unsigned int motion = 0; motion < n_motions; ++motion)

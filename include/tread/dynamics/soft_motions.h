@@ -93,6 +93,9 @@ namespace tread
     /// Call loop(motion, displacement) for the motions of a body that move a place.
     template <typename Loop>
     void for_motions(const Body &body, const Vector3 &place, const Loop &loop) const;
+    /// The same for what stands on the line at x.
+    template <typename Loop>
+    void for_line(const double x, const Loop &loop) const;
     /// Add the shares of the motions in forces on this rank's own nodes.
     void        project(const NodalField &force, double *shares) const;
     const Body *body_of(const unsigned int node) const
