@@ -60,6 +60,7 @@ namespace tread
     centroid_z          = firsts.value(mesh.comm) / volume;
     const double area = volume / (end - begin), moment_of_inertia = seconds.value(mesh.comm) / (end - begin) -
                                                                     area * centroid_z * centroid_z;
+    reference::BeamSection rail_section;
     rail_section.bending_stiffness = rail.young_modulus * moment_of_inertia;
     rail_section.shear_stiffness =
       shear_coefficient * rail.young_modulus / (2. * (1. + rail.poisson_ratio)) * area;

@@ -43,16 +43,10 @@ namespace tread
     /// Add factor times the field to the values of rail and solid sleepers.
     void add(const Field &field, const double factor, Vector3 *values) const;
 
-    reference::BeamSection section() const
-    {
-      return rail_section;
-    }
-
   private:
     const Mesh                                     &mesh;
     const Supports                                 &supports;
-    unsigned int                                    n_before = 0; ///< supports before the cells
-    reference::BeamSection                          rail_section;
+    unsigned int                                    n_before   = 0; ///< supports before the cells
     double                                          centroid_z = 0.;
     std::vector<int>                                support_of_body; ///< of a solid sleeper; -1: none
     std::unique_ptr<const reference::SupportedBeam> beam;
