@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/mesh/mesh.h>
 
-#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
@@ -21,9 +21,8 @@ namespace tread
 {
   namespace
   {
-    using Triangulation = dealii::parallel::TriangulationBase<3>;
+    using Triangulation = dealii::Triangulation<3>; // each rank has all of it, unless it is
     using InParts       = dealii::parallel::distributed::Triangulation<3>;
-    using Whole         = dealii::parallel::shared::Triangulation<3>;
 
     void make_coarse_mesh(Triangulation &triangulation, const std::vector<Body> &bodies)
     {
@@ -69,8 +68,7 @@ namespace tread
 
 
     /// The octree halves a cell until its longest edge is near what its corners and centre ask for.
-    /// @param whole whether this rank has to refine the cells of all
-    void refine(Triangulation &triangulation, const std::vector<Body> &bodies, const bool whole)
+    void refine(Triangulation &triangulation, const std::vector<Body> &bodies)
     {
       constexpr double       tolerance  = 1.2;
       constexpr unsigned int max_levels = 12;
@@ -78,7 +76,7 @@ namespace tread
         {
           bool any = false;
           for (const auto &cell : triangulation.active_cell_iterators())
-            if ((whole || cell->is_locally_owned()) && !cell->user_flag_set())
+            if (cell->is_locally_owned() && !cell->user_flag_set())
               {
                 const Body &body   = bodies[cell->material_id()];
                 double      wanted = body.wanted_cell_size(cell->center());
@@ -202,7 +200,7 @@ namespace tread
     /// Share a mesh that each rank has as a whole, as equally by cost and with as few common faces as METIS
     /// can.
     /// @param cost_of each cell; none: number of cells
-    void share(Whole &triangulation, const CostOfCell *cost_of)
+    void share(Triangulation &triangulation, const unsigned int n_ranks, const CostOfCell *cost_of)
     {
       std::vector<unsigned int> weights;
       if (cost_of)
@@ -214,20 +212,14 @@ namespace tread
           for (const double of_cell : costs)
             weights.push_back(std::max(1l, std::lround(of_cell / unit)));
         }
-      const auto connection = triangulation.signals.post_refinement.connect([&] {
-        dealii::GridTools::partition_triangulation(
-          dealii::Utilities::MPI::n_mpi_processes(triangulation.get_communicator()), weights, triangulation,
-          dealii::SparsityTools::Partitioner::metis);
-      });
-      triangulation.execute_coarsening_and_refinement(); // of none: what makes ghosts of the others' cells
-      connection.disconnect();
+      dealii::GridTools::partition_triangulation(n_ranks, weights, triangulation,
+                                                 dealii::SparsityTools::Partitioner::metis);
     }
 
     std::unique_ptr<Triangulation> empty_triangulation(const MPI_Comm comm, const bool whole)
     {
       if (whole)
-        return std::make_unique<Whole>(comm, Whole::limit_level_difference_at_vertices, true,
-                                       Whole::partition_custom_signal);
+        return std::make_unique<Triangulation>(Triangulation::limit_level_difference_at_vertices);
       return std::make_unique<InParts>(comm, InParts::limit_level_difference_at_vertices);
     }
 
@@ -265,11 +257,13 @@ namespace tread
     }
 
     /// Add this rank's cells and their faces on the boundary.
+    /// @param rank this rank's number
     /// @param local_number number of a node by its global one; a new node if it is met for the first time
     /// @param level_of_node the least of the likely levels of the cells around each node
     template <typename LocalNumber>
     void add_cells(Mesh                        &mesh,
                    const dealii::DoFHandler<3> &dof_handler,
+                   const unsigned int           rank,
                    const LocalNumber           &local_number,
                    const LikelyLevels          &likely_level,
                    const std::vector<Body>     &bodies,
@@ -281,7 +275,7 @@ namespace tread
 
       std::vector<dealii::types::global_dof_index> dofs(Mesh::nodes_per_cell);
       for (const auto &cell : dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
+        if (cell->subdomain_id() == rank)
           {
             cell->get_dof_indices(dofs);
             Mesh::Cell c;
@@ -351,17 +345,17 @@ namespace tread
              const bool               is_small)
     : comm(comm)
   {
-    const bool                           one_rank      = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
-    const bool                           whole         = is_small || one_rank;
+    const unsigned int                   n_ranks       = dealii::Utilities::MPI::n_mpi_processes(comm);
+    const bool                           whole         = is_small || n_ranks == 1;
     const std::unique_ptr<Triangulation> made          = empty_triangulation(comm, whole);
     Triangulation                       &triangulation = *made;
     make_coarse_mesh(triangulation, bodies);
-    refine(triangulation, bodies, whole);
+    refine(triangulation, bodies);
     const LikelyLevels likely_level(triangulation, max_level);
     const CostOfCell   cost_of(bodies, likely_level, cost);
-    if (whole && !one_rank)
-      share(dynamic_cast<Whole &>(triangulation), cost ? &cost_of : nullptr);
-    else if (cost && !one_rank)
+    if (whole && n_ranks > 1)
+      share(triangulation, n_ranks, cost ? &cost_of : nullptr);
+    else if (cost && n_ranks > 1)
       balance(dynamic_cast<InParts &>(triangulation), cost_of);
 
     const dealii::FE_Q<3> fe(1);
@@ -396,7 +390,8 @@ namespace tread
       return number;
     };
 
-    add_cells(*this, dof_handler, local_number, likely_level, bodies, level_of_node);
+    add_cells(*this, dof_handler, dealii::Utilities::MPI::this_mpi_process(comm), local_number, likely_level,
+              bodies, level_of_node);
     add_hanging_nodes(*this, constraints, local_number, global_ids, level_of_node, max_level + 1);
     renumber(level_of_node, global_ids);
     // deal.II lists parents by numbers that depend on the ranks. By position their mean is the same to the
