@@ -131,16 +131,26 @@ namespace tread
   }
 
 
-  Vector3 WheelHub::turned(const Vector3 v, const double angle) const
+  Vector3 WheelHub::turned(const Vector3 v, const Turn turn) const
   {
-    const double x = dot(reference.x, v), z = dot(reference.z, v), c = std::cos(angle), s = std::sin(angle);
-    return (c * x + s * z) * present.x + dot(reference.y, v) * present.y + (c * z - s * x) * present.z;
+    const double x = dot(reference.x, v), z = dot(reference.z, v);
+    return (turn.cosine * x + turn.sine * z) * present.x + dot(reference.y, v) * present.y +
+           (turn.cosine * z - turn.sine * x) * present.z;
+  }
+
+
+  std::array<WheelHub::Turn, 2> WheelHub::turns() const
+  {
+    if (!flexible)
+      return {Turn(motion.angle), Turn(motion.angle)};
+    return {Turn(motion.angle + flexible->twist(FlexibleAxle::own)),
+            Turn(motion.angle + flexible->twist(FlexibleAxle::other))};
   }
 
 
   double WheelHub::static_force() const
   {
-    const double moment_z = turned(reference_first_moment, motion.angle)[2];
+    const double moment_z = turned(reference_first_moment, Turn(motion.angle))[2];
     return -(parameters.mass + parameters.sprung_mass) * parameters.gravity +
            motion.angular_velocity * motion.angular_velocity * moment_z;
   }
@@ -256,7 +266,7 @@ namespace tread
     const double acceleration   = vertical_force / mass_up();
 
     motion.velocity_z += time_step * acceleration;
-    const Vector3 moments = turned(reference_first_moment, motion.angle); // of the rest
+    const Vector3 moments = turned(reference_first_moment, Turn(motion.angle)); // of the rest
     // What it moves by when the axle turns; the component along z is its lever about the axle.
     const Vector3 by_turning = cross(axle(), moments);
     // The rest that balances the cells lags behind when the axle moves up: a moment.
@@ -309,13 +319,12 @@ namespace tread
   }
 
 
-  Vector3 WheelHub::position_of(const Vector3 arm) const
+  Vector3 WheelHub::position_of(const Vector3 arm, const std::array<Turn, 2> &turns) const
   {
     if (!flexible)
-      return middle() + turned(arm, motion.angle);
+      return middle() + turned(arm, turns[FlexibleAxle::own]);
     const auto    side = dot(reference.y, arm) > 0. ? FlexibleAxle::own : FlexibleAxle::other;
-    const Vector3 from = middle_of(side),
-                  way  = middle() + turned(arm, motion.angle + flexible->twist(side)) - from;
+    const Vector3 from = middle_of(side), way = middle() + turned(arm, turns[side]) - from;
     const Vector3 tilt = in_space(flexible->tilt(side));
     // Rodrigues.
     const double angle = std::sqrt(dot(tilt, tilt));
@@ -343,7 +352,7 @@ namespace tread
   double WheelHub::kinetic_energy(const double time_back) const
   {
     const Vector3 moments =
-      turned(reference_first_moment, motion.angle - time_back * motion.angular_velocity);
+      turned(reference_first_moment, Turn(motion.angle - time_back * motion.angular_velocity));
     const double in_plane = motion.velocity_x * motion.velocity_x + motion.velocity_y * motion.velocity_y;
     return 0.5 * (parameters.mass * in_plane + mass_up() * motion.velocity_z * motion.velocity_z) +
            motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +

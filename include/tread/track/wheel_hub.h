@@ -6,6 +6,8 @@
 #include <tread/base/simd.h>
 #include <tread/track/flexible_axle.h>
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -221,8 +223,25 @@ namespace tread
       return lateral_guidance;
     }
 
+    /// Cosine and sine of the angle by which a wheel has turned.
+    struct Turn
+    {
+      explicit Turn(const double angle)
+        : cosine(std::cos(angle))
+        , sine(std::sin(angle))
+      {
+      }
+      double cosine, sine;
+    };
+    /// Present turns of both wheels, for a loop over points; the first one's is that of a wheel alone.
+    std::array<Turn, 2> turns() const;
+
     /// Position of a point that is fixed to the hub, from its reference position relative to the middle.
-    Vector3 position_of(const Vector3 reference) const;
+    Vector3 position_of(const Vector3 reference) const
+    {
+      return position_of(reference, turns());
+    }
+    Vector3 position_of(const Vector3 reference, const std::array<Turn, 2> &turns) const;
 
     /// Velocity of a point of the hub that is at x at present.
     Vector3 velocity_at(const Vector3 x) const;
@@ -271,7 +290,7 @@ namespace tread
     static Frame frame(const double yaw, const double roll);
 
     /// A vector of the reference configuration turned about the axle, and with it.
-    Vector3 turned(const Vector3 reference, const double angle) const;
+    Vector3 turned(const Vector3 reference, const Turn turn) const;
 
     /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
     /// moment of all but guidance (N, N m). @returns work of guidance, J

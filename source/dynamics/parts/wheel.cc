@@ -118,10 +118,11 @@ namespace tread
 
   void WheelOnHub::place_nodes(State &state) const
   {
+    const auto turns = hub.turns();
     for (unsigned int k = 0; k < nodes.size(); ++k)
       {
         const unsigned int i = nodes[k];
-        const Vector3      x = hub.position_of(reference[k]);
+        const Vector3      x = hub.position_of(reference[k], turns);
         state.v[i]           = hub.velocity_at(x);
         state.set_position(i, x);
       }
