@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace tread
 {
@@ -96,9 +98,13 @@ namespace tread
 
   void ExplicitDynamics::go_on_from(ExplicitDynamics &before)
   {
-    const double unaccounted = before.ledger().residual();
-    state.time               = before.state.time;
-    state.n_steps            = before.state.n_steps;
+    state.time    = before.state.time;
+    state.n_steps = before.state.n_steps;
+    if (!synchronised())
+      throw std::logic_error("a motion goes on after " + std::to_string(state.n_steps) +
+                             " steps with cells that are due every " + std::to_string(1u << max_level()));
+    const double unaccounted   = before.ledger().residual(),
+                 damping_power = before.begin_damping_sample().power;
     take_nodes(before);
     if (contact)
       contact->go_on_from(*before.contact);
@@ -111,7 +117,14 @@ namespace tread
     set_inertia();
     prepare_step();
 
-    totals              = before.totals;
+    const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0;
+    totals                   = before.totals;
+    // What was damped since the last sample, in steps of another length.
+    if (is_first_rank)
+      totals.damping.add(before.damping_since_sample(damping_power));
+    last_damping_power  = damping_power;
+    last_damping_step   = state.n_steps;
+    damping_is_sampled  = true;
     start_kinetic       = before.start_kinetic;
     start_potential     = before.start_potential;
     start_strain        = before.start_strain;
@@ -119,15 +132,12 @@ namespace tread
     start_gross_work    = before.start_gross_work;
     start_springs       = before.start_springs;
     start_dissipated    = before.start_dissipated;
-    last_damping_power  = before.last_damping_power;
-    last_damping_step   = before.last_damping_step;
-    damping_is_sampled  = before.damping_is_sampled;
     spent               = before.spent;
     // A chord has less mass than the arc. The hub makes up for it, but not for what density scaling makes of
     // it: that comes with the speed of the wheel, and is no loss of its cells' motion.
     const double added = energy_of_added_mass() - before.energy_of_added_mass(),
                  lost  = ledger().residual() - unaccounted + added;
-    if (dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0)
+    if (is_first_rank)
       {
         totals.window.add(lost);
         totals.external_work.add(added);

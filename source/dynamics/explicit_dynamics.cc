@@ -40,6 +40,7 @@ namespace tread
     if (solid.may_add_mass())
       added_mass = nodal_masses([&](const unsigned int c) { return solid.added_share(c); });
     set_node_levels();
+    gain_of_levels = ideal_gain_of_levels(max_level());
   }
 
 

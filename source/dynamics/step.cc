@@ -226,8 +226,9 @@ namespace tread
   {
     Stopwatch                    watch;
     std::optional<DampingSample> sample;
-    if (synchronised() && (!damping_is_sampled ||
-                           state.n_steps >= last_damping_step + parameters.steps_between_damping_samples))
+    if (synchronised() &&
+        (!damping_is_sampled ||
+         state.n_steps >= last_damping_step + steps_worth(parameters.steps_between_damping_samples)))
       sample = begin_damping_sample();
     const unsigned int due = level_due();
     add_forces_due(due);

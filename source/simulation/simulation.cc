@@ -25,8 +25,7 @@ namespace tread
     /// Something that is done after so many steps at the latest.
     struct EverySoManySteps
     {
-      unsigned int  steps;
-      std::uint64_t next;
+      std::uint64_t steps, next;
 
       bool due(const std::uint64_t step)
       {
@@ -111,7 +110,10 @@ namespace tread
 
   bool Simulation::at_end_of_window() const
   {
+    // The next mesh may have cells with longer steps than any of this one: they are due as well.
+    const std::uint64_t together = std::uint64_t(1) << (scene.time_stepping.levels - 1);
     return scene.has_window() && window.number + 1 < scene.n_windows() &&
+           model.dynamics.state.n_steps % together == 0 &&
            model.position() >= scene.path_begin() + (window.number + 1) * scene.window_length();
   }
 
@@ -220,8 +222,9 @@ namespace tread
   {
     std::uint64_t n_steps = model.dynamics.state.n_steps + model.remaining_steps();
     // mpirun gives its ranks a second to end after Ctrl-C.
-    EverySoManySteps look_at_signals{10, model.dynamics.state.n_steps},
-      check{100, model.dynamics.state.n_steps + 100};
+    EverySoManySteps    look_at_signals{10, model.dynamics.state.n_steps};
+    const std::uint64_t between_checks = model.dynamics.steps_worth(100);
+    EverySoManySteps    check{between_checks, model.dynamics.state.n_steps + between_checks};
     while (model.dynamics.state.n_steps < n_steps)
       {
         set_drive();
@@ -237,8 +240,8 @@ namespace tread
           }
         write_what_is_due(folder);
 
-        const bool at_end = model.dynamics.state.n_steps == n_steps,
-                   checks = check.due(model.dynamics.state.n_steps);
+        const bool at_end = model.dynamics.state.n_steps == n_steps, at_border = at_end_of_window(),
+                   checks = check.due(model.dynamics.state.n_steps) || at_border;
         if (checks || at_end)
           {
             model.dynamics.check_stability();
@@ -259,18 +262,14 @@ namespace tread
           }
         if (look_at_signals.due(model.dynamics.state.n_steps) && interrupted())
           return End::interrupted;
-        if (at_end_of_window())
-          {
-            model.dynamics.check_stability();
-            model.dynamics.check_cells();
-            return End::of_window;
-          }
         if (checks)
           {
             keep_checkpoint(checkpoint, progress, pace);
             if (progress.due())
               show_pace(progress, pace, n_steps - model.dynamics.state.n_steps);
           }
+        if (at_border)
+          return End::of_window;
       }
     return End::complete;
   }

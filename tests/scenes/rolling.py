@@ -34,7 +34,7 @@ NUMBERS = ["normal_force_N", "longitudinal_force_N", "traction_coefficient", "cr
 
 
 def same(name, a, b, allowed, damping_allowed=None):
-    """Equal measures. Damping is sampled every 50 steps: an interruption in between shifts the samples. Chatter of the
+    """Equal measures. Where damping is sampled depends on the steps of each way. Chatter of the
     micro-slip is a small difference of two large numbers."""
     for key in NUMBERS:
         shifted = damping_allowed is not None and key in ("damping_work_J", "dissipated_work_J", "slip_chatter_share")

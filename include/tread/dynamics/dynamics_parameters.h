@@ -25,10 +25,11 @@ namespace tread
     /// 46 GPa, a hundred times the strength of steel. An unstable motion grows exponentially, so that half or
     /// double the limit finds it a few steps earlier or later.
     double largest_speed = 1e3;
-    /// Interval, in steps, at which the energy dissipated by stiffness damping and bulk viscosity is sampled,
-    /// with two more force evaluations. It is assumed to vary linearly in between; with 1 it is counted
-    /// exactly. The number is a prime, because a vibration whose period divides it would always be sampled in
-    /// the same phase.
+    /// Interval, in steps of all cells, at which the energy dissipated by stiffness damping and bulk
+    /// viscosity is sampled, with two more force evaluations. With levels, whose steps update fewer cells, it
+    /// is as many times longer, in whole steps of the longest level. Power is assumed to vary linearly in
+    /// between; with 1 and without levels it is counted exactly. The number is a prime, because without levels
+    /// a vibration whose period divides it would always be sampled in the same phase.
     unsigned int steps_between_damping_samples = 47;
   };
 } // namespace tread

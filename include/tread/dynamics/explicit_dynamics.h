@@ -124,7 +124,13 @@ namespace tread
     double ideal_gain_of_levels(const unsigned int largest_level) const;
     double ideal_gain_of_levels() const
     {
-      return ideal_gain_of_levels(max_level());
+      return gain_of_levels;
+    }
+    /// Steps with levels that update as many cells as this number of steps would without: what is done for
+    /// all cells now and then takes the same share of the time.
+    std::uint64_t steps_worth(const unsigned int steps_of_all_cells) const
+    {
+      return static_cast<std::uint64_t>(steps_of_all_cells * gain_of_levels);
     }
 
     /// Find the equilibrium at rest under weight, the hubs' static forces and the centrifugal force of the
@@ -379,6 +385,7 @@ namespace tread
 
     DynamicsParameters  parameters;
     NodeLevels          levels;
+    double              gain_of_levels = 1.;
     NodalField          force_before;            ///< of the cells of a level, on nodes that share them
     NodalField          given_to_owners;         ///< of these forces, what is one rank's alone
     std::vector<double> true_mass, inverse_mass; ///< by node, kg; 1/kg of scaled mass, 0 where prescribed
