@@ -28,8 +28,8 @@ namespace tread
     /// Interval, in steps of all cells, at which the energy dissipated by stiffness damping and bulk
     /// viscosity is sampled, with two more force evaluations. With levels, whose steps update fewer cells, it
     /// is as many times longer, in whole steps of the longest level. Power is assumed to vary linearly in
-    /// between; with 1 and without levels it is counted exactly. The number is a prime, because without levels
-    /// a vibration whose period divides it would always be sampled in the same phase.
+    /// between; with 1 and without levels it is counted exactly. The number is a prime, because without
+    /// levels a vibration whose period divides it would always be sampled in the same phase.
     unsigned int steps_between_damping_samples = 47;
   };
 } // namespace tread
