@@ -14,7 +14,7 @@ change are drawn again, and so are changes that do not compile. The changes:
   dropped      the last term of a sum is left out
 
   contrib/draw-faults.py --seed 3 --number 60                        the list
-  contrib/draw-faults.py --seed 3 --number 60 --try                  build in build-drawn, try them, fill doc/mutations.md
+  contrib/draw-faults.py --seed 3 --number 60 --try                  build in build-drawn, try them, fill doc/dev/records/mutations.md
   contrib/draw-faults.py --seed 3 --number 60 --patch 17 FILE        FILE with the fault of that number, for a build
   contrib/draw-faults.py --number 300 --check                        each can be chosen at run time (no build)
 
@@ -480,7 +480,7 @@ def without_equivalent(tried: list[int], attempts: Attempts, known: dict[int, di
 
 
 def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], attempts: Attempts, not_compiled: int) -> None:
-    """The tables of doc/mutations.md on drawn faults. @param inside numbers of those that were tried"""
+    """The tables of doc/dev/records/mutations.md on drawn faults. @param inside numbers of those that were tried"""
     path = os.path.join(ROOT, f"tests/mutations/drawn/{seed}.toml")
     known = {one["number"]: one for one in read_toml(path)["fault"]} if os.path.exists(path) else {}
     folders = collections.defaultdict(list)
@@ -506,14 +506,14 @@ def write_page(seed: int, commit: str, faults: list[dict], inside: list[int], at
                               f"`{why['noticed']}` does since" if "noticed" in why else why.get("equivalent", why.get("survives", unknown))])
     names = [f"`{name}`" for name, test in sorted(attempts.tests.items()) if test["passes"]]
     missing = "" if not not_compiled else f" ({not_compiled} more did not)"
-    fill("mutations.md", f"drawn {seed}", markdown(["folder", "drawn", "tried", "noticed", "share", "with the tests written since", "share"], rows)
+    fill("dev/records/mutations.md", f"drawn {seed}", markdown(["folder", "drawn", "tried", "noticed", "share", "with the tests written since", "share"], rows)
          + f"\n\nThe first {len(faults)} faults of seed {seed} that compile{missing}, drawn from the sources of {commit}. What ran: {', '.join(names)}; "
          + f"{sum(attempts.of(fault['number'])['seconds'] for fault in faults):.0f} s with a fault on a machine that was busy otherwise. "
          + ("Tried are those with which one of these tests ran; nothing is known of the others. " if any(f["number"] not in inside for f in faults) else "")
          + without_equivalent([fault["number"] for fault in faults if fault["number"] in inside], attempts, known)
          + f"{machine()}; `contrib/draw-faults.py --seed {seed} --number {len(faults)} --try`.")
-    fill("mutations.md", f"drawn survivors {seed}", markdown(["number", "line", "it was", "with the fault", "why no test noticed it"], survivors or [["-"] * 5]))
-    fill("mutations.md", f"drawn noticed {seed}", markdown(["number", "line", "change", "noticed by"], noticed_by or [["-"] * 4]))
+    fill("dev/records/mutations.md", f"drawn survivors {seed}", markdown(["number", "line", "it was", "with the fault", "why no test noticed it"], survivors or [["-"] * 5]))
+    fill("dev/records/mutations.md", f"drawn noticed {seed}", markdown(["number", "line", "change", "noticed by"], noticed_by or [["-"] * 4]))
 
 
 def main() -> None:
@@ -540,11 +540,11 @@ def main() -> None:
         for fault in faults:
             print(f"{fault['number']:3} {fault['file']}:{fault['line']} {fault['kind']}\n    - {fault['old'].strip()}\n    + {fault['new'].strip()}")
         return
-    with open(os.path.join(ROOT, "doc/mutations.md"), encoding="utf-8") as stream:
+    with open(os.path.join(ROOT, "doc/dev/records/mutations.md"), encoding="utf-8") as stream:
         page = stream.read()
     for table in (f"{kind} {arguments.seed}" for kind in ("drawn", "drawn survivors", "drawn noticed")):
         if not marked(table).search(page):
-            raise Error(f"doc/mutations.md has no place for the table '{table}': each seed has its own three")
+            raise Error(f"doc/dev/records/mutations.md has no place for the table '{table}': each seed has its own three")
     # A fault that allocates or writes without end takes the machine from nobody.
     resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
     resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 30, 4 << 30))

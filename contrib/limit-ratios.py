@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How near the tests' limits are to the errors found: fill the table of doc/mutations.md from the log of contrib/test.sh.
+"""How near the tests' limits are to the errors found: fill the table of doc/dev/records/mutations.md from the log of contrib/test.sh.
 
 Statements that hold or do not, and comparisons without any error, have no ratio and are counted apart. A limit that comparisons of a test share is
 as loose as the largest of their errors makes it. tests/loose-limits.toml says why some limits stay wide.
@@ -94,7 +94,7 @@ def main():
     columns = ["statements", "none", *RATIOS, "more", "loose", "reason"]
     header = ["tests", "statements", "no error", *(f"limit below {ratio} errors" for ratio in RATIOS), "above", "loose", "loose with a reason"]
     rows = [[group, *(str(counts[group][column]) for column in columns)] for group in sorted(counts, key=lambda group: (group == "all", group))]
-    fill("mutations.md", "limits", markdown(header, rows))
+    fill("dev/records/mutations.md", "limits", markdown(header, rows))
 
 
 run_command(main)

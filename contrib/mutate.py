@@ -7,7 +7,7 @@ place, and the tests that should notice it. All of them are compiled into one pr
 TREAD_FAULT chooses the one that acts. `old` that ends in ';' is whole statements, anything else an expression.
 
   contrib/mutate.py --check               the places of all faults are there (no build)
-  contrib/mutate.py                       build in build-mutations, try the faults not noticed yet, fill doc/mutations.md
+  contrib/mutate.py                       build in build-mutations, try the faults not noticed yet, fill doc/dev/records/mutations.md
   contrib/mutate.py --only contact-       try some of them (again)
 
 Ctrl-C ends it after the tests that run, with what was found so far in the page.
@@ -198,7 +198,7 @@ def change_of(fault):
 
 
 def write_page(faults, results):
-    """The tables of doc/mutations.md."""
+    """The tables of doc/dev/records/mutations.md."""
     folders = collections.defaultdict(list)
     for fault in faults:
         folders[fault["name"].split("-")[0]].append(fault)
@@ -216,10 +216,10 @@ def write_page(faults, results):
     if not counts["tried"]:
         return
     rows.append(["all", str(counts["tried"]), str(counts["noticed"]), f"{100 * counts['noticed'] / counts['tried']:.1f} %"])
-    fill("mutations.md", "mutations", markdown(["folder", "faults", "noticed", "share"], rows)
+    fill("dev/records/mutations.md", "mutations", markdown(["folder", "faults", "noticed", "share"], rows)
          + f"\n\n{counts['tried']} of the {len(faults)} listed faults have been tried. {machine()}; `contrib/mutate.py`.")
-    fill("mutations.md", "survivors", markdown(["fault", "what it does", "why no test notices it"], survivors or [["-", "-", "-"]]))
-    fill("mutations.md", "faults", markdown(["fault", "what it does", "noticed by"],
+    fill("dev/records/mutations.md", "survivors", markdown(["fault", "what it does", "why no test notices it"], survivors or [["-", "-", "-"]]))
+    fill("dev/records/mutations.md", "faults", markdown(["fault", "what it does", "noticed by"],
                                             [[f"`{fault['name']}`", fault["what"], f"`{results[fault['name']]['noticed']}`"]
                                              for fault in faults if results.get(fault["name"], {}).get("noticed")]))
 

@@ -8,7 +8,7 @@
 #   contrib/sanitize.sh threads       data races in the half-space library, in build-threads/: a minute
 #   contrib/sanitize.sh llvm READER   the fuzzer of LLVM, in build-llvm/: needs clang-14 and libclang-rt-14-dev
 #   contrib/sanitize.sh               readers, tests, scenes, checkpoints and threads
-# Whatever is found ends with an exit status that is not 0. doc/sanitizers.md says what is covered.
+# Whatever is found ends with an exit status that is not 0. doc/dev/records/sanitizers.md says what is covered.
 # TREAD_JOBS     compilers and tests at a time (default: the number of processors)
 # TREAD_EFFORT   factor on the numbers of files (default 1); TREAD_SEED other files (default 1)
 set -euo pipefail

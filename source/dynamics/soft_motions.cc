@@ -3,7 +3,6 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace tread
 {
   namespace
   {
-    using dealii::numbers::PI;
-
     /// Distance of the stations of a rail, m: a quarter of a span. The relaxation does what is shorter.
     constexpr double distance_of_stations = 0.15;
     /// So many stations of a rail are enough: the matrix is full.
@@ -139,24 +136,30 @@ namespace tread
         // A plate without shear strain (Kirchhoff) that bends to the side, clamped inside.
         {
           const Vector3 arm   = place - body.what.middle;
-          const double  r     = std::hypot(arm[0], arm[2]);
+          const double  r     = std::sqrt(arm[0] * arm[0] + arm[2] * arm[2]);
           const double  width = body.high[2] - body.what.middle[2] - body.hub;
           const double  s     = (r - body.hub) / width;
           const Vector3 outwards{arm[0] / r, 0., arm[2] / r, 0.}, around{-arm[2] / r, 0., arm[0] / r, 0.};
-          const double  angle = std::atan2(arm[2], arm[0]);
+          double        cosine = 1., sine = 0.; // of the angle times the number of waves
           for (unsigned int f = 0; f < body.n; ++f)
             {
-              const unsigned int waves = (f + 1) / 2;
-              const double       shift = f % 2 == 0 ? 0. : -0.5 * PI; // cosines, and sines
-              const double       phase = waves * angle + shift, wave = std::cos(phase);
-              const double       slope = -std::sin(phase) * waves;
+              const unsigned int waves   = (f + 1) / 2;
+              const bool         is_sine = f % 2 == 1; // the first of this number
+              if (is_sine)
+                {
+                  const double before = cosine;
+                  cosine              = before * outwards[0] - sine * outwards[2];
+                  sine                = sine * outwards[0] + before * outwards[2];
+                }
+              const double wave = is_sine ? sine : cosine, slope = waves * (is_sine ? cosine : -sine);
+              double       lower = s; // power
               for (unsigned int power = 2; power < 2 + body.n_motions(); ++power)
                 {
-                  const double way = std::pow(s, power);
+                  const double way = lower * s;
                   loop(body.first + f * body.n_motions() + power - 2,
-                       Vector3{0., way * wave, 0., 0.} -
-                         arm[1] * power * std::pow(s, power - 1) / width * wave * outwards -
+                       Vector3{0., way * wave, 0., 0.} - arm[1] * power * lower / width * wave * outwards -
                          arm[1] * way * slope / r * around);
+                  lower = way;
                 }
             }
         }
@@ -277,6 +280,8 @@ namespace tread
           for (const unsigned int s : groups[g])
             if (m < all[s].body->n_motions())
               amplitudes[motion(s, m)] = probe;
+          if (amplitudes.all_zero())
+            continue;
           project(forces_by(field(amplitudes)), shares_of(g, m));
         }
     dealii::Utilities::MPI::sum(shares, mesh.comm, shares);

@@ -142,13 +142,14 @@ namespace tread
     // No cell can vibrate as fast in the mesh as it would alone: Lanczos' method on M^-1 K finds how fast the
     // mesh does. Its largest Ritz value comes from below, hence the margin; the cells' bound stays the limit.
     const std::vector<double> inverse = free_inverse_masses();
-    const auto                product = [&](const NodalField &a, const NodalField &b) {
+    std::vector<double>       own_mass(state.v.size()), terms(state.v.size());
+    for (unsigned int i = 0; i < own_mass.size(); ++i)
+      own_mass[i] = inverse[i] > 0. && mesh.shared_nodes.is_owned(i) ? 1. / inverse[i] : 0.;
+    const auto product = [&](const NodalField &a, const NodalField &b) {
+      for (unsigned int i = 0; i < terms.size(); ++i)
+        terms[i] = own_mass[i] * dot(a[i], b[i]);
       return reproducible_sum(
-                       state.v.size(),
-                       [&](const std::size_t i) {
-          return inverse[i] > 0. && mesh.shared_nodes.is_owned(i) ? dot(a[i], b[i]) / inverse[i] : 0.;
-        },
-                       mesh.comm);
+        terms.size(), [&](const std::size_t i) { return terms[i]; }, mesh.comm);
     };
     NodalField mode(state.v.size(), Vector3{}), mode_before(state.v.size(), Vector3{}), moved(state.v.size()),
       rate(state.v.size(), Vector3{}), f(state.v.size()), forces_at_x(state.v.size(), Vector3{});

@@ -176,27 +176,96 @@ namespace tread
   }
 
 
+  namespace
+  {
+    constexpr int         tag_of_bytes    = 4711;
+    constexpr std::size_t largest_message = std::size_t(1) << 24; // bytes
+
+    void send_bytes(const std::string &bytes, const MPI_Comm comm)
+    {
+      const std::uint64_t size = bytes.size();
+      MPI_Send(&size, 1, MPI_UINT64_T, 0, tag_of_bytes, comm);
+      for (std::size_t begin = 0; begin < size; begin += largest_message)
+        MPI_Send(bytes.data() + begin, std::min(largest_message, size - begin), MPI_CHAR, 0, tag_of_bytes,
+                 comm);
+    }
+
+    /// Call sink(piece) for one piece of what each other rank sends after the other.
+    void receive_bytes(const MPI_Comm comm, const std::function<void(const std::string &)> &sink)
+    {
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+      std::string        piece;
+      for (unsigned int rank = 1; rank < n_ranks; ++rank)
+        {
+          std::uint64_t size;
+          MPI_Recv(&size, 1, MPI_UINT64_T, rank, tag_of_bytes, comm, MPI_STATUS_IGNORE);
+          for (std::size_t begin = 0; begin < size; begin += largest_message)
+            {
+              piece.resize(std::min(largest_message, size - begin));
+              MPI_Recv(piece.data(), piece.size(), MPI_CHAR, rank, tag_of_bytes, comm, MPI_STATUS_IGNORE);
+              sink(piece);
+            }
+        }
+    }
+  } // namespace
+
+
   std::string RunFolder::gather(const std::string &bytes) const
   {
-    constexpr int tag = 4711;
     if (!writes_tables)
       {
-        MPI_Send(bytes.data(), bytes.size(), MPI_CHAR, 0, tag, comm);
+        send_bytes(bytes, comm);
         return "";
       }
-    std::string        all     = bytes;
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
-    for (unsigned int rank = 1; rank < n_ranks; ++rank)
-      {
-        MPI_Status status;
-        int        size;
-        MPI_Probe(rank, tag, comm, &status);
-        MPI_Get_count(&status, MPI_CHAR, &size);
-        const std::size_t begin = all.size();
-        all.resize(begin + size);
-        MPI_Recv(all.data() + begin, size, MPI_CHAR, rank, tag, comm, MPI_STATUS_IGNORE);
-      }
+    std::string all = bytes;
+    receive_bytes(comm, [&](const std::string &piece) { all += piece; });
     return all;
+  }
+
+
+  void RunFolder::write_of_all(const std::string &name,
+                               const std::string &word,
+                               const std::string &text,
+                               const std::string &bytes) const
+  {
+    if (!writes_tables)
+      {
+        send_bytes(bytes, comm);
+        return;
+      }
+    bool received = false;
+    try
+      {
+        write_through(name, [&](const std::string &temporary) {
+          std::ofstream      file(temporary, std::ios::binary);
+          boost::crc_32_type crc;
+          std::uint64_t      size = 0;
+          const auto         head = [&]() {
+            file << word << ' ' << std::setw(20) << size << ' ' << std::setw(10) << crc.checksum() << '\n';
+          };
+          const auto put = [&](const std::string &piece) {
+            file.write(piece.data(), piece.size());
+            crc.process_bytes(piece.data(), piece.size());
+            size += piece.size();
+          };
+          head(); // its place
+          put(text);
+          put(bytes);
+          received = true;
+          receive_bytes(comm, put);
+          file.seekp(0);
+          head();
+          file.close();
+          if (!file)
+            throw std::runtime_error(name);
+        });
+      }
+    catch (const std::exception &)
+      {
+        if (!received) // or the others would wait
+          receive_bytes(comm, [](const std::string &) {});
+        throw;
+      }
   }
 
 

@@ -44,7 +44,7 @@ namespace tread
       on_rail.y_middle     = scene.path_y();
       on_rail.window_begin = window.rail_begin;
       on_rail.window_end   = window.rail_end;
-      if (scene.mesh.fine_from < scene.mesh.fine_to && scene.mesh.path_cell > scene.mesh.finest_cell)
+      if (scene.has_cubes())
         {
           on_rail.cubes_begin = scene.cubes().begin;
           on_rail.cubes_end   = scene.cubes().end;
@@ -193,10 +193,10 @@ namespace tread
   {
     if (!scene.has_window())
       return {};
-    const double margin = scene.window_margin(), length = scene.window_length(),
-                 begin   = scene.path_begin() + number * length,
-                 rolling = (1. + scene.largest_creepage()) * length;
-    return {begin - margin, begin + length + margin, tread - margin, tread + rolling + margin};
+    const Scene::Range stretch = scene.windows().at(number);
+    const double       margin  = scene.window_margin(),
+                 rolling       = (1. + scene.largest_creepage()) * (stretch.end - stretch.begin);
+    return {stretch.begin - margin, stretch.end + margin, tread - margin, tread + rolling + margin};
   }
 
 

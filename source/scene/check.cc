@@ -374,8 +374,8 @@ namespace tread
             "'Mesh/Window margin (mm)' " + text_in_mm(mesh.window_margin) +
               " must hold the patch and a quarter of it more; at least " + text_in_mm(least));
     constexpr double shortest = 4.; // cells: a change costs more than so short a way
-    require(n_windows() == 1 ||
-              std::max(window_length(), mesh.window_length) >= shortest * mesh.finest_cell * (1. - 1e-9),
+    require(motion.rolled_distance <= usual_window() ||
+              usual_window() >= shortest * mesh.finest_cell * (1. - 1e-9),
             "'Mesh/Window length (mm)' " + text_in_mm(mesh.window_length) + " must be at least four cells, " +
               text_in_mm(shortest * mesh.finest_cell));
     const std::string keeps = keeps_mesh();
@@ -720,7 +720,7 @@ namespace tread
       list.push_back(
         format("cells are fine about the wheel alone, in %u windows one after the other ('Mesh/Window' "
                "false: along the whole path)",
-               n_windows()));
+               static_cast<unsigned int>(windows().size())));
     if (time_stepping.least_step > 0.)
       list.push_back("mass added to cells that would need steps below " +
                      text_of(1e6 * time_stepping.least_step) +

@@ -146,9 +146,9 @@ namespace tread
   {
     const double patch = hertz(scene, scene.static_load()).semi_axis_x;
     // Of a window what its finest cells feel of the wheel, which its neighbours feel too at the borders.
-    const double begin = scene.path_begin() + (scene.has_window() ? window * scene.window_length() : 0.);
-    return {begin - patch,
-            (scene.has_window() ? begin + scene.window_length() : scene.meshed_end()) + patch,
+    const Scene::Range stretch = scene.windows().at(window);
+    return {stretch.begin - patch,
+            (scene.has_window() ? stretch.end : scene.meshed_end()) + patch,
             scene.is_positioned() ? scene.placed_wheel().origin(scene.placed_wheel().main_patch())[1]
                                   : scene.first_contact().y,
             scene.output.strip_half_width,

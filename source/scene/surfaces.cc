@@ -426,11 +426,11 @@ namespace tread
     constexpr double pays = 4.;
     return mesh.window == WindowUse::always ||
            (mesh.window == WindowUse::automatic && track.has_supports() && is_round() &&
-            keeps_mesh().empty() && motion.rolled_distance >= pays * longest_window());
+            keeps_mesh().empty() && motion.rolled_distance >= pays * usual_window());
   }
 
 
-  double Scene::longest_window() const
+  double Scene::usual_window() const
   {
     // A change takes as long as three millimetres of rolling with the true density (0.63 mm, 25 000 cells),
     // and on a track of many spans as long as twenty. @see doc/performance.md
@@ -439,16 +439,35 @@ namespace tread
   }
 
 
-  unsigned int Scene::n_windows() const
+  std::vector<Scene::Range> Scene::windows() const
   {
-    constexpr double tiny = 1e-9; // of a window
-    return has_window() ? std::max(1., std::ceil(motion.rolled_distance / longest_window() - tiny)) : 1;
-  }
+    const double begin = path_begin(), end = begin + motion.rolled_distance;
+    if (!has_window())
+      return {{begin, end}};
+    const double        usual = usual_window();
+    std::vector<double> stretches{begin};
+    if (has_cubes())
+      {
+        // A window ends some steps behind its border, and then the tread of the next is a little further on.
+        constexpr double least = 1. / 3.; // of a usual window, which a change is worth
+        const double     away  = window_margin() + mesh.finest_cell;
+        for (const double border : {cubes().begin - away, cubes().end + away})
+          if (border >= stretches.back() + least * usual && border <= end - least * usual)
+            stretches.push_back(border);
+      }
+    stretches.push_back(end);
 
-
-  double Scene::window_length() const
-  {
-    return motion.rolled_distance / n_windows();
+    std::vector<Range> list;
+    for (std::size_t k = 0; k + 1 < stretches.size(); ++k)
+      {
+        constexpr double   tiny = 1e-9; // of a window
+        const double       from = stretches[k], length = stretches[k + 1] - from;
+        const unsigned int n = std::max(1., mesh.window_length > 0. ? std::ceil(length / usual - tiny)
+                                                                    : std::round(length / usual));
+        for (unsigned int i = 0; i < n; ++i)
+          list.push_back({from + length * i / n, i + 1 < n ? from + length * (i + 1) / n : stretches[k + 1]});
+      }
+    return list;
   }
 
 

@@ -27,7 +27,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-32";
+    constexpr const char *layout = "tread-checkpoint-33";
 
     /// A text with its size before it.
     std::string with_size(const std::string &text)
@@ -109,27 +109,28 @@ namespace tread
 
   void Checkpoint::write(Simulation &simulation)
   {
-    Archive archive(comm);
-    simulation.serialize(archive);
-    const std::string parts = folder.gather(archive.stored());
-    std::string       problem;
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      try
-        {
-          const std::string window  = format("%u %.17g", simulation.window.number, simulation.window.tread),
-                            content = with_size(parameters()) + with_size(folder.progress()) +
-                                      with_size(window) + parts;
-          std::ostringstream file;
-          file << layout << ' ' << content.size() << ' ' << checksum(content) << '\n' << content;
-          const std::string name = "checkpoint-" + std::to_string(next_slot);
-          folder.write(name, file.str());
-          folder.write("checkpoint.last", name + "\n");
-          next_slot = 1 - next_slot;
-        }
-      catch (const std::exception &error)
-        {
-          problem = error.what();
-        }
+    std::string bytes;
+    {
+      Archive archive(comm);
+      simulation.serialize(archive);
+      bytes = archive.stored();
+    }
+    const std::string name   = "checkpoint-" + std::to_string(next_slot),
+                      window = format("%u %.17g", simulation.window.number, simulation.window.tread),
+                      texts  = dealii::Utilities::MPI::this_mpi_process(comm) == 0
+                                 ? with_size(parameters()) + with_size(folder.progress()) + with_size(window)
+                                 : "";
+    std::string problem;
+    try
+      {
+        folder.write_of_all(name, layout, texts, bytes);
+        folder.write("checkpoint.last", name + "\n");
+        next_slot = 1 - next_slot;
+      }
+    catch (const std::exception &error)
+      {
+        problem = error.what();
+      }
     problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
     if (!problem.empty())
       throw std::runtime_error(problem);
@@ -144,12 +145,13 @@ namespace tread
     bool              is_whole = false;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::istringstream file(text_of_file(path));
+        content                        = text_of_file(path);
+        const std::size_t  end_of_line = content.find('\n');
+        std::istringstream head(content.substr(0, end_of_line));
         std::size_t        size = 0;
         unsigned int       sum  = 0;
-        file >> found_layout >> size >> sum;
-        file.get();
-        content.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        head >> found_layout >> size >> sum;
+        content.erase(0, end_of_line < content.size() ? end_of_line + 1 : content.size());
         is_whole = size == content.size() && sum == checksum(content);
       }
     found_layout = dealii::Utilities::MPI::broadcast(comm, found_layout, 0);
@@ -254,12 +256,12 @@ namespace tread
     last      = name;
     next_slot = name.back() == '0' ? 1 : 0;
 
-    const std::string content = content_of(name);
-    std::size_t       place   = 0;
-    Content           parts;
+    std::string content = content_of(name);
+    std::size_t place   = 0;
+    Content     parts;
     for (std::string Content::*text : {&Content::parameters, &Content::progress, &Content::window})
       parts.*text = take_sized(content, place, damaged());
-    parts.state = content.substr(place);
+    parts.state = std::move(content.erase(0, place));
     return parts;
   }
 
@@ -271,7 +273,7 @@ namespace tread
     std::istringstream text(content.window);
     require_same_parameters(content.parameters);
     text >> window.number >> window.tread;
-    require(bool(text) && window.number < scene.n_windows(), damaged());
+    require(bool(text) && window.number < scene.windows().size(), damaged());
     return window;
   }
 

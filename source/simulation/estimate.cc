@@ -63,9 +63,11 @@ namespace tread
       const double h = scene.mesh.finest_cell,
                    width =
                      2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
+      double longest = 0.; // of the ways along which all are fine at once, m
+      for (const Scene::Range &window : scene.windows())
+        longest = std::max(longest, window.end - window.begin);
       return all_over_finest * 2. * scene.n_wheels() * scene.mesh.fine_layers * std::max(1., width / h) *
-             (scene.has_window() ? scene.window_length() + 2. * scene.window_margin()
-                                 : scene.motion.rolled_distance) /
+             (longest + (scene.has_window() ? 2. * scene.window_margin() : 0.)) /
              std::max(h, scene.mesh.path_cell);
     }
   } // namespace
@@ -161,7 +163,7 @@ namespace tread
     /// @returns seconds of one
     double seconds_of(const MPI_Comm comm, const unsigned int at_once, const std::function<void()> &work)
     {
-      constexpr double long_enough = 0.3; // s
+      constexpr double long_enough = 0.15; // s
       const double     start       = MPI_Wtime();
       unsigned int     n           = 0;
       double           seconds     = 0.;
@@ -226,7 +228,7 @@ namespace tread
       const NodalField x      = dynamics.state.positions();
       const double     forces = seconds_of(
             comm, 1, [&]() { model.solid.add_internal_forces(x.data(), dynamics.state.v.data(), force.data()); });
-      constexpr double   of_start = 0.3; // s
+      constexpr double   of_start = 0.15; // s
       const unsigned int iterations =
         std::min(400., std::max(50., of_start / dealii::Utilities::MPI::max(forces, comm)));
       const double start = MPI_Wtime();
@@ -247,41 +249,52 @@ namespace tread
       return pace;
     }
 
-    /// A window in which cells are cubes of the finest size, and how many are so; none where the path is
-    /// alike all along.
-    std::pair<unsigned int, unsigned int> finest_windows(const Scene &scene)
+    /// Windows that have cubes of the finest size where the first one has none, or have none where it has
+    /// some: the place of the first of them, and the share of the way in all of them.
+    struct OtherWindows
     {
-      unsigned int first = 0, n = 0;
-      if (scene.has_window() && scene.mesh.path_cell > 0.)
-        for (unsigned int k = 0; k < scene.n_windows(); ++k)
+      WindowPlace first;
+      double      share = 0.; ///< 0: all are alike
+    };
+
+    OtherWindows other_windows(const Scene &scene)
+    {
+      OtherWindows found;
+      if (!scene.has_window() || !scene.has_cubes())
+        return found;
+      const auto   windows    = scene.windows();
+      const double margin     = scene.window_margin();
+      const auto   with_cubes = [&](const Scene::Range &window) {
+        return scene.cubes().begin < window.end + margin && scene.cubes().end > window.begin - margin;
+      };
+      for (unsigned int k = 1; k < windows.size(); ++k)
+        if (with_cubes(windows[k]) != with_cubes(windows[0]))
           {
-            const double begin = scene.path_begin() + k * scene.window_length() - scene.window_margin(),
-                         end   = begin + scene.window_length() + 2. * scene.window_margin();
-            if (scene.cubes().begin < end && scene.cubes().end > begin && n++ == 0)
-              first = k;
+            if (found.share == 0.)
+              found.first = {k, windows[k].begin - windows.front().begin};
+            found.share += (windows[k].end - windows[k].begin) / (windows.back().end - windows.front().begin);
           }
-      return {first, n};
+      return found;
     }
   } // namespace
 
 
   void estimate(const Scene &scene, const MPI_Comm comm)
   {
-    const PaceOfMesh pace         = pace_of(scene, comm, {});
-    const auto [finest, n_finest] = finest_windows(scene);
-    const PaceOfMesh at_finest =
-      n_finest > 0 && finest > 0 ? pace_of(scene, comm, {finest, finest * scene.window_length()}) : pace;
-    const double share = n_finest / double(scene.n_windows());
-    // Steps are those of the first mesh, and of the finest one where its window stands.
-    const auto seconds = [&](const double density_scale, const double gain_of_levels) {
+    const PaceOfMesh   pace      = pace_of(scene, comm, {});
+    const OtherWindows others    = other_windows(scene);
+    const PaceOfMesh   in_others = others.share > 0. ? pace_of(scene, comm, others.first) : pace;
+    const double       share     = others.share;
+    const unsigned int n_windows = scene.windows().size();
+    const auto         seconds   = [&](const double density_scale, const double gain_of_levels) {
       const double longer = std::sqrt(density_scale / scene.general.density_scale);
       const auto   of     = [&](const PaceOfMesh &mesh) {
         return mesh.steps / longer * (mesh.forces * mesh.gain / gain_of_levels + mesh.others);
       };
       const double rows = scene.motion.rolled_distance / scene.output.history_interval;
-      return pace.made * scene.n_windows() +
+      return pace.made * n_windows +
              scene.motion.passages * (iterations_of_start(scene) * pace.iteration + (1. - share) * of(pace) +
-                                      share * of(at_finest) + rows * pace.row) +
+                                      share * of(in_others) + rows * pace.row) +
              beside_steps;
     };
     std::vector<std::string> doubts = scene.doubts();
@@ -298,17 +311,17 @@ namespace tread
         if (scene.has_window())
           std::printf(
             "window of fine cells %12u places; cells, memory and time step are those of the first one\n",
-            scene.n_windows());
+            n_windows);
         std::printf("cells                %12llu\n", (unsigned long long)pace.cells);
         std::printf("unknowns             %12llu\n", (unsigned long long)pace.unknowns);
         std::printf("time step            %12.4g s\n", pace.step);
         if (pace.n_levels > 1)
           std::printf("levels of time steps %12u     cell updates fall to 1/%.2f\n", pace.n_levels,
                       pace.gain);
-        std::printf("steps                %12.0f\n", (1. - share) * pace.steps + share * at_finest.steps);
+        std::printf("steps                %12.0f\n", (1. - share) * pace.steps + share * in_others.steps);
         std::printf("cells and nodes use  %12.0f MB\n", pace.memory / 1e6);
         std::printf("all processes use    %12.0f MB by now; a run some 30 %% more\n",
-                    std::max(pace.largest_process, at_finest.largest_process) / 1e6);
+                    std::max(pace.largest_process, in_others.largest_process) / 1e6);
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
                     scene.inertia_error_estimate(), scene.general.density_scale);
         std::printf(

@@ -41,6 +41,7 @@ namespace tread
   Simulation::Simulation(const Scene &scene, const MPI_Comm comm, const WindowPlace &window)
     : window(window)
     , scene(scene)
+    , windows(scene.windows())
     , comm(comm)
     , model(scene, comm, window)
     , added_mass(model.added_mass())
@@ -112,9 +113,8 @@ namespace tread
   {
     // The next mesh may have cells with longer steps than any of this one: they are due as well.
     const std::uint64_t together = std::uint64_t(1) << (scene.time_stepping.levels - 1);
-    return scene.has_window() && window.number + 1 < scene.n_windows() &&
-           model.dynamics.state.n_steps % together == 0 &&
-           model.position() >= scene.path_begin() + (window.number + 1) * scene.window_length();
+    return window.number + 1 < windows.size() && model.dynamics.state.n_steps % together == 0 &&
+           model.position() >= windows[window.number].end;
   }
 
 

@@ -10,7 +10,7 @@ import unittest
 
 from tread.runs import ROOT
 
-PAGES = sorted(path for pattern in ("*.md", "doc/*.md", "contrib/*/README.md") for path in glob.glob(os.path.join(ROOT, pattern)))
+PAGES = sorted(path for pattern in ("*.md", "doc/**/*.md", "contrib/*/README.md") for path in glob.glob(os.path.join(ROOT, pattern), recursive=True))
 LINK = r"\]\(([^)\s]+)\)"
 
 
@@ -86,9 +86,9 @@ class Pages(unittest.TestCase):
 
     def test_every_page_is_listed(self):
         listed = re.findall(r"^- " + r"\[[^]]*" + LINK, text_of(os.path.join(ROOT, "doc", "README.md")), flags=re.MULTILINE)
-        for page in glob.glob(os.path.join(ROOT, "doc", "*.md")):
+        for page in glob.glob(os.path.join(ROOT, "doc", "**", "*.md"), recursive=True):
             if os.path.basename(page) != "README.md":
-                self.assertIn(os.path.basename(page), listed)
+                self.assertIn(os.path.relpath(page, os.path.join(ROOT, "doc")), listed)
 
     def test_sources(self):
         keys = re.findall(r"^@\w+\{(\w+),", text_of(os.path.join(ROOT, "doc", "bibliography.bib")), flags=re.MULTILINE)

@@ -1185,6 +1185,66 @@ namespace
   }
 
 
+  /// Windows follow each other over the whole way; one ends a cell before the first cube would lie in it,
+  /// another where the last one has left it, and between such places all are equal.
+  void check_windows(tests::Check &check)
+  {
+    const Settings way{"Motion/Start (mm)=-200",  "Motion/Rolled distance (mm)=600",
+                       "Mesh/Finest cell (mm)=1", "Mesh/Window margin (mm)=20",
+                       "Mesh/Window=true",        "Rail/Shape=block"};
+    const auto     of_length = [&](const std::string &name, const Settings &more,
+                               const std::vector<double> &borders) {
+      const auto scene   = scene_of(way, more);
+      const auto windows = scene->windows();
+      check.absolute(name + ": number of windows", windows.size(), borders.size() - 1, 0.);
+      for (std::size_t k = 0; k < std::min(windows.size(), borders.size() - 1); ++k)
+        {
+          check.absolute(name + ": begin, mm", 1e3 * windows[k].begin, borders[k], 1e-9);
+          check.absolute(name + ": end, mm", 1e3 * windows[k].end, borders[k + 1], 1e-9);
+        }
+    };
+    const auto equal = [](std::vector<double> borders, const double to, const unsigned int n) {
+      const double from = borders.back();
+      for (unsigned int i = 1; i <= n; ++i)
+        borders.push_back(from + (to - from) * i / n);
+      return borders;
+    };
+    const Settings length{"Mesh/Window length (mm)=50"};
+    of_length("no window", {"Mesh/Window=false"}, {-200., 400.});
+    of_length("windows without cubes", length, equal({-200.}, 400., 12));
+    of_length("a window that does not divide the way", {"Mesh/Window length (mm)=51"},
+              equal({-200.}, 400., 12));
+    const Settings cubes{"Mesh/Window length (mm)=50", "Mesh/Path cell (mm)=4", "Defect/Position (mm)=100",
+                         "Mesh/Fine from (mm)=-10"};
+    const auto     until = [&](const std::string &fine_to) {
+      Settings all = cubes;
+      all.push_back("Mesh/Fine to (mm)=" + fine_to);
+      return all;
+    };
+    of_length("cubes", until("90"), equal(equal(equal({-200.}, 69., 6), 211., 3), 400., 4));
+    of_length("cubes to the end", until("280"), equal(equal({-200.}, 69., 6), 400., 7));
+    of_length("cubes nearly to the end", until("270"), equal(equal({-200.}, 69., 6), 400., 7));
+
+    // Without a length that is the largest, as near to the usual one as the stretches allow.
+    Settings usual = until("90");
+    usual.erase(usual.begin());
+    const auto   scene    = scene_of(way, usual);
+    const auto   windows  = scene->windows();
+    const double own      = 2.5 * hertz(*scene, scene->static_load()).semi_axis_x; // without supports
+    unsigned int expected = 0;
+    for (const double stretch : {269e-3, 142e-3, 189e-3})
+      expected += std::max(1., std::round(stretch / own));
+    check.absolute("usual length: number of windows", windows.size(), expected, 0.);
+
+    const FineWindow window = fine_window(*scene_of(way, until("90")), 6, 0.3);
+    check.relative("fine cells on the rail from, mm", 1e3 * window.rail_begin, 49., 1e-9);
+    check.relative("fine cells on the rail to, mm", 1e3 * window.rail_end, 69. + 142. / 3. + 20., 1e-9);
+    check.relative("fine cells on the tread from, mm", 1e3 * window.tread_begin, 280., 1e-9);
+    check.relative("fine cells on the tread to, mm", 1e3 * window.tread_end, 300. + 1.01 * 142. / 3. + 20.,
+                   1e-9);
+  }
+
+
   void check_figures_of_patches(tests::Check &check)
   {
     // The rails' tops lie 750 mm beside the middle; both contacts are 4 mm from them, to the gauge side.
@@ -1229,6 +1289,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_maps(check, folder);
   check_surfaces(check, folder);
   check_mesh(check);
+  check_windows(check);
   check_half_space(check);
   check_islands(check);
   check_negligible_slip(check);

@@ -102,7 +102,7 @@ GIVEN = {
     "doc/half-space-library.md": Given({"CASE.inp": "contrib/contact-data/thesis.inp", "FOLDER": "results/inp"}, {"cases.csv": CASES}, (),
                                        "import numpy as np\nx = y = np.linspace(-9e-3, 9e-3, 31)\ngap = 1.087 * x[None, :]**2 + 1.667 * y[:, None]**2\n"),
     "doc/modes.md": Given({"SCENE.prm": "prm/tutorial/track.prm --output results/modes", "FOLDER": "results/modes"}),
-    "doc/mutations.md": Given({"17 FILE": "17 source/geometry/rail_profile.cc"}),
+    "doc/dev/records/mutations.md": Given({"17 FILE": "17 source/geometry/rail_profile.cc"}),
     # What is installed has the folders of a clone.
     "doc/packages.md": Given({"/usr/share/tread/prm/smooth-rolling.prm": "prm/smooth-rolling.prm", "/usr/share/tread/contrib/plot/plot-run.py": "contrib/plot/plot-run.py",
                               "python3 -c": "PYTHONPATH=contrib/python /usr/bin/python3 -c"}),
@@ -286,7 +286,7 @@ def main():
     arguments = parser.parse_intermixed_args()
     check = Check()
     pages = Pages(arguments.program, check, arguments.list)
-    every = ["README.md", "CONTRIBUTING.md", *sorted(os.path.relpath(page, ROOT) for page in glob.glob(os.path.join(ROOT, "doc", "*.md")))]
+    every = ["README.md", "CONTRIBUTING.md", *sorted(os.path.relpath(page, ROOT) for page in glob.glob(os.path.join(ROOT, "doc", "**", "*.md"), recursive=True))]
     for page in arguments.pages or every:
         pages.read(page)
     if not arguments.pages:

@@ -39,7 +39,9 @@ def run(program, scene, output, settings=(), ranks=1, more=(), command="run", ta
     """Run a scene to its end, or do with it what another command does, and return its summary, all of whose keys must have a meaning; anything else ends the test."""
     try:
         if ranks > 1:
+            began = time.monotonic()
             summary = tread.run(scene, settings, command=command, table=table, ranks=ranks, output=output, options=more, program=program).summary
+            print(f"{time.monotonic() - began:6.2f} s on {ranks} ranks:", scene, settings, flush=True)
         else:
             must_end_well(execute_often([*arguments_of(scene, settings, output, command, table), *more], program))
             summary = read_summary(output)

@@ -68,15 +68,13 @@ with tempfile.TemporaryDirectory() as folder:
     warned = [sum("changes of the window" in line for line in summary["warnings"]) for summary in (moving, scaled, heavy)]
     check.that("a loss above 2 % is told of", warned == [0, 0, 1] and abs(heavy["window_loss_J"] / heavy["dissipated_work_J"]) > 0.02)
 
-    # Other ranks; Ctrl-C in the second window and on to the end.
-    two = run(program, SCENE, path("two"), WINDOW, ranks=2)
+    # Ctrl-C in the second window and on to the end.
     run_stopped(program, SCENE, path("stopped"), WINDOW, 50)
     part = read_summary(path("stopped"))
     check.that("stopped in the second window or later", part["completed"] is False and 2 <= part["windows"] < 4)
     resumed = run(program, SCENE, path("stopped"), WINDOW, more=["--resume"])
     check.that("resumed to the last window", resumed["windows"] == 4 and resumed["steps"] == moving["steps"])
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
-        check.relative(f"two ranks: {key}", two[key], moving[key], 1e-6)
         check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
 
     # A small wheel that rolls more than a turn is a ring, and does what it does on a sector.
@@ -110,6 +108,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("the step that was wanted, which the mesh as a whole exceeds", 0.456e-6 < slow["time_step_s"] < 0.65e-6)
     for key in ("added_mass_rail_kg", "added_mass_wheels_kg", "added_mass_rail_share", "added_mass_wheels_share", "added_mass_error_estimate"):
         check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-9)
+    for key in ("normal_force_N", "max_pressure_Pa", "window_loss_J", "damping_work_J"):
+        check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-6)
     dry = must_end_well(execute([*arguments_of("tutorial/track.prm", TRACK), "--dry-run"], program=program)).stdout
     added = [line.split()[1:3] for line in dry.splitlines() if line.startswith("  0.456 ")][0]
     for body, kg in zip(("rail", "wheels"), added):  # in the first window, of which the summary has the largest

@@ -3,7 +3,7 @@
 
 The transform is that of Torrence and Compo (1998), Bulletin of the American Meteorological Society 79, pages 61 to 78, with
 Morlet's wavelet of six oscillations. It is evaluated in the frequency domain (their equations 4 and 6), where the wavelet of
-every scale is known exactly. (Debian 12's PyWavelets samples a table of the wavelet instead: doc/tried.md.)
+every scale is known exactly. (Debian 12's PyWavelets samples a table of the wavelet instead: doc/dev/records/tried.md.)
 """
 
 from __future__ import annotations

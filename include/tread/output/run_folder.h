@@ -61,6 +61,14 @@ namespace tread
     /// The bytes of all ranks one after the other, on rank 0. Collective.
     std::string gather(const std::string &bytes) const;
 
+    /// Write a line with a word and the size and the checksum of what follows it, a text, and the bytes of
+    /// all ranks one after the other. Rank 0 holds no more of them than its own and one message. Collective;
+    /// @throws std::runtime_error on rank 0 alone, when all have been heard.
+    void write_of_all(const std::string &name,
+                      const std::string &word,
+                      const std::string &text,
+                      const std::string &bytes) const;
+
     /// A table with its heading, nine digits a number.
     template <typename Record>
     void write_table(const std::string         &name,

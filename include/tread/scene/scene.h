@@ -360,6 +360,11 @@ namespace tread
     /// Of a wheel of which a sector or a ring is meshed, along the tread from where it is lowest at the
     /// start, m.
     Range meshed_arc() const;
+    /// Whether cells of the path are longer than the finest ones but for a stretch of cubes.
+    bool has_cubes() const
+    {
+      return mesh.fine_from < mesh.fine_to && mesh.path_cell > mesh.finest_cell;
+    }
     /// Where 'Mesh/Fine from (mm)' and 'Fine to (mm)' put the cubes of the finest cells, x in m.
     Range cubes() const
     {
@@ -369,17 +374,17 @@ namespace tread
     bool has_window() const;
     /// What needs a mesh that stays during the run; "": nothing does.
     std::string keeps_mesh() const;
-    /// How often the window of fine cells stands somewhere else, the way that the wheel rolls in each, and
-    /// the fine cells before and behind it (m). 1 without a window
-    unsigned int n_windows() const;
-    double       window_length() const;
-    double       window_margin() const;
+    /// Where the wheel rolls in each window of fine cells, one after the other, x in m: the whole way
+    /// without one. Borders lie where the first cubes come and the last ones go, others at equal distances
+    /// between.
+    std::vector<Range> windows() const;
+    /// Length of the fine cells before and behind such a range, m.
+    double window_margin() const;
     /// Whether all cells from begin to end have the finest size: among the cubes, or wherever nothing
     /// coarsens the path.
     bool is_finest(const double begin, const double end) const
     {
-      return mesh.fine_from == mesh.fine_to || mesh.path_cell <= mesh.finest_cell ||
-             (begin >= cubes().begin && end <= cubes().end);
+      return !has_cubes() || (begin >= cubes().begin && end <= cubes().end);
     }
     /// And to each side of the first contact, m.
     double peak_half_width() const;
@@ -460,7 +465,7 @@ namespace tread
     void        check_mesh() const;
     void        check_sector() const;
     void        check_window() const;
-    double      longest_window() const; ///< m, of which a window may be less so that all are equal
+    double      usual_window() const; ///< way in one, m
     void        check_friction_by_temperature() const;
     void        check_track() const;
     void        check_overhang() const;

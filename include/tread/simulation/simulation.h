@@ -142,10 +142,11 @@ namespace tread
     /// On the screen, on rank 0. @param below lines below the table of the answer
     void show(const Report &report, const Compared &compared, const std::string &below, const End end) const;
 
-    const Scene &scene;
-    MPI_Comm     comm;
-    Model        model;
-    AddedMass    added_mass; ///< the largest of all windows so far
+    const Scene                    &scene;
+    const std::vector<Scene::Range> windows; ///< of the whole run
+    MPI_Comm                        comm;
+    Model                           model;
+    AddedMass                       added_mass; ///< the largest of all windows so far
 
     std::vector<std::unique_ptr<Recorder>> recorders; ///< in the order in which they are asked
     EndOfWay                              &end_of_way;

@@ -67,11 +67,13 @@ namespace tread
       "mesh whose fine cells are further on, on rail and wheel. Cost then grows with the way alone. "
       "Energy that fine cells had and others do not carry is the ledger's window loss.",
       "The summary's 'windows' says how often it stood somewhere.");
-    section.add("Window length (mm)", window_length,
-                "Way between two changes, at most. 0: 2.5 semi-axes of the patch, 12 on supports, and longer "
-                "by the fourth root "
-                "of 'Scene/Density scale'.",
-                Double(0., 1e5));
+    section.add(
+      "Window length (mm)", window_length,
+      "Way between two changes, at most. 0: about 2.5 semi-axes of the patch, 12 on supports, and "
+      "longer by the fourth root of 'Scene/Density scale'. The mesh also changes just before the cubes of "
+      "'Fine from (mm)' come and when those of 'Fine to (mm)' have gone, unless that is nearer to another "
+      "change, or to an end of the way, than a third of this.",
+      Double(0., 1e5));
     section.add(
       "Window margin (mm)", window_margin,
       "Length of the finest cells before and behind the wheel at a change. 0: 1.75 semi-axes and two "

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A file with what all ranks have, in more messages than one: its size, its checksum and its bytes. A file
+// that cannot be written is told on rank 0, and no rank waits for it.
+#include <tread/base/file_text.h>
+#include <tread/output/run_folder.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "check.h"
+#include "temporary_folder.h"
+
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+using namespace tread;
+
+namespace
+{
+  /// 0 to 37 MB, none alike.
+  std::string bytes_of(const unsigned int rank)
+  {
+    std::string bytes(rank * 18'500'000 + 1000 * (rank + 1) % 3000, '\0');
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      bytes[i] = static_cast<char>((i * (rank + 7) >> 5) ^ i);
+    return bytes;
+  }
+} // namespace
+
+
+void run_test(tests::Check &check, const tests::Arguments &)
+{
+  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+                     n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const tests::TemporaryFolder temporary;
+  const std::string path = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, temporary.path, 0) + "/run";
+  const RunFolder   folder(path, MPI_COMM_WORLD);
+
+  std::string expected = "what is alike\n";
+  for (unsigned int r = 0; r < n_ranks; ++r)
+    expected += bytes_of(r);
+  folder.write_of_all("all", "word-1", "what is alike\n", bytes_of(rank));
+  const std::string gathered = folder.gather(bytes_of(rank));
+  if (rank == 0)
+    {
+      const std::string  file = text_of_file(path + "/all");
+      const std::size_t  end  = file.find('\n');
+      std::istringstream head(file.substr(0, end));
+      std::string        word;
+      std::size_t        size = 0;
+      unsigned int       sum  = 0;
+      head >> word >> size >> sum;
+      check.that("the word", word == "word-1");
+      check.absolute("size, bytes", size, expected.size(), 0.);
+      check.absolute("checksum", sum, checksum(expected), 0.);
+      check.that("the bytes", file.substr(end + 1) == expected);
+      check.that("gathered", gathered == expected.substr(expected.find('\n') + 1));
+    }
+  else
+    check.that("gathered on rank 0 alone", gathered.empty());
+
+  bool failed = false;
+  try
+    {
+      folder.write_of_all("no such folder/all", "word-1", "", bytes_of(rank));
+    }
+  catch (const std::runtime_error &)
+    {
+      failed = true;
+    }
+  check.that("what cannot be written is told on rank 0", failed == (rank == 0));
+}
