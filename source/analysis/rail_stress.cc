@@ -25,6 +25,22 @@ namespace tread
       return {{body, std::llround(per_nm * p[0]), std::llround(per_nm * p[1]), std::llround(per_nm * p[2])}};
     }
 
+    /// Of rows with the same key that with the largest stress, and of equal ones the least.
+    template <typename Row, typename Key>
+    std::vector<Row> largest_of_each(std::vector<Row> rows, const std::size_t stress, const Key &key_of_row)
+    {
+      std::sort(rows.begin(), rows.end());
+      std::map<decltype(key_of_row(rows.front())), Row> largest;
+      for (const Row &row : rows)
+        if (const auto [known, is_new] = largest.emplace(key_of_row(row), row);
+            !is_new && row[stress] > known->second[stress])
+          known->second = row;
+      rows.clear();
+      for (const auto &[key, row] : largest)
+        rows.push_back(row);
+      return rows;
+    }
+
     /// Distances of points from cells are compared in whole units, so many of half a cell.
     constexpr double distance_units = 1e6;
 
@@ -145,8 +161,14 @@ namespace tread
         rows.insert(rows.end(), list.begin(), list.end());
       return rows;
     };
-    cells_before = gathered(before.cell_rows({}), before.cells_before);
-    nodes_before = gathered(before.node_rows(), before.nodes_before);
+    // Of what stands over each other and side by side a column has the largest alone.
+    cells_before =
+      largest_of_each(gathered(before.cell_rows({}), before.cells_before), 5, [](const CellRow &row) {
+        return std::array<long long, 3>{
+          {std::llround(per_nm * row[0]), std::llround(per_nm * row[1]), row[4] > 0.}};
+      });
+    nodes_before = largest_of_each(gathered(before.node_rows(), before.nodes_before), 2,
+                                   [](const NodeRow &row) { return std::llround(per_nm * row[0]); });
   }
 
 

@@ -582,8 +582,9 @@ with tempfile.TemporaryDirectory() as folder:
             on_track = settings["Track/Foundation"] != "rigid"
             new_mesh = is_first(settings, no_mesh)
             if new_mesh:
-                # Where cells are as small as in another scene on coarser ones, these will do.
-                size = max(0.63, float(settings["Mesh/Finest cell (mm)"]))
+                # Of large wheels cells of a size will do that other scenes have.
+                cell = float(settings["Mesh/Finest cell (mm)"])
+                size = max(0.63, cell) if float(settings["Wheel/Radius (mm)"]) > 100. else cell
                 dry = execute_often([scene, "--dry-run", "-s", f"Mesh/Finest cell (mm)={size}"], program)
                 check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
                 words = [line for line in dry.stdout.splitlines() if "WARNING" in line]
