@@ -161,7 +161,8 @@ namespace tread
         rows.insert(rows.end(), list.begin(), list.end());
       return rows;
     };
-    // Of what stands over each other and side by side a column has the largest alone.
+    // Of cells from one x to another, at the surface or below it, and of nodes at one x columns() needs the
+    // largest alone.
     cells_before =
       largest_of_each(gathered(before.cell_rows({}), before.cells_before), 5, [](const CellRow &row) {
         return std::array<long long, 3>{

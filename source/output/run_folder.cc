@@ -186,22 +186,24 @@ namespace tread
       const std::uint64_t size = bytes.size();
       MPI_Send(&size, 1, MPI_UINT64_T, 0, tag_of_bytes, comm);
       for (std::size_t begin = 0; begin < size; begin += largest_message)
-        MPI_Send(bytes.data() + begin, std::min(largest_message, size - begin), MPI_CHAR, 0, tag_of_bytes,
-                 comm);
+        MPI_Send(bytes.data() + begin, std::min<std::size_t>(largest_message, size - begin), MPI_CHAR, 0,
+                 tag_of_bytes, comm);
     }
 
     /// Call sink(piece) for one piece of what each other rank sends after the other.
-    void receive_bytes(const MPI_Comm comm, const std::function<void(const std::string &)> &sink)
+    /// @param piece room for the largest message, so that nothing that waits for others can fail
+    void receive_bytes(const MPI_Comm                                  comm,
+                       std::string                                    &piece,
+                       const std::function<void(const std::string &)> &sink)
     {
       const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
-      std::string        piece;
       for (unsigned int rank = 1; rank < n_ranks; ++rank)
         {
           std::uint64_t size;
           MPI_Recv(&size, 1, MPI_UINT64_T, rank, tag_of_bytes, comm, MPI_STATUS_IGNORE);
           for (std::size_t begin = 0; begin < size; begin += largest_message)
             {
-              piece.resize(std::min(largest_message, size - begin));
+              piece.resize(std::min<std::size_t>(largest_message, size - begin));
               MPI_Recv(piece.data(), piece.size(), MPI_CHAR, rank, tag_of_bytes, comm, MPI_STATUS_IGNORE);
               sink(piece);
             }
@@ -218,7 +220,8 @@ namespace tread
         return "";
       }
     std::string all = bytes;
-    receive_bytes(comm, [&](const std::string &piece) { all += piece; });
+    std::string room;
+    receive_bytes(comm, room, [&](const std::string &piece) { all += piece; });
     return all;
   }
 
@@ -233,7 +236,9 @@ namespace tread
         send_bytes(bytes, comm);
         return;
       }
-    bool received = false;
+    bool        received = false;
+    std::string room;
+    room.reserve(largest_message);
     try
       {
         write_through(name, [&](const std::string &temporary) {
@@ -252,7 +257,7 @@ namespace tread
           put(text);
           put(bytes);
           received = true;
-          receive_bytes(comm, put);
+          receive_bytes(comm, room, put);
           file.seekp(0);
           head();
           file.close();
@@ -263,7 +268,7 @@ namespace tread
     catch (const std::exception &)
       {
         if (!received) // or the others would wait
-          receive_bytes(comm, [](const std::string &) {});
+          receive_bytes(comm, room, [](const std::string &) {});
         throw;
       }
   }

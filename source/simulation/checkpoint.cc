@@ -116,24 +116,32 @@ namespace tread
       bytes = archive.stored();
     }
     const std::string name   = "checkpoint-" + std::to_string(next_slot),
-                      window = format("%u %.17g", simulation.window.number, simulation.window.tread),
-                      texts  = dealii::Utilities::MPI::this_mpi_process(comm) == 0
-                                 ? with_size(parameters()) + with_size(folder.progress()) + with_size(window)
-                                 : "";
-    std::string problem;
-    try
-      {
-        folder.write_of_all(name, layout, texts, bytes);
-        folder.write("checkpoint.last", name + "\n");
-        next_slot = 1 - next_slot;
-      }
-    catch (const std::exception &error)
-      {
-        problem = error.what();
-      }
-    problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
-    if (!problem.empty())
-      throw std::runtime_error(problem);
+                      window = format("%u %.17g", simulation.window.number, simulation.window.tread);
+    // What fails on rank 0 is thrown on all.
+    const auto together = [this](const auto &work) {
+      std::string problem;
+      try
+        {
+          work();
+        }
+      catch (const std::exception &error)
+        {
+          problem = error.what();
+        }
+      problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
+      if (!problem.empty())
+        throw std::runtime_error(problem);
+    };
+    std::string texts;
+    together([&]() {
+      if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+        texts = with_size(parameters()) + with_size(folder.progress()) + with_size(window);
+    });
+    together([&]() {
+      folder.write_of_all(name, layout, texts, bytes);
+      folder.write("checkpoint.last", name + "\n");
+    });
+    next_slot = 1 - next_slot;
   }
 
 

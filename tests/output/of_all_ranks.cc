@@ -8,8 +8,11 @@
 
 #include "check.h"
 #include "temporary_folder.h"
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstddef>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -18,10 +21,11 @@ using namespace tread;
 
 namespace
 {
-  /// 0 to 37 MB, none alike.
+  /// 37 MB on rank 0, one whole message on rank 1, none on rank 2.
   std::string bytes_of(const unsigned int rank)
   {
-    std::string bytes(rank * 18'500'000 + 1000 * (rank + 1) % 3000, '\0');
+    const std::size_t sizes[] = {37'000'001, std::size_t(1) << 24, 0};
+    std::string       bytes(sizes[rank % 3], '\0');
     for (std::size_t i = 0; i < bytes.size(); ++i)
       bytes[i] = static_cast<char>((i * (rank + 7) >> 5) ^ i);
     return bytes;
@@ -60,14 +64,33 @@ void run_test(tests::Check &check, const tests::Arguments &)
   else
     check.that("gathered on rank 0 alone", gathered.empty());
 
-  bool failed = false;
-  try
+  // No folder, and a disk that is full: here no file may be larger than that. What comes next finds no
+  // message left.
+  constexpr rlim_t room = 1 << 20; // bytes
+  rlimit           before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{room, before.rlim_max};
+  for (const char *const name : {"no such folder/all", "too large"})
     {
-      folder.write_of_all("no such folder/all", "word-1", "", bytes_of(rank));
+      const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+      setrlimit(RLIMIT_FSIZE, &small);
+      bool failed = false;
+      try
+        {
+          folder.write_of_all(name, "word-1", "", bytes_of(rank));
+        }
+      catch (const std::runtime_error &)
+        {
+          failed = true;
+        }
+      setrlimit(RLIMIT_FSIZE, &before);
+      std::signal(SIGXFSZ, old_handler);
+      check.that(std::string(name) + ": told on rank 0", failed == (rank == 0));
+      if (rank == 0)
+        check.that(std::string(name) + ": nothing of it stays",
+                   !std::filesystem::exists(path + "/" + name + ".part"));
+      const std::string of_all = folder.gather(std::string(1, static_cast<char>('a' + rank)));
+      check.that(std::string(name) + ": the next ones are whole",
+                 of_all == (rank == 0 ? std::string("abc").substr(0, n_ranks) : ""));
     }
-  catch (const std::runtime_error &)
-    {
-      failed = true;
-    }
-  check.that("what cannot be written is told on rank 0", failed == (rank == 0));
 }

@@ -104,7 +104,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("behind those left out: net strain, %", still["net_plastic_strain_percent"][-1], still["net_plastic_strain_percent"][last - 1], 1e-3)
     check.below("change in a passage behind them, %", still["net_plastic_strain_of_passage_percent"][last:].max(), 1e-6)
 
-    # To the same bytes: stopped behind a jump, in a passage and between two, and on to the end on other ranks.
+    # To the same bytes: from the start on two ranks; stopped behind a jump, in a passage and between two, and on to the end on other ranks.
     bits = SHORT + ["Scene/Reproducible=true"]
     one = run(program, SCENE, path("one"), bits)
     run_stopped(program, SCENE, path("stopped"), bits, 16 * 10)
@@ -114,12 +114,16 @@ with tempfile.TemporaryDirectory() as folder:
         part = columns(path(name))  # it may have ended between two passages, where there is no summary
         check.that(f"{name} behind a jump", part["skipped"].sum() > 0 and len(part["passage"]) < one["passages_rolled"])
         resumed[name] = run(program, SCENE, path(name), bits, more=["--resume"], ranks=ranks)
-    with open(os.path.join(path("one"), "passages.csv"), "rb") as stream:
-        bytes_of_one = stream.read()
+    def bytes_of(name):
+        with open(os.path.join(path(name), "passages.csv"), "rb") as stream:
+            return stream.read()
+
+    for ranks in (1, 2):
+        run(program, SCENE, path(f"first-{ranks}"), [*bits, "Motion/Passages=3"], ranks)
+    check.that("three passages on two ranks: passages.csv to the last byte", bytes_of("first-1") == bytes_of("first-2"))
     for name, of in resumed.items():
         check.that(f"{name}: the mesh does not depend on the ranks", of["cells"] == one["cells"])
-        with open(os.path.join(path(name), "passages.csv"), "rb") as stream:
-            check.that(f"{name}: passages.csv to the last byte", stream.read() == bytes_of_one)
+        check.that(f"{name}: passages.csv to the last byte", bytes_of(name) == bytes_of("one"))
         for key in ("net_plastic_strain", "net_plastic_strain_error_estimate", "passages_rolled", "passages_left_out", "normal_force_N"):
             check.that(f"{name}: {key} to the last bit", of[key] == one[key])
 

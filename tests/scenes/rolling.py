@@ -592,7 +592,7 @@ with tempfile.TemporaryDirectory() as folder:
             # track.py rolls on one; a shorter run needs nothing but its length, whatever the defect and the position of supports.
             bodies = tuple(settings[key] for key in ("Track/Foundation", "Track/Sleepers", "Wheel/Shape")) + (settings["Peak stress/Region"] != "none",)
             if on_track and new_mesh and not (bodies in cut_short or cut_short.add(bodies)):
-                cut = execute_often([scene, "--dry-run", "-s", "Motion/Rolled distance (mm)=20", "-s", "Peak stress/Region=none"], program)
+                cut = execute_often([scene, "--dry-run", "-s", f"Mesh/Finest cell (mm)={size}", "-s", "Motion/Rolled distance (mm)=20", "-s", "Peak stress/Region=none"], program)
                 if not check.that(f"{name}: can be cut short", cut.returncode == 0):
                     print(cut.stderr)
                 check.that(f"{name}: cut short it costs less", steps(cut.stdout) < 0.5 * steps(dry.stdout))

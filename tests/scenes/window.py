@@ -76,6 +76,10 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("resumed to the last window", resumed["windows"] == 4 and resumed["steps"] == moving["steps"])
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
         check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
+    check.that("stopped and resumed: the same strip", rows_of(path("stopped"), "strip.csv") == rows_of(path("moving"), "strip.csv"))
+    one, two = (run(program, SCENE, path(f"on-{ranks}"), [*WINDOW, "Motion/Rolled distance (mm)=12", "Mesh/Window length (mm)=6"], ranks) for ranks in (1, 2))
+    for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
+        check.relative(f"two ranks, with friction: {key}", two[key], one[key], 1e-6)
 
     # A small wheel that rolls more than a turn is a ring, and does what it does on a sector.
     small = ["Mesh/Finest cell (mm)=1.25", "Mesh/Fine half width (mm)=8", "Motion/Speed (km per h)=300", "Wheel/Radius (mm)=100", "Wheel/Mass (kg)=100", "Vehicle/Sprung mass (kg)=6000", "Wheel/Sector width (mm)=60", "Wheel/Sector thickness (mm)=30",
@@ -110,6 +114,10 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-9)
     for key in ("normal_force_N", "max_pressure_Pa", "window_loss_J", "damping_work_J"):
         check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-6)
+    for one_row, two_row in zip(rows_of(path("slow"), "strip.csv"), rows_of(path("slow-2"), "strip.csv")):
+        for key in ("x_mm", "von_mises_MPa", "surface_von_mises_MPa"):
+            if abs(one_row[key] - two_row[key]) > 1e-5 * abs(one_row[key]):
+                check.relative(f"two ranks: strip, {key} at {one_row['x_mm']} mm", two_row[key], one_row[key], 1e-5)
     dry = must_end_well(execute([*arguments_of("tutorial/track.prm", TRACK), "--dry-run"], program=program)).stdout
     added = [line.split()[1:3] for line in dry.splitlines() if line.startswith("  0.456 ")][0]
     for body, kg in zip(("rail", "wheels"), added):  # in the first window, of which the summary has the largest

@@ -90,7 +90,7 @@ namespace tread
     std::vector<Member>        members;      ///< cells of this rank
     std::vector<SurfaceMember> surface;      ///< nodes of this rank
     std::vector<char>          wanted;       ///< by cell of the mesh
-    std::vector<CellRow>       cells_before; ///< of other meshes and all ranks
+    std::vector<CellRow>       cells_before; ///< of other meshes and all ranks, the largest of each column
     std::vector<NodeRow>       nodes_before;
   };
 
