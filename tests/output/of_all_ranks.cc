@@ -21,13 +21,13 @@ using namespace tread;
 
 namespace
 {
-  /// 37 MB on rank 0, one whole message on rank 1, none on rank 2.
+  /// None on rank 0, three messages on rank 1, a whole one on rank 2.
   std::string bytes_of(const unsigned int rank)
   {
-    const std::size_t sizes[] = {37'000'001, std::size_t(1) << 24, 0};
+    const std::size_t sizes[] = {0, 37'000'001, std::size_t(1) << 24};
     std::string       bytes(sizes[rank % 3], '\0');
     for (std::size_t i = 0; i < bytes.size(); ++i)
-      bytes[i] = static_cast<char>((i * (rank + 7) >> 5) ^ i);
+      bytes[i] = static_cast<char>(i ^ ((i >> 8) * (rank + 7)) ^ (i >> 16) ^ (i >> 24));
     return bytes;
   }
 } // namespace
@@ -77,7 +77,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       bool failed = false;
       try
         {
-          folder.write_of_all(name, "word-1", "", bytes_of(rank));
+          folder.write_of_all(name, "word-1", std::string(2 * room, 'x'), bytes_of(rank));
         }
       catch (const std::runtime_error &)
         {
