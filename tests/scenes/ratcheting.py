@@ -119,8 +119,8 @@ with tempfile.TemporaryDirectory() as folder:
             return stream.read()
 
     for ranks in (1, 2):
-        run(program, SCENE, path(f"first-{ranks}"), [*bits, "Motion/Passages=3"], ranks)
-    check.that("three passages on two ranks: passages.csv to the last byte", bytes_of("first-1") == bytes_of("first-2"))
+        run(program, SCENE, path(f"first-{ranks}"), [*bits, "Motion/Passages=4"], ranks)
+    check.that("four passages on two ranks: passages.csv to the last byte", bytes_of("first-1") == bytes_of("first-2"))
     for name, of in resumed.items():
         check.that(f"{name}: the mesh does not depend on the ranks", of["cells"] == one["cells"])
         check.that(f"{name}: passages.csv to the last byte", bytes_of(name) == bytes_of("one"))
